@@ -8,7 +8,10 @@ namespace LagSim.Net.Carriers;
 
 public sealed partial class LiteNetLibPort
 {
-    /// <summary>What LiteNetLib calls, on its threads and sometimes under its locks: nothing here waits, throws or calls it back but to answer.</summary>
+    /// <summary>
+    /// The callbacks of LiteNetLib, which run on its threads and sometimes under its locks. Nothing here waits or throws, or calls
+    /// LiteNetLib except to answer.
+    /// </summary>
     private sealed class Listener : ILiteNetEventListener
     {
         private readonly LiteNetLibPort port;
@@ -24,7 +27,7 @@ public sealed partial class LiteNetLibPort
                 return;
             }
 
-            // Forced, for a polite refusal would have LiteNetLib remember every stranger for seconds.
+            // Forced: after a polite refusal LiteNetLib would remember every stranger for seconds.
             Interlocked.Increment(ref port.connectionsRefused);
             request.RejectForce();
         }
@@ -69,7 +72,7 @@ public sealed partial class LiteNetLibPort
             {
                 Interlocked.Increment(ref port.sendFailures);
             }
-            else if (socketError is not (SocketError.ConnectionReset or SocketError.ConnectionRefused)) // ICMP: nobody listens there
+            else if (socketError is not (SocketError.ConnectionReset or SocketError.ConnectionRefused)) // ICMP: no process listens there
             {
                 Interlocked.Increment(ref port.receiveFailures);
             }

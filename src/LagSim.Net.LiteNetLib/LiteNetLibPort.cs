@@ -11,21 +11,21 @@ using LiteNetLib;
 
 namespace LagSim.Net.Carriers;
 
-/// <summary>Datagrams over LiteNetLib: through its connections, by its unreliable delivery.</summary>
+/// <summary>A datagram port over LiteNetLib: its connections, with unreliable delivery.</summary>
 /// <remarks>
-/// <para>A datagram port has no connections, LiteNetLib does. The first datagram to an address asks for one; what is sent until it is granted is
-/// lost and counted, as UDP may lose any, for a session repeats what matters. So joining takes a round trip more than over UDP. Either side
-/// may begin. A connection that broke is asked for again by the next datagram; if only one side knows that it broke, that may take the 5 s after
-/// which a silent peer is given up. A port cannot reach itself.</para>
-/// <para>A request is granted if it carries the same key and there is room, else it is not answered. The key is sent as it is: it keeps other
-/// versions and strangers out and encrypts nothing. LiteNetLib has no cookie: who knows the key and makes up senders can hold all places for
-/// 5 s at a time, so who fears that gives a key of their own.</para>
-/// <para>Each datagram travels in one packet, a byte longer than itself; short ones that are sent at once may share one. LiteNetLib also sends a
-/// few bytes a second each way to keep the connection.</para>
-/// <para>LiteNetLib's threads call back as soon as something happens (<see cref="LiteNetManager.UnsyncedEvents"/>). Polling would need somebody
-/// to poll, which is what <see cref="Arrived"/> is there to spare, and would let what a stranger sends pile up without bound in between. Here it
-/// goes into a ring of <see cref="RingSlots"/>; when that is full, newer datagrams are dropped and counted.</para>
-/// <para>LiteNetLib writes complaints about malformed packets to the console. The first port puts an end to that for the process, unless
+/// <para>A datagram port has no connections, but LiteNetLib does. The first datagram to an address requests one. Datagrams sent before it
+/// is granted are lost and counted; a session repeats what matters, as it must over UDP. So joining takes a round trip more than over UDP.
+/// Either side may begin. After a connection broke, the next datagram requests a new one. If only one side knows that it broke, that may
+/// take the 5 s after which a silent peer is dropped. A port cannot reach itself.</para>
+/// <para>A request is granted if it carries the same key and there is room; otherwise it is not answered. The key is sent in the clear: it
+/// keeps out other versions and strangers, and encrypts nothing. LiteNetLib has no cookie. So an attacker that knows the key and forges
+/// sender addresses can hold all places for 5 s at a time. Set a key of your own where that matters.</para>
+/// <para>Each datagram is sent in one packet, a byte longer than itself. Short datagrams that are sent together may share one. LiteNetLib
+/// also sends a few bytes a second each way to keep the connection.</para>
+/// <para>LiteNetLib's threads call back as soon as something happens (<see cref="LiteNetManager.UnsyncedEvents"/>). Polling would need a
+/// caller to poll, which <see cref="Arrived"/> avoids, and would let a stranger's datagrams pile up without bound in between. Here
+/// datagrams go into a ring of <see cref="RingSlots"/>. When it is full, newer ones are dropped and counted.</para>
+/// <para>LiteNetLib writes complaints about malformed packets to the console. The first port stops that for the process, unless
 /// <see cref="NetDebug.Logger"/> is set before or afterwards.</para>
 /// <para>The counters may be read from any thread.</para>
 /// </remarks>
@@ -37,17 +37,18 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>How many characters a user's key may have.</summary>
     public const int MaxKeyLength = 100;
 
-    /// <summary>How many connections there may be where nothing else is said: four times the clients that a host can have.</summary>
+    /// <summary>The default limit on connections: four times the clients that a host can have.</summary>
     public const int DefaultMaxConnections = 4 * SessionOptions.MaxClients;
 
     /// <summary>The most connections that can be asked for.</summary>
     public const int MostConnections = 4096;
 
-    /// <summary>LiteNetLib remembers a closed connection for as long as a silent one; so many of those at most, beside the living.</summary>
+    /// <summary>The largest number of closed connections kept beside the live ones: LiteNetLib remembers a closed connection for as long as
+    /// a silent one.</summary>
     private const int MaxClosed = 256;
 
-    /// <summary>How long LiteNetLib's threads sleep at most: a send wakes one, a packet the other. So long may closing take, and so much less often
-    /// than LiteNetLib would do they wake for nothing in a world at rest.</summary>
+    /// <summary>The longest that LiteNetLib's threads sleep: a send wakes one, a packet the other. Closing may take this long. In a world
+    /// at rest they wake for nothing far less often than with LiteNetLib's default.</summary>
     private const int SleepMilliseconds = 100;
 
     private const int SilenceMilliseconds = 5000;
@@ -58,7 +59,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     private readonly byte[] key;
     private readonly int maxConnections;
 
-    /// <summary>Whom LiteNetLib has at an address. Only a shortcut: whether a connection lives is for its state to say, and LiteNetLib knows all.</summary>
+    /// <summary>The LiteNetLib peer at each address. Only a cache: the peer's state decides whether the connection is alive, and LiteNetLib
+    /// has all peers.</summary>
     /// <remarks>No lock of ours is held while LiteNetLib is called, which calls back under locks of its own.</remarks>
     private readonly ConcurrentDictionary<PeerAddress, LiteNetPeer> peers = new();
 
@@ -73,15 +75,17 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     static LiteNetLibPort() => NetDebug.Logger ??= new QuietLogger();
 
     /// <summary>Opens a port, begins to receive, and grants connections.</summary>
-    /// <param name="bind">Where to listen: an IPv4 address, or <see cref="IPAddress.IPv6Any"/> for every address of both families; port 0 takes
-    /// any free one, which <see cref="LocalAddress"/> then tells.</param>
-    /// <param name="key">What only those may know who shall connect, 1 to <see cref="MaxKeyLength"/> characters; null for none. The name and
-    /// version of LagSim's protocol are part of what is compared in any case.</param>
-    /// <param name="maxConnections">How many connections there may be, both granted and asked for, 1 to <see cref="MostConnections"/>.</param>
+    /// <param name="bind">Where to listen: an IPv4 address, or <see cref="IPAddress.IPv6Any"/> for every address of both families; port 0
+    /// takes any free one, which <see cref="LocalAddress"/> then returns.</param>
+    /// <param name="key">The shared secret that a peer must present to connect, 1 to <see cref="MaxKeyLength"/> characters; null for none.
+    /// The name and version of LagSim's protocol are always compared too.</param>
+    /// <param name="maxConnections">How many connections there may be, both granted and asked for, 1 to
+    /// <see cref="MostConnections"/>.</param>
     /// <exception cref="ArgumentNullException"><paramref name="bind"/> is null.</exception>
-    /// <exception cref="ArgumentException">Another IPv6 address, which LiteNetLib cannot bind to alone; or a key of another length.</exception>
+    /// <exception cref="ArgumentException">Another IPv6 address, which LiteNetLib cannot bind to alone; or a key of another
+    /// length.</exception>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="maxConnections"/> is out of range.</exception>
-    /// <exception cref="IOException">The system does not give the endpoint, for instance because its port is in use.</exception>
+    /// <exception cref="IOException">The system cannot bind the endpoint, for instance because its port is in use.</exception>
     public LiteNetLibPort(IPEndPoint bind, string? key = null, int maxConnections = DefaultMaxConnections)
     {
         Check(bind, key, maxConnections);
@@ -94,8 +98,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
             DisconnectTimeout = SilenceMilliseconds,
             IPv6Enabled = isDual,
             MaxConnectAttempts = SilenceMilliseconds / AskAgainMilliseconds,
-            MaxFragmentsCount = 1, // nobody of ours sends in fragments, and who did could have much memory set aside
-            MtuOverride = IDatagramPort.MaxDatagramBytes + NetConstants.HeaderSize, // unless told, LiteNetLib refuses to send more than 1,023 bytes
+            MaxFragmentsCount = 1, // no peer of ours sends fragments, and a sender of fragments could make this port reserve much memory
+            MtuOverride = IDatagramPort.MaxDatagramBytes + NetConstants.HeaderSize, // by default LiteNetLib refuses to send more than 1,023 bytes
             ReceivePollingTime = SleepMilliseconds * 1000,
             ReconnectDelay = AskAgainMilliseconds,
             UnsyncedEvents = true,
@@ -112,23 +116,26 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <summary>Where this port is reached; on this machine only, if it is bound to every address there is.</summary>
     public PeerAddress LocalAddress { get; }
 
-    /// <summary>What does the work, for what this port leaves to its user: NAT punching (<see cref="LiteNetManager.NatPunchModule"/>), statistics.</summary>
-    /// <remarks>Who stops it or changes its timing, its events or its MTU breaks the port.</remarks>
+    /// <summary>The LiteNetLib manager of this port, for NAT punching (<see cref="LiteNetManager.NatPunchModule"/>) and
+    /// statistics.</summary>
+    /// <remarks>Stopping it, or changing its timing, its events or its MTU, breaks the port.</remarks>
     public LiteNetManager Manager => manager;
 
-    /// <summary>How many connections stand.</summary>
+    /// <summary>The number of open connections.</summary>
     public int Connections => manager.ConnectedPeersCount;
 
-    /// <summary>How many datagrams came in over a connection and were thrown away: too long, empty, not sent as unreliable, or no room in the ring.</summary>
+    /// <summary>How many datagrams came in over a connection and were thrown away: too long, empty, not sent as unreliable, or no room in
+    /// the ring.</summary>
     public long Dropped => Interlocked.Read(ref dropped);
 
     /// <summary>How many datagrams were not sent because there was no connection yet, or no room for one.</summary>
     public long Unconnected => Interlocked.Read(ref unconnected);
 
-    /// <summary>How many datagrams the network would not take, as far as LiteNetLib tells.</summary>
+    /// <summary>The number of datagrams that the network refused, as far as LiteNetLib reports it.</summary>
     public long SendFailures => Interlocked.Read(ref sendFailures);
 
-    /// <summary>How often the system reported trouble instead of a packet; a report that nobody listens at the other end is not counted.</summary>
+    /// <summary>The number of errors that the system reported instead of a packet. A report that no process listens at the other end is not
+    /// counted.</summary>
     public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
 
     /// <summary>How many requests for a connection were not granted: another key, or no room.</summary>
@@ -167,7 +174,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         }
 
         peer.Send(datagram, DeliveryMethod.Unreliable);
-        manager.TriggerUpdate(); // else it would wait for LiteNetLib's next round
+        manager.TriggerUpdate(); // otherwise it would wait for LiteNetLib's next round
     }
 
     /// <inheritdoc/>
@@ -182,7 +189,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         return ring.TryTake(buffer, out length, out from);
     }
 
-    /// <summary>Tells all connected that it ends, closes the port and ends its threads. What waits in the ring can still be taken.</summary>
+    /// <summary>Notifies all connected peers, closes the port and ends its threads. Datagrams that wait in the ring can still be
+    /// received.</summary>
     public void Dispose()
     {
         if (Interlocked.Exchange(ref disposed, 1) == 0)
@@ -230,7 +238,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         }
     }
 
-    /// <summary>LiteNetLib says no more than that it could not be opened; a socket of our own says why.</summary>
+    /// <summary>LiteNetLib reports only that it could not be opened; a socket of our own shows why.</summary>
     private static SocketException? WhyNot(IPEndPoint bind)
     {
         try
@@ -266,7 +274,8 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         }
     }
 
-    /// <summary>The connection to an address, asked for if there is none; null if there is no room for it or the other side is asking just now.</summary>
+    /// <summary>The connection to an address, requested if there is none; null if there is no room for it, or if the other side is
+    /// requesting one at the moment.</summary>
     private LiteNetPeer? Connect(IPEndPoint endPoint, PeerAddress to)
     {
         if (peers.Count > maxConnections)
@@ -279,7 +288,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
             LiteNetPeer? peer = HasRoom() ? manager.Connect(endPoint, key) : null;
             if (peer is not null)
             {
-                peers[to] = peer; // it may have ended, or been replaced, since: its state tells, and LiteNetLib is asked again
+                peers[to] = peer; // it may have ended or been replaced since: check its state, and ask LiteNetLib again
             }
 
             return peer;

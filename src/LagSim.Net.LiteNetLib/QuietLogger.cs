@@ -8,6 +8,6 @@ internal sealed class QuietLogger : INetLogger
     /// <inheritdoc/>
     public void WriteNet(NetLogLevel level, string str, params object[] args)
     {
-        // What concerns a user is counted by the port.
+        // The port counts whatever concerns a user.
     }
 }

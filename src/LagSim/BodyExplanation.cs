@@ -26,17 +26,19 @@ public sealed class BodyExplanation
     public string Why { get; }
 
     /// <summary>
-    /// How many pieces its path has in a simulated second where it starts, besides those that impacts open; 0: one piece from impact to impact. No number
-    /// (<see cref="double.NaN"/>) if it cannot take a first step.
+    /// The number of segments of its path in a simulated second where it starts, besides those that impacts open; 0: one segment from
+    /// impact to impact. No number (<see cref="double.NaN"/>) if it cannot take a first step.
     /// </summary>
     public double SegmentsPerSecond { get; }
 
-    /// <summary>How often its forces are evaluated in a simulated second where it starts; no number if it cannot take a first step.</summary>
+    /// <summary>
+    /// How often its forces are evaluated in a simulated second where it starts; no number if it cannot take a first step.
+    /// </summary>
     public double EvaluationsPerSecond { get; }
 
     /// <summary>
-    /// One line: the body, its law, what that costs if it comes in pieces, and why; <c>ball: Ballistic. Only uniform gravity acts on it: a parabola is
-    /// exact.</c>
+    /// One line: the body, its law, what that costs if it comes in pieces, and why; <c>ball: Ballistic. Only uniform gravity acts on it: a
+    /// parabola is exact.</c>
     /// </summary>
     public override string ToString() =>
         SegmentsPerSecond == 0 || double.IsNaN(SegmentsPerSecond)

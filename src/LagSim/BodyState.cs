@@ -21,8 +21,9 @@ public readonly struct BodyState
     public Vector3D Velocity { get; }
 
     /// <summary>
-    /// How it turns, in radians per second about the vector; zero of what has no friction and was not given any. What rests may turn too: only
-    /// rolling resistance resists turning about the normal of what it lies on, and without friction nothing resists turning at all.
+    /// The spin, in radians per second about the vector; zero for a body without friction that was not given any. A resting body may turn
+    /// too: only rolling resistance resists turning about the normal of the surface it lies on, and without friction nothing resists
+    /// turning at all.
     /// </summary>
     public Vector3D Spin { get; }
 

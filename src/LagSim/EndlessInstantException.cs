@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>An instant has more impacts than can be followed; what comes before it stands. It does not leave the simulation.</summary>
+/// <summary>
+/// An instant has more impacts than can be followed; everything before it stays valid. This exception does not leave the simulation.
+/// </summary>
 internal sealed class EndlessInstantException : Exception
 {
     internal EndlessInstantException(string message, SimTime at)

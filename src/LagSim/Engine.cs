@@ -14,10 +14,12 @@ using LagSim.Trajectories;
 
 namespace LagSim;
 
-/// <summary>The parts of a simulation, put together; and what concerns all of them: adding bodies and events, and forgetting bodies.</summary>
+/// <summary>
+/// The parts of a simulation, put together; and what concerns all of them: adding bodies and events, and forgetting bodies.
+/// </summary>
 /// <remarks>
-/// Data goes one way: the loop takes the least key from the scheduler; a handler opens segments of timelines; the predictor looks what
-/// they meet, and schedules that. A late event only has the rewinder cut segments, which the loop then makes again.
+/// Data goes one way: the loop takes the least key from the scheduler; a handler opens segments of timelines; the predictor looks what they
+/// meet, and schedules that. A late event only has the rewinder cut segments, which the loop then makes again.
 /// </remarks>
 internal sealed class Engine
 {
@@ -45,7 +47,7 @@ internal sealed class Engine
         Timelines.ForgetBefore(from);
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress);
 
-        // What laws bodies follow, and where contact is.
+        // The laws that bodies follow, and where contact is.
         Forces forces = new(scene, start);
         trajectories = new TrajectoryFactory(scene, forces, Bodies, Timelines);
         bool hasIslands = parts.HasIslands(scene);
@@ -53,7 +55,7 @@ internal sealed class Engine
         ContactGraph graph = new(Bodies, Timelines, scene.Surfaces, scene.Box);
         SolverWork work = new();
 
-        // What a body meets next.
+        // The next event of a body.
         PathView view = parts.PathView(Timelines, rollback);
         StepMarks marks = new();
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
@@ -64,7 +66,7 @@ internal sealed class Engine
         BroadPhase = parts.BroadPhase(scene, Bodies, Timelines, options.MostPairs);
         predictor = parts.EventPredictor(Bodies, Timelines, log, scheduler, rollback, flights, BroadPhase, search, view);
 
-        // What a late event takes back.
+        // Rewinding for late events.
         RewindRequests rewinds = new();
         Reconvergence = new Reconvergence(Bodies, Timelines, log, scheduler, Progress, rollback, BroadPhase, predictor, parts.CutPaths())
         {
@@ -79,7 +81,7 @@ internal sealed class Engine
         StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories);
         Stepper = new IslandStepper(Bodies, Timelines, forces, graph, Step, partners, rewinds, members, stepSegments, marks, work);
 
-        // What comes of an event.
+        // The handlers of events.
         collapse = parts.CollapseRule(scene, Bodies, Timelines, graph, strikes);
         CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, hasIslands);
         ImpactResolver resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
@@ -109,7 +111,7 @@ internal sealed class Engine
 
     internal Scene Scene { get; }
 
-    /// <summary>How many threads at most may be at work for it.</summary>
+    /// <summary>The largest number of threads that work for it.</summary>
     internal int Threads { get; }
 
     internal Progress Progress { get; }
@@ -223,7 +225,7 @@ internal sealed class Engine
         return SubmitResult.Queued;
     }
 
-    /// <summary>Takes an external event back; false if it is not there (any more).</summary>
+    /// <summary>Retracts an external event; false if it is not there (any more).</summary>
     internal bool Retract(in ExternalEvent external)
     {
         int slot = Bodies.SlotOf(external.Body);
@@ -241,7 +243,7 @@ internal sealed class Engine
         }
 
         Loop.Reconsider(key.Time);
-        if (key == due && log.Due(slot) == next) // else an earlier one is due again
+        if (key == due && log.Due(slot) == next) // otherwise an earlier one is due again
         {
             log.SetDueFrom(slot, key);
         }
@@ -282,7 +284,7 @@ internal sealed class Engine
 
         if (!rollback.IsActive && rollback.Cursor.Time <= Progress.SimulatedTo)
         {
-            // The cursor is at the last event, which may be long ago, and nobody would be listed between then and now.
+            // The cursor is at the last event, which may be long ago, and no body would be listed between then and now.
             rollback.Cursor = EventKey.Before(Progress.SimulatedTo + SimDuration.OneTick);
         }
 
@@ -309,7 +311,9 @@ internal sealed class Engine
         return slot;
     }
 
-    /// <summary>Forgets the timeline of a body that is not there and that nothing inside the window says anything of; false for any other.</summary>
+    /// <summary>
+    /// Forgets the timeline of a body that is not there and that nothing inside the window refers to; false for any other.
+    /// </summary>
     private bool ForgetIfAbsent(int slot)
     {
         log.DropBefore(slot, Progress.HistoryEdge);

@@ -21,13 +21,13 @@ internal class EngineParts
     /// <summary>The right parts.</summary>
     internal static readonly EngineParts Usual = new();
 
-    /// <summary>What solutions of contact problems are held to.</summary>
+    /// <summary>The rules for solutions of contact problems.</summary>
     internal virtual SolverRules SolverRules => SolverRules.Usual;
 
     /// <summary>Whether contacts of a scene may last. In a periodic box none does.</summary>
     internal virtual bool HasIslands(Scene scene) => !scene.Box.Exists;
 
-    /// <summary>What contact is measured by.</summary>
+    /// <summary>The measures of contact.</summary>
     internal virtual ContactScale ContactScale(Scene scene, SimTime start) => new(scene.ContactTolerance, scene.Gravity, start);
 
     internal virtual TimelineGrowth TimelineGrowth(SimTime origin, SimDuration history) => new(origin, history);

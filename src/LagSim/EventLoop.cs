@@ -21,7 +21,7 @@ internal sealed class EventLoop(
     CancellationToken cancellation)
 {
     private Exception? fault;
-    private SimTime partDone = SimTime.MinValue; // the instant of which some has happened and the rest has not; the least time if there is none
+    private SimTime partDone = SimTime.MinValue; // the instant that has happened only in part; the least time if there is none
 
     /// <summary>
     /// Whether an advance may stop within an instant, and whether one with more impacts than can be followed blocks the world until an
@@ -50,7 +50,9 @@ internal sealed class EventLoop(
     /// <summary>Throws if an end was asked for.</summary>
     internal void ThrowIfCancelled() => cancellation.ThrowIfCancellationRequested();
 
-    /// <summary>Throws if an instant without an end blocks the world up to a time. It can go on once an event comes that removes the cause.</summary>
+    /// <summary>
+    /// Throws if an endless instant blocks the world up to a time. The world can continue once an event comes that removes the cause.
+    /// </summary>
     internal void ThrowIfBlockedAt(SimTime time)
     {
         if (Blocked is EndlessInstantException endless && endless.At <= time)
@@ -63,8 +65,12 @@ internal sealed class EventLoop(
     /// <returns>The exception.</returns>
     internal Exception Fail(Exception failure) => fault = failure;
 
-    /// <summary>Lets events happen up to and including a time, or as many as <paramref name="events"/> says; see <see cref="Simulation.TryAdvanceTo"/>.</summary>
-    /// <exception cref="OperationCanceledException">The token asked for an end; what lies behind <see cref="Progress.SimulatedTo"/> stands.</exception>
+    /// <summary>
+    /// Processes events up to and including a time, or as many as <paramref name="events"/> allows; see
+    /// <see cref="Simulation.TryAdvanceTo"/>.
+    /// </summary>
+    /// <exception cref="OperationCanceledException">The token was cancelled; everything before <see cref="Progress.SimulatedTo"/>
+    /// stays.</exception>
     internal bool TryAdvanceTo(SimTime time, ref long events)
     {
         SimTime reached = progress.SimulatedTo;
@@ -178,7 +184,9 @@ internal sealed class EventLoop(
         rewinder.RewindInstant(instant);
     }
 
-    /// <summary>Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.</summary>
+    /// <summary>
+    /// Moves the edge of the history along, event by event, so that one long advance takes no more memory than many short ones.
+    /// </summary>
     private void ForgetUpTo(SimTime now)
     {
         if (progress.IsLongerThanHistory(now))

@@ -11,7 +11,7 @@ public sealed class FeatureExplanation
         Why = why;
     }
 
-    /// <summary>What it is called.</summary>
+    /// <summary>The name of the feature.</summary>
     public string Name { get; }
 
     /// <summary>Whether anything is computed for it.</summary>

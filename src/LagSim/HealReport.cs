@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>What a heal did: the rewriting of the past for one late event, or for several that came before it was finished.</summary>
+/// <summary>The report of a heal: the rewriting of the past for one late event, or for several that came before it was finished.</summary>
 /// <remarks>Immutable. The counts follow from the world and the late events alone, not from the machine.</remarks>
 public readonly struct HealReport : IEquatable<HealReport>
 {
@@ -25,11 +25,13 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>How far the world was simulated when the first of them came, and is again.</summary>
     public SimTime To { get; }
 
-    /// <summary>How many late events, or events taken back, it served; at least one.</summary>
+    /// <summary>The number of late or retracted events it served; at least one.</summary>
     public int LateEvents { get; }
 
-    /// <summary>How many bodies were predicted anew because of it: the causal cone; all there are of a full rollback, and of a heal that grew to
-    /// more than 32 of them and an eighth.</summary>
+    /// <summary>
+    /// The number of bodies that were predicted again because of it: the causal cone. All bodies for a full rollback, and for a heal that
+    /// grew to more than 32 of them and an eighth.
+    /// </summary>
     public int Bodies { get; }
 
     /// <summary>How many segments were cut off.</summary>
@@ -39,8 +41,9 @@ public readonly struct HealReport : IEquatable<HealReport>
     public long Events { get; }
 
     /// <summary>
-    /// From when on all paths were the old ones again, to the bit, so that the heal was done: what came after stands as it was. Null if that never came, or was
-    /// not looked for: after a full rollback, after more late events before the heal was finished, and where it had cut more than 256 segments.
+    /// The instant from which all paths were the old ones again, to the bit, so that the heal was done; later segments stay as they were.
+    /// Null if that never came, or was not tested: after a full rollback, after more late events before the heal was finished, and where it
+    /// had cut more than 256 segments.
     /// </summary>
     public SimTime? Met { get; }
 

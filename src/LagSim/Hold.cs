@@ -4,8 +4,8 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>Who holds a body, by which point, and since when nothing new was heard of the hand.</summary>
-/// <remarks>Immutable, safe on any thread. It belongs to a piece of the body's path, and is cut and kept with it.</remarks>
+/// <summary>Which peer holds a body, by which point, and when the hand's last keyframe was.</summary>
+/// <remarks>Immutable, safe on any thread. It belongs to a segment of the body's path, and is cut and kept with it.</remarks>
 public readonly struct Hold : IEquatable<Hold>
 {
     /// <summary>A hold of these.</summary>
@@ -16,13 +16,15 @@ public readonly struct Hold : IEquatable<Hold>
         Keyframe = keyframe;
     }
 
-    /// <summary>The peer whose hand it is.</summary>
+    /// <summary>The peer that holds the body.</summary>
     public byte Peer { get; }
 
     /// <summary>From the body's centre to the hand's point, in metres; fixed while the hold lasts.</summary>
     public Vector3D Offset { get; }
 
-    /// <summary>When the hand last told where it is: its last keyframe, or the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.</summary>
+    /// <summary>
+    /// The time of the hand's last keyframe, or of the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.
+    /// </summary>
     public SimTime Keyframe { get; }
 
     /// <inheritdoc/>

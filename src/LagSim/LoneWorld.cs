@@ -7,10 +7,10 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <summary>A world of a scene's static geometry and forces, in which a body is alone; made anew for each.</summary>
+/// <summary>A world of a scene's static geometry and forces, in which a body is alone; made again for each body.</summary>
 /// <remarks>
-/// It begins when the scene does, so that a force that depends on time sees the same time. It goes on to its end whatever is cancelled, for
-/// the instant at hand is half done.
+/// It begins when the scene does, so that a force that depends on time sees the same time. It runs to its end whatever is cancelled,
+/// because the current instant is half done.
 /// </remarks>
 internal sealed class LoneWorld(Scene scene, SimTime start, int maxSegments) : ILoneWorld
 {

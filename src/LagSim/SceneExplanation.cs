@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>What the engine simulates for a scene, what it leaves out, and why: a scene pays only for what it uses.</summary>
+/// <summary>
+/// An explanation of what the engine simulates for a scene, what it leaves out, and why: a scene pays only for what it uses.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class SceneExplanation
 {
@@ -25,15 +27,15 @@ public sealed class SceneExplanation
     /// <summary>The bodies, in the order of the scene.</summary>
     public IReadOnlyList<BodyExplanation> Bodies { get; }
 
-    /// <summary>What can be modelled, always the same in the same order.</summary>
+    /// <summary>All features that can be modelled, always the same in the same order.</summary>
     public IReadOnlyList<FeatureExplanation> Features { get; }
 
-    /// <summary>Why no world of the scene can begin, as <see cref="Simulation"/> tells it; null: one can.</summary>
+    /// <summary>Why no world of the scene can begin, in the words of <see cref="Simulation"/>'s exception; null: one can.</summary>
     public string? CannotBegin { get; }
 
     /// <summary>
-    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten such groups, a
-    /// line for each thing that can be modelled, and why no world can begin, if none can; lines end with LF everywhere.
+    /// A line for all bodies that have the same law for the same reason at the same cost, in the order of the first of them, of at most ten
+    /// such groups, a line for each thing that can be modelled, and why no world can begin, if none can; lines end with LF everywhere.
     /// </summary>
     public override string ToString()
     {
@@ -169,7 +171,7 @@ public sealed class SceneExplanation
             : $"The scene asks for {spec.Flight}. {cheapest} would be cheaper: {char.ToLowerInvariant(exact[0])}{exact.Substring(1)}";
     }
 
-    /// <summary>What is to be said of a path that by itself has more pieces than timelines hold unless told otherwise.</summary>
+    /// <summary>The warning for a path that by itself has more segments than timelines hold by default.</summary>
     private static string Full(double perSecond) =>
         perSecond * SimulationOptions.DefaultHistory.ToSeconds() <= SimulationOptions.DefaultMaxSegments
             ? ""
@@ -263,7 +265,7 @@ public sealed class SceneExplanation
         return new FeatureExplanation("spin and friction", rough + turning > 0, why);
     }
 
-    /// <summary>Who may come to move with others by common steps: what no closed form carries on.</summary>
+    /// <summary>The bodies that may come to move with others by common steps, because no closed form carries them.</summary>
     private static FeatureExplanation Islands(Scene scene, bool isForced)
     {
         bool isRough = false;

@@ -9,15 +9,15 @@ namespace LagSim;
 
 /// <summary>A deterministic world that can be advanced, changed and read at any time in its window.</summary>
 /// <remarks>
-/// <para>Its state is a pure function of the scene and the external events submitted, whatever the order in which they came:
-/// <c>state(t) = Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
-/// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once as many
-/// segments were alive as will be.</para>
-/// <para>An exception out of <see cref="AdvanceTo"/> other than an argument's leaves it faulted: every later call throws. One that was
-/// cancelled still stands from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
+/// <para>Its state is a pure function of the scene and the submitted external events, in whatever order they came: <c>state(t) =
+/// Fold(scene, events up to t, in canonical order)</c>, bit for bit.</para>
+/// <para>Not thread-safe: one thread at a time. <c>LagSim.Hosting</c> gives it a thread of its own. No allocation per event once the number
+/// of live segments has reached its maximum.</para>
+/// <para>An exception from <see cref="AdvanceTo"/>, except for a wrong argument, leaves it faulted: every later call throws. A cancelled
+/// world can still be read from <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, if that is not before it.</para>
 /// </remarks>
 /// <example>
-/// A late event changes the past, and what follows is simulated again:
+/// A late event changes the past, and everything that depends on it is simulated again:
 /// <code>
 /// Simulation world = new(scene);
 /// world.AdvanceTo(SimTime.FromSeconds(2));
@@ -34,26 +34,27 @@ public sealed class Simulation
 {
     private readonly SyncTest? syncTest;
 
-    /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can meet.</summary>
-    /// <param name="scene">What is simulated.</param>
+    /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can
+    /// meet.</summary>
+    /// <param name="scene">The scene to simulate.</param>
     /// <param name="options">How; null for the defaults.</param>
-    /// <exception cref="ArgumentNullException">There is no scene.</exception>
-    /// <exception cref="SimulationException">
-    /// The scene's forces are too much for the first step of a body, or what happens at the first instant for the timelines.
-    /// </exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end.</exception>
+    /// <exception cref="ArgumentNullException">The scene is null.</exception>
+    /// <exception cref="SimulationException">The scene's forces are too strong for the first step of a body, or the first instant needs
+    /// more segments than the timelines may hold.</exception>
+    /// <exception cref="OperationCanceledException">The options' token was cancelled.</exception>
     public Simulation(Scene scene, SimulationOptions? options = null)
         : this(Begun(scene ?? throw new ArgumentNullException(nameof(scene)), options ??= new SimulationOptions()), options.Start)
     {
         syncTest = options.Healing == HealingMode.SyncTest ? new SyncTest(Engine, new Simulation(scene, options.FullyRolledBack())) : null;
     }
 
-    /// <summary>Goes on from a snapshot of a world of this scene: the same events give the same bits as in the world that it was taken of.</summary>
-    /// <param name="scene">The scene that the snapshot's world has.</param>
-    /// <param name="snapshot">From where to go on. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
-    /// <param name="options">As of a new world, but for <see cref="SimulationOptions.Start"/>, which the snapshot tells.</param>
+    /// <summary>Continues from a snapshot of a world of this scene: the same events give the same bits as in the world it was taken
+    /// from.</summary>
+    /// <param name="scene">The scene of the snapshot's world.</param>
+    /// <param name="snapshot">The snapshot to continue from. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
+    /// <param name="options">As for a new world, except <see cref="SimulationOptions.Start"/>, which comes from the snapshot.</param>
     /// <exception cref="ArgumentNullException">The scene or the snapshot is missing.</exception>
-    /// <exception cref="SceneException">The snapshot holds a value that cannot be of a world of this scene; the sentence names it.</exception>
+    /// <exception cref="SceneException">The snapshot holds a value that no world of this scene can have; the message names it.</exception>
     /// <exception cref="SimulationException">It cannot be simulated.</exception>
     public Simulation(Scene scene, WorldSnapshot snapshot, SimulationOptions? options = null)
         : this(Begun(scene, snapshot, options ??= new SimulationOptions()), snapshot.Time)
@@ -67,22 +68,27 @@ public sealed class Simulation
         AdvanceTo(from);
     }
 
-    /// <summary>Which fold this library computes, from 1 on: builds of one version give one scene and events the same states and hashes, to the bit.</summary>
+    /// <summary>The version of the fold that this library computes, from 1 on: builds of one version give the same scene and events the
+    /// same states and hashes, to the bit.</summary>
     /// <remarks>
-    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It says nothing of layouts, which the versions of wire and
-    /// recordings count, nor of a program's own forces, which have their author's.</para>
-    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than stand in it.</para>
-    /// <para>Not a <see langword="const"/>: that would be copied into whatever is built against the library, and tell of another build than the one that runs.</para>
+    /// <para>It is raised by one whenever a pinned hash or one of the corpus moves; a test holds it to that. It does not cover layouts,
+    /// which have the versions of wire and recordings, nor a program's own forces, which have their author's version.</para>
+    /// <para>Peers of other versions would each compute a world of its own, and a recording of another version gives other hashes than
+    /// those stored in it.</para>
+    /// <para>Not a <see langword="const"/>: that would be copied into assemblies built against the library, and could name another build
+    /// than the one that runs.</para>
     /// </remarks>
     public static int FoldVersion => 10;
 
-    /// <summary>What was there at the start.</summary>
+    /// <summary>The scene at the start.</summary>
     public Scene Scene => Engine.Scene;
 
     /// <summary>The instant at which the scene began.</summary>
     public SimTime Start => Engine.Progress.Start;
 
-    /// <summary>The instant up to which, and including which, everything has happened. A late event that is submitted takes it back to before its own time.</summary>
+    /// <summary>
+    /// The instant up to which, and including which, everything has happened. A submitted late event rewinds it to before its own time.
+    /// </summary>
     public SimTime SimulatedTo => Engine.Progress.SimulatedTo;
 
     /// <summary>The earliest instant that can be read or changed.</summary>
@@ -100,7 +106,7 @@ public sealed class Simulation
     /// <summary>How many impacts were among them; what bodies do to each other at one tick and round is one.</summary>
     public long ImpactsProcessed => Engine.Progress.ImpactsProcessed;
 
-    /// <summary>How often timelines were cut for an event that came late or was taken back.</summary>
+    /// <summary>The number of times that timelines were cut for a late or a retracted event.</summary>
     public long Rollbacks => Engine.Rollback.Count;
 
     /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
@@ -109,30 +115,30 @@ public sealed class Simulation
     /// <summary>Its parts.</summary>
     internal Engine Engine { get; }
 
-    /// <summary>
-    /// Whether an advance may stop within an instant (<see cref="EventLoop.WaitsForLateEvents"/>). A sync test's twin has no way to stop
-    /// where this world does, so there it never may.
-    /// </summary>
+    /// <summary>Whether an advance may stop within an instant (<see cref="EventLoop.WaitsForLateEvents"/>). A sync test's twin has no way
+    /// to stop where this world does, so there it never may.</summary>
     internal bool WaitsForLateEvents
     {
         get => Engine.Loop.WaitsForLateEvents;
         set => Engine.Loop.WaitsForLateEvents = value && syncTest is null;
     }
 
-    /// <summary>
-    /// Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not change the world.
-    /// </summary>
+    /// <summary>Raised on the thread that advances, once per heal, when the world is again where it was. Handlers must not throw, and not
+    /// change the world.</summary>
     public event Action<HealReport>? Healed
     {
         add => Engine.Rewinder.Healed += value;
         remove => Engine.Rewinder.Healed -= value;
     }
 
-    /// <summary>Lets everything happen up to and including <paramref name="time"/>; what late events have changed is simulated again.</summary>
+    /// <summary>Lets everything happen up to and including <paramref name="time"/>; what late events have changed is simulated
+    /// again.</summary>
     /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
-    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
+    /// memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token was cancelled; everything before <see cref="SimulatedTo"/>
+    /// stays.</exception>
     public void AdvanceTo(SimTime time)
     {
         long events = long.MaxValue;
@@ -140,23 +146,20 @@ public sealed class Simulation
         Engine.Loop.ThrowIfBlockedAt(time);
     }
 
-    /// <summary>
-    /// Lets everything happen up to and including <paramref name="time"/>, or as much of it as so many events are, and stops between two instants; the world of a
-    /// session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.
-    /// </summary>
+    /// <summary>Advances the world up to and including <paramref name="time"/>, or by a number of events, and stops between two instants.
+    /// The world of a session (<see cref="Hosting.LiveWorld.WaitsForLateEvents"/>) stops within one too, if it takes too long.</summary>
     /// <param name="time">Up to when.</param>
-    /// <param name="events">
-    /// How many events may happen; what is left of them. The events of one instant all happen, so it may end below zero; at or below zero nothing happens.
-    /// Looking again what a body meets next counts as an event.
-    /// </param>
-    /// <returns>
-    /// Whether it got there; if not, <see cref="SimulatedTo"/> tells how far, and the next call goes on from there. A world that an instant without end blocks
-    /// (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes that lies no later.
-    /// </returns>
+    /// <param name="events">The number of events that may happen; on return, what is left of it. The events of one instant all happen, so
+    /// it may end below zero. At or below zero nothing happens. Predicting a body's next event again counts as an event.</param>
+    /// <returns>Whether it got there; if not, <see cref="SimulatedTo"/> is how far it got, and the next call continues from there. A world
+    /// that an endless instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes
+    /// that is no later.</returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
-    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their memory.</exception>
-    /// <exception cref="OperationCanceledException">The options' token asked for an end; what lies behind <see cref="SimulatedTo"/> stands.</exception>
+    /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
+    /// memory.</exception>
+    /// <exception cref="OperationCanceledException">The options' token was cancelled; everything before <see cref="SimulatedTo"/>
+    /// stays.</exception>
     public bool TryAdvanceTo(SimTime time, ref long events)
     {
         Engine.Loop.ThrowIfFaulted();
@@ -172,16 +175,13 @@ public sealed class Simulation
         return isThere;
     }
 
-    /// <summary>
-    /// Adds an event at its own time. Should that be simulated already, what it can have touched is taken back from there on (<see
-    /// cref="SimulationOptions.Healing"/> says what that is), <see cref="SimulatedTo"/> lies before it, and the next <see cref="AdvanceTo"/> simulates it again;
-    /// <see cref="Healed"/> tells what that took.
-    /// </summary>
-    /// <returns>What became of it. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
-    /// <remarks>
-    /// That it is there does not mean that it has an effect: that depends on what it meets when its time comes, and <see cref="TookEffect"/> tells. Cost: O(1) in
-    /// the bodies if it lies ahead; else, with the next advance, that of the events since its time of the bodies it can have touched, or of all with a full rollback.
-    /// </remarks>
+    /// <summary>Adds an event at its own time. If that time is simulated already, the paths that it can have touched are undone from there
+    /// on (<see cref="SimulationOptions.Healing"/> decides which). <see cref="SimulatedTo"/> then lies before it, the next
+    /// <see cref="AdvanceTo"/> simulates them again, and <see cref="Healed"/> reports what that took.</summary>
+    /// <returns>The result. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
+    /// <remarks>A submitted event need not have an effect: that depends on what it meets when its time comes; see <see cref="TookEffect"/>.
+    /// Cost: O(1) in the bodies if it lies ahead. Otherwise, with the next advance, the events since its time of the bodies it can have
+    /// touched, or of all bodies with a full rollback.</remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
@@ -190,12 +190,10 @@ public sealed class Simulation
         return Engine.Insert(external, external.Key, isForwarded: false);
     }
 
-    /// <summary>
-    /// Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the event's time to the arrival: its
-    /// own motion and contacts with static geometry, as the thesis does. What lies before the arrival is not rewritten. What a hand does (grab, keyframe, release)
-    /// is done at the arrival as it is.
-    /// </summary>
-    /// <returns>What became of it.</returns>
+    /// <summary>Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the
+    /// event's time to the arrival: its own motion and contacts with static geometry, as the thesis does. Nothing before the arrival is
+    /// rewritten. A hand's actions (grab, keyframe, release) are applied at the arrival as they are.</summary>
+    /// <returns>The result.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
@@ -211,7 +209,10 @@ public sealed class Simulation
         return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Insert(external, external.At(arrival).Key, isForwarded: true);
     }
 
-    /// <summary>Takes an event back, as if it had never been; false if it is not there (any more). The next advance simulates again what it had touched.</summary>
+    /// <summary>
+    /// Retracts an event, as if it had never been; false if it is not there (any more). The next advance simulates again what it had
+    /// touched.
+    /// </summary>
     public bool Retract(in ExternalEvent external)
     {
         Engine.Loop.ThrowIfFaulted();
@@ -219,17 +220,19 @@ public sealed class Simulation
         return Engine.Retract(external);
     }
 
-    /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift n.</summary>
+    /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift
+    /// n.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
     public BodyId BodyAt(int n) => Engine.Bodies.Id(Engine.Bodies.SlotAt(n));
 
-    /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that tick.</summary>
+    /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that
+    /// tick.</summary>
     /// <returns>False, and a state that is <see cref="MotionLaw.Absent"/>, if the body is unknown or not there at that time.</returns>
-    /// <remarks>
-    /// Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated is a mistake of the caller,
-    /// who advances this world himself, and so an exception; a <see cref="Hosting.RenderSnapshot"/>, which another thread makes, returns false there.
-    /// </remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance first.</exception>
+    /// <remarks>Opens no segment and changes nothing. Cost: the number of the body's segments after that time. A time that is not simulated
+    /// is an error of the caller, which advances this world itself, and so an exception. A <see cref="Hosting.RenderSnapshot"/>, which
+    /// another thread makes, returns false there.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="HistoryEdge"/> or after <see cref="Horizon"/>: advance
+    /// first.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
@@ -238,8 +241,9 @@ public sealed class Simulation
         return state.Motion != MotionLaw.Absent;
     }
 
-    /// <summary>Who holds a body at an instant that can be read, by which point, and when its hand last told where it is.</summary>
-    /// <returns>False, and the default, if nobody does.</returns>
+    /// <summary>The hold on a body at an instant that can be read: which peer holds it, by which point, and the time of the hand's last
+    /// keyframe.</summary>
+    /// <returns>False, and the default, if no peer holds it.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
     public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
     {
@@ -248,7 +252,8 @@ public sealed class Simulation
     }
 
     /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
-    /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of day.</remarks>
+    /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of
+    /// day.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
     public ulong StateHash(SimTime time)
     {
@@ -256,7 +261,8 @@ public sealed class Simulation
         return Engine.Reader.StateHash(time);
     }
 
-    /// <summary>A hash of every event from the start up to and including <paramref name="time"/>, in canonical order, with what came of it.</summary>
+    /// <summary>A hash of every event from the start up to and including <paramref name="time"/>, in canonical order, with what came of
+    /// it.</summary>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
     public ulong EventHash(SimTime time)
     {
@@ -268,19 +274,21 @@ public sealed class Simulation
     /// <remarks>For reports and tests; allocates. Cost: the number of the body's segments.</remarks>
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body) => Timeline(body, SimTime.MinValue);
 
-    /// <summary>Of a body's events that are kept the last one up to and including <paramref name="from"/>, whose motion it is in then, and all after it.</summary>
-    /// <param name="body">The body. Of an unknown one there are none.</param>
-    /// <param name="from">From when on, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
+    /// <summary>The kept events of a body: the last one up to and including <paramref name="from"/>, which began the motion that it is in
+    /// then, and all after it.</summary>
+    /// <param name="body">The body. An unknown one has no events.</param>
+    /// <param name="from">The start, in simulated time; any instant, also one that is no longer kept or not simulated yet.</param>
     /// <returns>In order, each with the state right after it.</returns>
-    /// <remarks>For reports that go along with the simulation; allocates. Cost: the number of the events returned, however long the history is.</remarks>
+    /// <remarks>For reports during the simulation; allocates. Cost: the number of the events returned, however long the history
+    /// is.</remarks>
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from) => Engine.Reader.Timeline(Engine.Bodies.SlotOf(body), from);
 
-    /// <summary>
-    /// Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted and its time has come, it had no
-    /// effect: the body was not there, or was in a hand (or not in that hand), or an impulse would have made it faster than a body may be given to move, a tenth
-    /// of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late event may change the answer.
-    /// </summary>
-    /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. What lies before <see cref="HistoryEdge"/> is no longer known: false.</remarks>
+    /// <summary>Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted
+    /// and its time has come, it had no effect: the body was not there, or was held (or not held by that hand), or an impulse would have
+    /// made it faster than a player may make a body, a tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A
+    /// late event may change the answer.</summary>
+    /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. Before <see cref="HistoryEdge"/> the answer is no
+    /// longer known: false.</remarks>
     public bool TookEffect(in ExternalEvent external) => Engine.Reader.TookEffect(external);
 
     /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>
@@ -290,10 +298,10 @@ public sealed class Simulation
         return slot < 0 ? default : Engine.Bodies.Spec(slot);
     }
 
-    /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since then.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">
-    /// The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not after the start.
-    /// </exception>
+    /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since
+    /// then.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside <see cref="HistoryEdge"/> to <see cref="SimulatedTo"/>, or not
+    /// after the start.</exception>
     public WorldSnapshot Snapshot(SimTime time)
     {
         Engine.Loop.ThrowIfFaulted();
@@ -307,9 +315,8 @@ public sealed class Simulation
         return Engine.Reader.Snapshot(time);
     }
 
-    /// <summary>
-    /// Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept, later is not forgotten.
-    /// </summary>
+    /// <summary>Forgets what lies before <paramref name="time"/>: nothing there can be read or changed any more. Earlier than now is kept,
+    /// later is not forgotten.</summary>
     public void DropHistoryBefore(SimTime time)
     {
         Engine.DropHistoryBefore(time);

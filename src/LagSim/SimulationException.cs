@@ -2,9 +2,12 @@ using System;
 
 namespace LagSim;
 
-/// <summary>The simulation cannot go on: a state left the range in which it means something. The message names the body and the value.</summary>
+/// <summary>
+/// The simulation cannot continue: a state left the range in which it means something. The message names the body and the value.
+/// </summary>
 /// <remarks>
-/// Deterministic like the world itself: every peer that simulates the same events meets it at the same event, but for a <see cref="TimelinesFullException"/>.
+/// Deterministic like the world itself: every peer that simulates the same events gets it at the same event, except for a
+/// <see cref="TimelinesFullException"/>.
 /// </remarks>
 public class SimulationException : Exception
 {

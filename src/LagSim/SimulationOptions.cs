@@ -10,35 +10,40 @@ namespace LagSim;
 /// <remarks>Immutable.</remarks>
 public sealed class SimulationOptions
 {
-    /// <summary>The history where nothing else is said: 1 s.</summary>
+    /// <summary>The default history: 1 s.</summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
 
-    /// <summary>The most segments where nothing else is said: 8,388,608, of 1.5 to 3 GB, and as much again while they grow.</summary>
+    /// <summary>The default limit on segments: 8,388,608, of 1.5 to 3 GB, and as much again while they grow.</summary>
     public const int DefaultMaxSegments = 1 << 23;
 
-    /// <summary>Above this an index of the paths costs less than to look at everybody.</summary>
+    /// <summary>The number of bodies above which neighbour lists cost less than testing every body.</summary>
     internal const int DefaultMostPairs = 64;
 
     /// <summary>Options, each with its default.</summary>
-    /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the bit.</param>
+    /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the
+    /// bit.</param>
     /// <param name="history">
     /// How far behind the simulated time timelines are kept, and so how late an event may come; above zero, default 1 s.
     /// <see cref="SimDuration.MaxValue"/> keeps everything.
     /// </param>
     /// <param name="maxSegments">
-    /// How many pieces of path all timelines together may hold, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
-    /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a <see cref="TimelinesFullException"/>, which tells whose path they are.
+    /// The largest number of segments in all timelines together, at least one; default <see cref="DefaultMaxSegments"/>. Each takes 184 to
+    /// 356 bytes (<see cref="Timelines.LatencyCompensationWindow"/>). A simulation that would need more ends with a
+    /// <see cref="TimelinesFullException"/>, which names the body with most of them.
     /// </param>
     /// <param name="cancellation">
-    /// Ends whatever the simulation is at, from any thread, between two instants, in a session within one too, with an <see cref="OperationCanceledException"/>.
+    /// Ends the simulation's current call, from any thread, with an <see cref="OperationCanceledException"/>: between two instants, in a
+    /// session within one too.
     /// </param>
-    /// <param name="healing">How an event is brought in that lies before the simulated time. It has no influence on the result, to the bit.</param>
+    /// <param name="healing">How an event before the simulated time is brought in. It has no influence on the result, to the bit.</param>
     /// <param name="threads">
-    /// How many threads at most may be at work for this simulation at once, the one that calls it included: from 1 to <see cref="SceneBuilder.MaxThreads"/>;
-    /// default as many as there are processors, at most 8. At present all is done on the calling thread; what comes of it is the same, to the bit, on any number.
+    /// The largest number of threads that work for this simulation at once, including the caller's: from 1 to
+    /// <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. At present everything is done on the
+    /// calling thread; the result is the same, to the bit, for any number.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">
-    /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the origin.
+    /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the
+    /// origin.
     /// </exception>
     public SimulationOptions(
         SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default,
@@ -79,23 +84,26 @@ public sealed class SimulationOptions
     public SimDuration History { get; }
 
     /// <summary>
-    /// How many pieces of path all timelines together may hold, each of 184 to 356 bytes; more end with a <see cref="TimelinesFullException"/>.
+    /// The largest number of segments in all timelines together, each of 184 to 356 bytes; more end with a
+    /// <see cref="TimelinesFullException"/>.
     /// </summary>
     public int MaxSegments { get; }
 
-    /// <summary>How an event is brought in that lies before the simulated time.</summary>
+    /// <summary>How an event before the simulated time is brought in.</summary>
     public HealingMode Healing { get; }
 
-    /// <summary>How many threads at most may be at work for the simulation at once.</summary>
+    /// <summary>The largest number of threads that work for the simulation at once.</summary>
     public int Threads { get; }
 
-    /// <summary>Up to how many bodies all pairs are looked at; a test sets it to have an index in small worlds.</summary>
+    /// <summary>
+    /// The number of bodies up to which the broad phase is brute force; a test sets it to have neighbour lists in small worlds.
+    /// </summary>
     internal int MostPairs { get; set; } = DefaultMostPairs;
 
-    /// <summary>What makes the engine's parts.</summary>
+    /// <summary>The factory of the engine's parts.</summary>
     internal EngineParts Parts { get; private set; } = EngineParts.Usual;
 
-    /// <summary>Ends whatever the simulation is at.</summary>
+    /// <summary>Ends the simulation's current call.</summary>
     public CancellationToken Cancellation { get; }
 
     /// <summary>
@@ -104,7 +112,7 @@ public sealed class SimulationOptions
     internal SimulationOptions FullyRolledBack() =>
         new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs };
 
-    /// <summary>Is told of impacts, those of the very first instant included; null for nobody.</summary>
+    /// <summary>Notified of impacts, including those of the very first instant; null for none.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>

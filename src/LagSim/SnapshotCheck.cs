@@ -7,8 +7,10 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <summary>What a snapshot must satisfy to be of a world of a scene; it may come from anywhere.</summary>
-/// <remarks>It says what can be told of each body alone. Whether bodies overlap, or a path is one that this world would have taken, it does not ask.</remarks>
+/// <summary>Checks that a snapshot can be of a world of a scene; it may come from anywhere.</summary>
+/// <remarks>
+/// It checks each body alone. It does not check whether bodies overlap, or whether a path is one that this world would have taken.
+/// </remarks>
 internal static class SnapshotCheck
 {
     /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>

@@ -28,7 +28,7 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
             : StateOf(timelines.Segment(at), paths.SecondsInto(at, time), timelines.Dense(at), box, timelines.SpinOf(at));
     }
 
-    /// <summary>Who holds a body; false if nobody does.</summary>
+    /// <summary>The hold on a body; false if no peer holds it.</summary>
     internal bool TryReadHold(int slot, SimTime time, out Hold hold)
     {
         int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
@@ -81,7 +81,9 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
         return sum;
     }
 
-    /// <summary>A body's events that are kept, from the one on whose motion it is in at a time, each with the state right after it.</summary>
+    /// <summary>
+    /// The kept events of a body, from the one that began its motion at a time on, each with the state right after it.
+    /// </summary>
     internal IReadOnlyList<TimelineEntry> Timeline(int slot, SimTime from)
     {
         List<TimelineEntry> entries = new();
@@ -112,7 +114,7 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
             ref readonly EventKey key = ref timelines.Key(at);
             if (key.Kind == external.Kind && key.Peer == external.Peer && key.Sequence == external.Sequence)
             {
-                return key.Time <= progress.SimulatedTo; // what stands ahead of it is of before the rollback at hand
+                return key.Time <= progress.SimulatedTo; // paths ahead of it are from before the current rollback
             }
         }
 

@@ -1,6 +1,6 @@
 namespace LagSim;
 
-/// <summary>What became of an external event that was submitted.</summary>
+/// <summary>The result of submitting an external event.</summary>
 public enum SubmitResult
 {
     /// <summary>
@@ -9,7 +9,10 @@ public enum SubmitResult
     /// </summary>
     Queued,
 
-    /// <summary>It lay inside what was simulated already: what it can have touched is taken back from there on, and simulated again by the next advance.</summary>
+    /// <summary>
+    /// Its time was simulated already: the paths that it can have touched are undone from there on, and the next advance simulates them
+    /// again.
+    /// </summary>
     RolledBack,
 
     /// <summary>The same event (time, kind, body, peer, sequence) is there already; nothing changed.</summary>

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim;
 
-/// <summary>A simulation's twin, in which every late event rolls everything back: after each heal the two are held against each other.</summary>
+/// <summary>
+/// A simulation's twin, in which every late event rolls everything back: after each heal the two are held against each other.
+/// </summary>
 internal sealed class SyncTest
 {
     private readonly Engine healed;
@@ -20,16 +22,16 @@ internal sealed class SyncTest
         healed.Rewinder.Healed += _ => isDue = true;
     }
 
-    /// <summary>What is submitted to the one is submitted to the other.</summary>
+    /// <summary>Submits to the twin an event that the healing world gets.</summary>
     internal void Submit(in ExternalEvent external) => twin.Submit(external);
 
     /// <inheritdoc cref="Submit"/>
     internal void SubmitForwarded(in ExternalEvent external, SimTime arrival) => twin.SubmitForwarded(external, arrival);
 
-    /// <summary>What is taken back of the one is taken back of the other.</summary>
+    /// <summary>Retracts from the twin an event that the healing world retracts.</summary>
     internal void Retract(in ExternalEvent external) => twin.Retract(external);
 
-    /// <summary>What the one forgets the other does.</summary>
+    /// <summary>Has the twin drop the same history as the healing world.</summary>
     internal void DropHistoryBefore(SimTime time) => twin.DropHistoryBefore(time);
 
     /// <summary>Brings the twin to where the world is and, if something was healed, compares the two.</summary>

@@ -12,8 +12,8 @@ namespace LagSim;
 internal static class TimelineComparison
 {
     /// <summary>
-    /// The first thing in the timelines of one world that is not in the other's, with both versions of it; null if there is none. What
-    /// either has forgotten is not compared.
+    /// The first thing in the timelines of one world that is not in the other's, with both versions of it; null if there is none. Anything
+    /// that either has forgotten is not compared.
     /// </summary>
     internal static string? FirstDifference(Engine expected, Engine actual)
     {

@@ -1,7 +1,9 @@
 namespace LagSim;
 
-/// <summary>The timelines need more segments than the options allow: so much has happened inside the window. The world is right up to then.</summary>
-/// <remarks>It is this simulation's own limit, so one with more room, or that keeps less history, goes on where this one cannot.</remarks>
+/// <summary>
+/// The timelines need more segments than the options allow, because too much has happened inside the window. The world is right up to then.
+/// </summary>
+/// <remarks>It is this simulation's own limit, so one with more room, or with less history, continues where this one cannot.</remarks>
 public sealed class TimelinesFullException : SimulationException
 {
     /// <summary>No message; prefer the one with a sentence.</summary>

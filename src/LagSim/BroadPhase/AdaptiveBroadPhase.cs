@@ -19,7 +19,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     /// <summary>At about so many others a body looks, however many there are.</summary>
     internal const int MostLooks = 64;
 
-    /// <summary>What is asked now; nothing may be before <see cref="Begin"/>.</summary>
+    /// <summary>The broad phase in use; not to be called before <see cref="Begin"/>.</summary>
     internal IBroadPhase Current { get; private set; } = null!;
 
     /// <summary>Whether the bodies have become so many, or so much larger, that another serves them better.</summary>
@@ -33,7 +33,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     /// </summary>
     internal void UseListsAbove(int most) => mostPairs = most;
 
-    /// <summary>Chooses for a world that begins, of whose paths none is listed.</summary>
+    /// <summary>Chooses the broad phase of a world that begins and has no path listed yet.</summary>
     internal void Begin() => Current = bodies.Count > mostPairs ? NewLists() : MakePairs();
 
     /// <summary>Makes neighbour lists of all that is kept.</summary>
@@ -75,10 +75,10 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
         }
     }
 
-    /// <summary>Makes the index for few bodies.</summary>
+    /// <summary>Makes the broad phase for few bodies.</summary>
     private protected virtual BruteForce MakePairs() => new();
 
-    /// <summary>Makes the index for many bodies; see <see cref="NeighbourLists"/>.</summary>
+    /// <summary>Makes the broad phase for many bodies; see <see cref="NeighbourLists"/>.</summary>
     private protected virtual NeighbourLists MakeLists(double cell, double speed, double tickLength) =>
         new(timelines, cell, speed, scene.Resolution, tickLength, scene.Box, bodies.SlotCount);
 
@@ -92,7 +92,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
         {
             double radius = bodies.Spec(slot).Radius;
             radii[count] = radius;
-            count += radius > 0 ? 1 : 0; // none yet: a body of which nothing but its name was heard
+            count += radius > 0 ? 1 : 0; // none yet: only the body's name is known
             ref readonly MotionSegment path = ref timelines.Segment(timelines.Last(slot));
             speeds[present] = path.Velocity.Length;
             present += path.IsPresent ? 1 : 0;

@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.BroadPhase;
 
-/// <summary>The index that is none: every body is a candidate, for ever. The best for some tens of bodies.</summary>
+/// <summary>The brute-force broad phase: every body is a candidate, for ever. The fastest for some tens of bodies.</summary>
 internal class BruteForce : IBroadPhase
 {
     private int[] known = new int[4];
@@ -26,7 +26,7 @@ internal class BruteForce : IBroadPhase
         int hole = slot < place.Length ? place[slot] - 1 : -1;
         if (hole < 0)
         {
-            return; // heard of, but never there
+            return; // known by name, but never there
         }
 
         int last = known[--count];

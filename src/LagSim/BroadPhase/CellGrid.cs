@@ -6,7 +6,9 @@ namespace LagSim.BroadPhase;
 /// <summary>Space in cubes, or, in a periodic box, in as many equal cells along each side as fit: which of them are near a point.</summary>
 internal sealed class CellGrid
 {
-    /// <summary>Coordinates beyond so many cells share the last one: a long holds them, and a double tells them apart.</summary>
+    /// <summary>
+    /// The number of cells beyond which coordinates share the last one: a long holds that many, and a double distinguishes them.
+    /// </summary>
     private const double FurthestCell = 1L << 40;
 
     private const int AxisBits = 21;
@@ -43,8 +45,8 @@ internal sealed class CellGrid
         | (((ulong)Wrapped(z, alongZ) & AxisMask) << (2 * AxisBits));
 
     /// <summary>
-    /// The number of a list out of a power of two that a cell falls to: cells in a row along x have lists in a row, for they are looked into one after the
-    /// other.
+    /// The number of a list out of a power of two that a cell falls to: cells in a row along x have lists in a row, for they are looked
+    /// into one after the other.
     /// </summary>
     internal static int Bucket(ulong number, int lists)
     {
@@ -61,7 +63,7 @@ internal sealed class CellGrid
             return at;
         }
 
-        // Paths are opened anew long before they are a side away, so that a step or two do.
+        // Paths are opened again long before they are a side away, so that a step or two do.
         while (at < 0)
         {
             at += cells;

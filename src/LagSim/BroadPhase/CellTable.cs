@@ -2,8 +2,8 @@ using System;
 
 namespace LagSim.BroadPhase;
 
-/// <summary>What lies in each cell of a grid: lists of values by the cell's number, in a hash table that is emptied as a whole.</summary>
-/// <typeparam name="T">What is listed.</typeparam>
+/// <summary>The values in each cell of a grid: lists by the cell's number, in a hash table that is emptied as a whole.</summary>
+/// <typeparam name="T">The type of the values.</typeparam>
 internal sealed class CellTable<T>
     where T : struct
 {

@@ -54,21 +54,24 @@ internal sealed class FoundSlots
         }
     }
 
-    /// <summary>Lists a slot that is not listed yet, or not; there is room for it. Whether is no branch, for nobody can foretell it.</summary>
+    /// <summary>
+    /// Lists a slot that is not listed yet, if asked to; there must be room for it. The choice is not a branch, because it cannot be
+    /// predicted.
+    /// </summary>
     internal void AddIf(bool isFound, int slot)
     {
         found[Count] = slot;
         Count += isFound ? 1 : 0;
     }
 
-    /// <summary>Room for so many more, of which as many are listed as <see cref="Took"/> is told then.</summary>
+    /// <summary>Room for that many more. <see cref="Took"/> then says how many were written to it.</summary>
     internal Span<int> Room(int more)
     {
         Reserve(more);
         return found.AsSpan(Count);
     }
 
-    /// <summary>So many were written to the room.</summary>
+    /// <summary>Lists that many slots, which were written to the room.</summary>
     internal void Took(int more) => Count += more;
 
     /// <summary>Lists a slot unless it was found already.</summary>

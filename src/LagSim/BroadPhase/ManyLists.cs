@@ -2,9 +2,9 @@ using System;
 
 namespace LagSim.BroadPhase;
 
-/// <summary>Many short lists in one array: blocks of a power of two, of which those that became too small are used again.</summary>
-/// <typeparam name="T">What is listed.</typeparam>
-/// <remarks>Cost: O(1) to add and to take out at a place. Allocates only when more is listed than ever before.</remarks>
+/// <summary>Many short lists in one array: blocks of a power of two, which are reused when their list outgrows them.</summary>
+/// <typeparam name="T">The type of the values.</typeparam>
+/// <remarks>Cost: O(1) to add and to remove at a place. Allocates only when more is listed than ever before.</remarks>
 internal sealed class ManyLists<T>
     where T : struct
 {
@@ -17,7 +17,7 @@ internal sealed class ManyLists<T>
     private int used;
     private Block[] blocks;
 
-    /// <summary>So many empty lists; with room for so much in all of them at first.</summary>
+    /// <summary>That many empty lists, with room for that many values in all of them at first.</summary>
     internal ManyLists(int count, int room = 256)
     {
         blocks = new Block[count];
@@ -32,7 +32,7 @@ internal sealed class ManyLists<T>
     /// <summary>Makes room for more lists.</summary>
     internal void Grow(int count) => Array.Resize(ref blocks, count);
 
-    /// <summary>What is listed. Valid until anything is added anywhere.</summary>
+    /// <summary>The values of a list. Valid until anything is added anywhere.</summary>
     internal Span<T> Of(int list)
     {
         ref Block block = ref blocks[list];

@@ -7,29 +7,32 @@ using LagSim.Timelines;
 namespace LagSim.BroadPhase;
 
 /// <summary>
-/// Verlet lists: around every body a shell that it stays in for a while, and for every body a list of those whose shells are so near that the two could touch.
-/// A list holds until one of the two leaves its shell, however often they collide meanwhile.
+/// Verlet lists: every body has a shell that it stays in for a while, and a list of the bodies whose shells are so near that the two could
+/// touch. A list holds until one of the two leaves its shell, however often they collide meanwhile.
 /// </summary>
 /// <remarks>
-/// <para>Where a body's shell is can be told of the past too: a shell that is left is kept, with the span of time in which it held, until that lies before the
-/// history. So what is healed finds who was near then, whatever he did since.</para>
-/// <para>A list may name too many, for what is healed sees the past and the present at once; and never too few: of two shells whichever was made later found
-/// the other, and a list that a heal has made keeps who moves on ahead of it.</para>
-/// <para>How far a body may stray is its own: who leaves a shell before long gets a larger one, and who stays for many predictions a smaller one with fewer to
-/// look at. Who is too wide or too fast for the cells is listed apart, and looked at whenever a shell is made.</para>
-/// <para>Cost: the length of a list for a prediction, and what lies in the 27 cells around for a shell, which holds for some ten predictions.</para>
+/// <para>Past shells are kept too: a shell that a body has left stays, with the span of time in which it held, until that lies before the
+/// history. So a heal finds which bodies were near then, whatever they did since.</para>
+/// <para>A list may name too many bodies, because a heal sees the past and the present at once. It never names too few: of two shells the
+/// one made later found the other, and a list made in a heal keeps bodies that move on ahead of it.</para>
+/// <para>Each body has its own shell size: a body that soon leaves its shell gets a larger one, and one that stays for many predictions
+/// gets a smaller one with fewer neighbours. Bodies that are too wide or too fast for the cells are listed separately, and tested whenever
+/// a shell is made.</para>
+/// <para>Cost: for a prediction, the length of a list; for a shell, the contents of the 27 cells around it. A shell holds for some ten
+/// predictions.</para>
 /// </remarks>
 internal class NeighbourLists : IBroadPhase
 {
     /// <summary>
-    /// Who would leave the widest shell that fits the cells in less than this is too fast for them: 1/512 s, or what is far less than the others take.
+    /// A body that would leave the widest shell that fits the cells in less than this is too fast for them: 1/512 s, or far less than the
+    /// others take.
     /// </summary>
     private const double ShortestStay = 1.0 / 512;
 
     private const double FarLess = 1.0 / 64;
     private const double FewTicks = 16;
 
-    /// <summary>Who has been asked for less often in a shell gets a larger one next, and who more often a smaller one.</summary>
+    /// <summary>A body with fewer predictions than this in a shell gets a larger one next, and one with more a smaller one.</summary>
     private const int FewPredictions = 6;
     private const int ManyPredictions = 24;
     private const double Larger = 1.25;
@@ -52,16 +55,16 @@ internal class NeighbourLists : IBroadPhase
     private readonly FoundSlots found;
     private readonly ManyLists<int> lists;
     private Stay[] stays;
-    private int lookingBack; // how many have others in their lists who may not have them in theirs: those whose shells were made in a heal
+    private int lookingBack; // the number of bodies with one-sided neighbours: their shells were made in a heal, so the others may not list them
 
-    /// <summary>An empty index.</summary>
+    /// <summary>Empty neighbour lists.</summary>
     /// <param name="timelines">The paths.</param>
     /// <param name="cell">The least size of a cell, in metres: about two diameters of most bodies.</param>
     /// <param name="speed">How fast most bodies are at most, in m/s.</param>
-    /// <param name="near">How far apart two bodies may be, in metres, that are still candidates.</param>
+    /// <param name="near">The largest distance, in metres, at which two bodies are still candidates.</param>
     /// <param name="tickLength">How far a body moves in a tick at most, in metres.</param>
-    /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    /// <param name="expected">For how many bodies there is room at first.</param>
+    /// <param name="box">The periodic box; empty if there is none.</param>
+    /// <param name="expected">The number of bodies that there is room for at first.</param>
     internal NeighbourLists(TimelineStore timelines, double cell, double speed, double near, double tickLength, in PeriodicBox box, int expected = 0)
     {
         this.timelines = timelines;
@@ -69,7 +72,7 @@ internal class NeighbourLists : IBroadPhase
         this.near = near;
         this.box = box;
         tick = tickLength;
-        double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // of the two the first if nobody moves
+        double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // the first of the two if no body moves
         shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, shortest);
         CellGrid grid = new(cell, box);
         found = new FoundSlots(expected);
@@ -148,7 +151,7 @@ internal class NeighbourLists : IBroadPhase
 
     public void DropBefore(SimTime edge) => past.DropBefore(edge);
 
-    /// <summary>Makes the body's shell anew around where it is, and its list with it.</summary>
+    /// <summary>Makes a new shell around the body's present place, and its list.</summary>
     private void Move(int slot, double radius, in MotionSegment path, in DenseOutput dense, SimTime from, long heal)
     {
         ref Stay stay = ref stays[slot];
@@ -190,7 +193,7 @@ internal class NeighbourLists : IBroadPhase
             {
                 if (other != slot)
                 {
-                    lists.Add(slot, other); // who was there looks no more
+                    lists.Add(slot, other); // the past body takes no further part
                 }
             }
         }
@@ -207,8 +210,8 @@ internal class NeighbourLists : IBroadPhase
     }
 
     /// <summary>
-    /// Takes the body out of its cell, and out of the lists of others. Not out of those that the heal at hand has made: this one may be
-    /// ahead of their bodies, which then still have to meet it where it was.
+    /// Removes the body from its cell, and from the lists of others. It stays in lists that the current heal has made: it may be ahead of
+    /// their bodies, which then still have to meet it where it was.
     /// </summary>
     private void Leave(int slot, long heal)
     {
@@ -231,7 +234,9 @@ internal class NeighbourLists : IBroadPhase
     /// <summary>Whether a list that a heal has made keeps a body that the same heal moves on.</summary>
     private protected virtual bool KeepsListsOfOneHeal => true;
 
-    /// <summary>A shell around where a path is, so wide, but no wider than fits the cells, unless the path would lead out of it in no time.</summary>
+    /// <summary>
+    /// A shell around where a path is, so wide, but no wider than fits the cells, unless the path would lead out of it in no time.
+    /// </summary>
     private Shell NewShell(in MotionSegment path, in DenseOutput dense, SimTime at, double radius, double wanted)
     {
         double seconds = at.SecondsSince(path.Epoch);
@@ -260,7 +265,7 @@ internal class NeighbourLists : IBroadPhase
         internal Shell Shell;
         internal ulong Cell; // that the shell is listed in
         internal SimTime From;
-        internal SimTime LookedTo; // up to when it was looked at what others did, if that was in a heal
+        internal SimTime LookedTo; // up to when other bodies' paths were tested, if that was in a heal
         internal double Radius; // of the body
         internal double Wanted; // how far it may stray
         internal long Heal; // the heal in which the shell was made, or 0

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.BroadPhase;
 
-/// <summary>The shells that bodies have left, by when and where, back to the edge of the history: who was where, for what is healed.</summary>
+/// <summary>
+/// The shells that bodies have left, by time and place, back to the edge of the history. Heals use them to find where bodies were.
+/// </summary>
 internal sealed class PastShells
 {
     private readonly SlabRing slabs = new();
@@ -11,7 +13,7 @@ internal sealed class PastShells
     private readonly PeriodicBox box;
     private readonly double widestInCells;
 
-    /// <summary>Nobody yet; of the same cells as the <see cref="PresentShells"/>.</summary>
+    /// <summary>No body yet; of the same cells as the <see cref="PresentShells"/>.</summary>
     internal PastShells(CellGrid grid, in PeriodicBox box, double widestInCells)
     {
         this.grid = grid;
@@ -24,8 +26,8 @@ internal sealed class PastShells
         slabs.Get(SlabRing.NumberOf(until)).Add(cell, new Stay(slot, shell, from, until));
 
     /// <summary>
-    /// The same of what is healed, which as a rule is where it was before: one entry is made to stand for both, if it can, so that what is healed again and
-    /// again does not fill the cells.
+    /// The same for a body in a heal, which as a rule is where it was before: one entry covers both, if it can, so that repeated heals do
+    /// not fill the cells.
     /// </summary>
     internal void AddAgain(ulong cell, int slot, in Shell shell, SimTime from, SimTime until)
     {
@@ -47,7 +49,7 @@ internal sealed class PastShells
         slab.Add(cell, new Stay(slot, shell, from, until));
     }
 
-    /// <summary>What lies before that time is asked for no more.</summary>
+    /// <summary>Nothing before that time will be asked for again.</summary>
     internal void DropBefore(SimTime edge) => slabs.DropBefore(edge);
 
     /// <summary>Finds whose shells came within a distance of another shell at any time of a span.</summary>

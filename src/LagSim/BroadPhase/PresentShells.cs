@@ -4,13 +4,15 @@ using LagSim.Scenes;
 
 namespace LagSim.BroadPhase;
 
-/// <summary>The shells that bodies are in now, by the cells that their centres are in; those that are too wide for the cells apart.</summary>
+/// <summary>
+/// The shells that bodies are in now, by the cells that their centres are in; those that are too wide for the cells apart.
+/// </summary>
 internal sealed class PresentShells
 {
     /// <summary>The cell of what is too wide for any; no place has this number.</summary>
     internal const ulong Wide = ulong.MaxValue;
 
-    /// <summary>Who would have to look into more cells looks at everybody.</summary>
+    /// <summary>The number of cells beyond which a search tests all bodies instead.</summary>
     internal const double MostCells = 512;
 
     private const int FewestLists = 64;
@@ -24,11 +26,11 @@ internal sealed class PresentShells
     private int listed;
     private double widest; // extent of what has been in cells
 
-    /// <summary>Nobody yet.</summary>
+    /// <summary>No body yet.</summary>
     /// <param name="grid">The cells.</param>
-    /// <param name="box">The box whose sides meet; empty if there is none.</param>
+    /// <param name="box">The periodic box; empty if there is none.</param>
     /// <param name="widestInCells">The extent, in metres, above which a shell is in no cell.</param>
-    /// <param name="expected">For how many bodies there are lists at first.</param>
+    /// <param name="expected">The number of bodies that there are lists for at first.</param>
     internal PresentShells(CellGrid grid, in PeriodicBox box, double widestInCells, int expected)
     {
         int lists = FewestLists;
@@ -142,13 +144,15 @@ internal sealed class PresentShells
         }
     }
 
-    /// <summary>Whether a place in the box is so far from all its sides that whoever is no further than that from it is so without a way around.</summary>
+    /// <summary>
+    /// Whether a place in the box is so far from all its sides that everything within that distance is reached without crossing a side.
+    /// </summary>
     private bool IsInside(in Vector3D place, double far) =>
         !box.Exists || (place.X > far && place.X < sides.X - far && place.Y > far && place.Y < sides.Y - far && place.Z > far && place.Z < sides.Z - far);
 
     /// <summary>
-    /// The same among those of one list that are of a cell, by the straight way. Whether one is found is no branch, for nobody can foretell it; and how many
-    /// are is kept in a register.
+    /// The same among the entries of one list that belong to a cell, by the straight way. Whether one is found is not a branch, because it
+    /// cannot be predicted; the count is kept in a register.
     /// </summary>
     private static void LookIn(Span<Entry> entries, ulong cell, in Vector3D place, double reach, FoundSlots found)
     {
@@ -185,7 +189,7 @@ internal sealed class PresentShells
 
     private int Bucket(ulong number) => CellGrid.Bucket(number, cells.Count);
 
-    /// <summary>Twice as many lists, for there are more bodies than lists.</summary>
+    /// <summary>Doubles the lists, because there are more bodies than lists.</summary>
     private void Spread()
     {
         ManyLists<Entry> before = cells;
@@ -199,7 +203,7 @@ internal sealed class PresentShells
         }
     }
 
-    /// <summary>What is looked at of another's shell.</summary>
+    /// <summary>The part of another body's shell that a search reads.</summary>
     private readonly struct Entry
     {
         private readonly double x;
@@ -228,7 +232,9 @@ internal sealed class PresentShells
             return !((u * u) + (v * v) + (w * w) > both * both);
         }
 
-        /// <summary>Whether it comes so near to a place in the box, by whichever way is the shortest; without a branch for that either.</summary>
+        /// <summary>
+        /// Whether it comes so near to a place in the box, by whichever way is the shortest; without a branch for that either.
+        /// </summary>
         internal bool IsWithin(double fromX, double fromY, double fromZ, double reach, in Vector3D sides)
         {
             double u = Math.Abs(x - fromX), v = Math.Abs(y - fromY), w = Math.Abs(z - fromZ);

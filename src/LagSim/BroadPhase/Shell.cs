@@ -8,7 +8,7 @@ namespace LagSim.BroadPhase;
 /// <summary>A ball in which a body's centre stays for a while, whatever it does there: the shell of a Verlet list.</summary>
 internal readonly struct Shell
 {
-    /// <summary>What rounding may have moved, in parts of a coordinate or of the shell's radius: thousands of times of what it does.</summary>
+    /// <summary>A bound on rounding, relative to a coordinate or the shell's radius: thousands of times the true rounding.</summary>
     private const double Slack = 1e-12;
 
     internal Shell(in Vector3D centre, double stray, double radius)
@@ -35,8 +35,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// Until when a path surely stays in the shell, seen from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if as long as
-    /// the path goes, the time itself if it is outside, or so near to the edge that it cannot be told.
+    /// The time until which a path surely stays in the shell, from a time at which it may be in it: <see cref="SimTime.MaxValue"/> if for
+    /// the whole path, and the time itself if it is outside, or too near the edge to be certain.
     /// </summary>
     internal SimTime Leaves(in MotionSegment path, in DenseOutput dense, SimTime from, in PeriodicBox box)
     {
@@ -55,8 +55,8 @@ internal readonly struct Shell
     }
 
     /// <summary>
-    /// The largest acceleration, or more, that a path has so many seconds after its epoch and for a span after that, but not after
-    /// its end: a polynomial says nothing there, and where forces are strong it ends soon.
+    /// An upper bound on the acceleration of a path from some seconds after its epoch and for a span after that, but not after its end: a
+    /// polynomial means nothing there, and where forces are strong it ends soon.
     /// </summary>
     internal static double LargestAcceleration(in MotionSegment path, in DenseOutput dense, double seconds, double span)
     {
@@ -70,11 +70,11 @@ internal readonly struct Shell
         return largest;
     }
 
-    // A tick more, for what happens at the last one may lie half of one after it.
+    // A tick more, because an event at the last one may lie half of one after it.
     private static double SecondsLeft(in MotionSegment path, double seconds) =>
         path.IsDense ? Math.Max(0, path.End.SecondsSince(path.Epoch) - seconds) + TickConversion.SecondsPerTick : double.PositiveInfinity;
 
-    // A tick less, for what happens at a tick may lie half of one after it.
+    // A tick less, because an event at a tick may lie half of one after it.
     private static SimTime Later(SimTime from, double seconds)
     {
         double ticks = Math.Floor(seconds * SimDuration.TicksPerSecond) - 1;

@@ -5,7 +5,8 @@ using LagSim.Time;
 namespace LagSim.BroadPhase;
 
 /// <summary>
-/// Time in slabs of an eighth of a second, each with a table of what is listed in which cell then; old slabs are dropped as a whole and used again.
+/// Time in slabs of an eighth of a second, each with a table of what is listed in which cell then; old slabs are dropped as a whole and
+/// used again.
 /// </summary>
 internal sealed class SlabRing
 {
@@ -31,10 +32,10 @@ internal sealed class SlabRing
         return from;
     }
 
-    /// <summary>A slab in which somebody may be listed; null for any other.</summary>
+    /// <summary>A slab in which a body may be listed; null for any other.</summary>
     internal CellTable<PastShells.Stay>? Find(long number) => number >= first && number < first + count ? slabs[number - first] : null;
 
-    /// <summary>A slab, to list somebody in it.</summary>
+    /// <summary>A slab, to list a body in it.</summary>
     internal CellTable<PastShells.Stay> Get(long number)
     {
         first = count == 0 ? number : first;

@@ -12,6 +12,6 @@ internal readonly struct Approach
 
     internal int Slot { get; }
 
-    /// <summary>So many seconds after the time that was asked from it is not touched yet.</summary>
+    /// <summary>The seconds after the queried time during which there is no touch yet.</summary>
     internal double Seconds { get; }
 }

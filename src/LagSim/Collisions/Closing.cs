@@ -2,12 +2,12 @@ using System;
 
 namespace LagSim.Collisions;
 
-/// <summary>How two that touch close on each other, and how far that can be told.</summary>
+/// <summary>How two touching bodies close on each other, and how precisely that is known.</summary>
 /// <param name="speed">How fast they close, in m/s; negative where they part.</param>
 /// <param name="pressing">How fast that grows, in m/s².</param>
 /// <param name="speedOfBoth">How fast the two move, in m/s, added up.</param>
 /// <param name="gap">How far apart they are, in metres; negative where they overlap.</param>
-/// <param name="rounding">What the gap may be off by because places are rounded, in metres.</param>
+/// <param name="rounding">The error of the gap because places are rounded, in metres.</param>
 internal readonly struct Closing(double speed, double pressing, double speedOfBoth, double gap, double rounding)
 {
     /// <summary>
@@ -28,9 +28,9 @@ internal readonly struct Closing(double speed, double pressing, double speedOfBo
     internal bool IsRounding { get; } = speed <= SolverRounding * speedOfBoth;
 
     /// <summary>
-    /// How much deeper, in metres, the two may get unseen where no island holds them: until they are a thousandth of the resolution deep. What
-    /// rounding makes close has all of that from where it is; what closes by more has what is left of it, else a light body between two that
-    /// close goes to and fro for ever.
+    /// How much deeper, in metres, the two may get without an impact where no island holds them: until they are a thousandth of the
+    /// resolution deep. Contacts that close only by rounding have all of that from where they are. Contacts that close by more have what is
+    /// left of it; otherwise a light body between two that close would go to and fro for ever.
     /// </summary>
     internal double Room(double resolution) => Math.Max(0, (IsRounding ? 0 : Math.Min(0, Gap)) + (1e-3 * resolution));
 }

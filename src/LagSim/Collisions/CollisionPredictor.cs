@@ -9,8 +9,10 @@ using LagSim.Timelines;
 namespace LagSim.Collisions;
 
 /// <summary>When a body's newest segment next meets a static surface or another's path.</summary>
-/// <remarks>A pure function of the segments, of two bodies ordered by identity; never of the time of day, of who asks first, or of what
-/// is asked besides.</remarks>
+/// <remarks>
+/// A pure function of the segments, with the two bodies ordered by identity. It does not depend on the time of day, on which body asks
+/// first, or on other queries.
+/// </remarks>
 internal sealed class CollisionPredictor(
     Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, PathView view, MemberContacts members,
     StrikeCounts strikes, ContactScale scale, bool hasIslands)
@@ -36,7 +38,7 @@ internal sealed class CollisionPredictor(
         bool isPlane = surfaces.IsPlane(surface);
         if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)))
         {
-            return false; // what carries a body stays below it until something else happens, and nothing static stops a hand
+            return false; // the surface that carries a body stays below it until another event, and nothing static stops a hand
         }
 
         if (segment.Law == MotionLaw.Constrained && (members.IsOutOfReach(slot, segment, surface) || members.IsCovered(slot, last, surface)))
@@ -48,8 +50,7 @@ internal sealed class CollisionPredictor(
         SimTime from = opened;
         if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
         {
-            // A path taken over from an event that came late: looked at from where it began, the root has the bits that it has on other
-            // peers.
+            // A path taken over from an event that came late: solved from its beginning, the root has the bits that it has on other peers.
             return true;
         }
 
@@ -109,8 +110,8 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// The next contact of a body's newest segment with another body's path: with its newest piece, or, where that body is ahead of what is
-    /// being healed, with the first piece until then that is touched before what ended it.
+    /// The next contact of a body's newest segment with another body's path: with its newest segment or, where that body is ahead of the
+    /// heal, with the first segment until then that is touched before it ended.
     /// </summary>
     internal bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
     {
@@ -139,7 +140,7 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// The next contact of a body's newest segment with a piece of another's path; a pure function of the two, ordered by identity.
+    /// The next contact of a body's newest segment with a segment of another body; a pure function of the two, ordered by identity.
     /// </summary>
     internal bool TryTouchBody(int slot, int other, int piece, out ContactTime contact, out uint round)
     {
@@ -252,9 +253,9 @@ internal sealed class CollisionPredictor(
         path.At(path.Position + (box.Nearest(at - point) - (at - point)));
 
     /// <summary>
-    /// How long a contact that closes from the opening of its segments on needs not be looked for: so slow, as rounding leaves it, or a
-    /// step's sweeps where it holds, that it uses up its room only then. An elastic one has what is left of that room, for no step makes up
-    /// for what its impacts leave. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
+    /// How long the search for a contact that closes from the opening of its segments on can wait. It closes so slowly, as rounding leaves
+    /// it, or a step's sweeps where it holds, that it uses up its room only then. An elastic contact has what is left of that room, because
+    /// no step makes up for what its impacts leave. If that is sooner than <see cref="ContactTime.Soon"/> it may have to be struck at once.
     /// </summary>
     private SimDuration WaitFor(in Closing closing, bool holds, bool isElastic)
     {
@@ -275,7 +276,7 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// From when on it is looked for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
+    /// When it is searched for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
     private static SimTime LookAgain(SimTime opened, SimTime end, SimDuration wait)
     {
@@ -291,7 +292,8 @@ internal sealed class CollisionPredictor(
         closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
 
     /// <summary>
-    /// Whether a body closes on a surface that is no further off than places are rounded: no path can tell the instant, so it is this one.
+    /// Whether a body closes on a surface that is no further off than places are rounded. No path can resolve the instant, so it is this
+    /// one.
     /// </summary>
     private bool ClosesAtOnce(int slot, int piece, int surface, SimTime opened)
     {
@@ -313,7 +315,7 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// What a gap may be off by because places are rounded, in metres: four roundings of a double, 2^-52 each, of what is summed.
+    /// The error of a gap because places are rounded, in metres: four roundings of a double, 2^-52 each, of the summed terms.
     /// </summary>
     private static double RoundingOf(in Vector3D position, double reach) =>
         4.0 / (1L << 52) * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);

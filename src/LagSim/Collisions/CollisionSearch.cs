@@ -7,15 +7,16 @@ using LagSim.Timelines;
 namespace LagSim.Collisions;
 
 /// <summary>
-/// Finds the next contact among candidates: of a body in free flight from what is side by side, of any other by a look at everybody.
+/// Finds the next contact among candidates: for a body in free flight from the packed flight data, for any other by testing every
+/// candidate.
 /// </summary>
 internal class CollisionSearch(
     BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
     StepMarks stepMarks)
 {
     /// <summary>
-    /// The next contact of a body in free flight. From the flights it is seen which of the others come near at all, and from when on; so
-    /// only those are looked at that may be the first, and that is one as a rule. It finds what <see cref="FindAlong"/> finds, to the bit.
+    /// The next contact of a body in free flight. The packed flights show which other bodies come near at all, and from when on. So only
+    /// those that may be first are tested, as a rule one. The result is that of <see cref="FindAlong"/>, to the bit.
     /// </summary>
     internal virtual void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next)
     {
@@ -50,7 +51,7 @@ internal class CollisionSearch(
         }
     }
 
-    /// <summary>The next contact of a body on any path, and with anybody who may be ahead of what is being healed.</summary>
+    /// <summary>The next contact of a body on any path, and with any body that may be ahead of the heal.</summary>
     internal void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next)
     {
         for (int surface = 0; surface < surfaces.Count; surface++)
@@ -91,7 +92,7 @@ internal class CollisionSearch(
     }
 
     /// <summary>
-    /// The same of one in free flight, without a look at the segments unless the two touch as soon as both paths are open.
+    /// The same for a body in free flight, without reading the segments unless the two touch as soon as both paths are open.
     /// </summary>
     private void ConsiderFlights(int slot, int other, bool isClose, SimTime until, ref NextEvent next)
     {

@@ -7,7 +7,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Collisions;
 
-/// <summary>Finds each body's next event, and has it scheduled: the least of an external event, the end of a segment, and a contact.</summary>
+/// <summary>
+/// Finds each body's next event, and has it scheduled: the least of an external event, the end of a segment, and a contact.
+/// </summary>
 /// <remarks>A body has one event pending at most; its next contact is never earlier than that.</remarks>
 internal class EventPredictor(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
@@ -47,7 +49,9 @@ internal class EventPredictor(
     /// </summary>
     internal virtual void Recheck(int slot) => Predict(slot);
 
-    /// <summary>Whether the segment of the partner's path that the pending impact was found with is no longer what the partner is on then.</summary>
+    /// <summary>
+    /// Whether the segment of the partner's path that the pending impact was found with is no longer what the partner is on then.
+    /// </summary>
     internal bool IsStale(int slot, in EventKey key)
     {
         int partner = scheduler.Contact(slot).Partner;
@@ -103,7 +107,9 @@ internal class EventPredictor(
         }
     }
 
-    /// <summary>With which segment of its partner a contact stands that was found with one that is not its newest: with that very one.</summary>
+    /// <summary>
+    /// The partner's segment of a contact that was found with a segment that is not the partner's newest: that very segment.
+    /// </summary>
     private protected virtual int StandsWith(int partner, int piece) => piece;
 
     private void Set(int slot, in NextEvent next, int partner, int piece, bool isTied)

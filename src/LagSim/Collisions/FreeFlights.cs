@@ -7,30 +7,27 @@ using LagSim.Timelines;
 
 namespace LagSim.Collisions;
 
-/// <summary>
-/// Of each body whose newest piece of path is free flight under the scene's gravity what is needed of it, side by side: two of them move along a straight
-/// line as seen from each other, so that most pairs are seen at once to stay apart. So do two that rest or slide straight on.
-/// </summary>
-/// <remarks>
-/// It answers no in doubt, and then the pair is looked at as ever; so it changes no bit of what happens. It is there for speed alone: a look at a pair's
-/// segments is several loads from far apart, and nearly all pairs that an index names do not meet.
-/// </remarks>
+/// <summary>The packed data of each body whose newest segment is free flight under the scene's gravity. Seen from each other, two such
+/// bodies move along a straight line, so most pairs are quickly found to stay apart. So are two that rest or slide straight on.</summary>
+/// <remarks>In doubt it answers no, and the pair is then tested in the general way, so it changes no bit of the result. It only saves time:
+/// reading a pair's segments takes several loads from far apart, and nearly all pairs that a broad phase names do not meet.</remarks>
 internal sealed class FreeFlights : INewestSegments
 {
-    /// <summary>What rounding may have moved, in parts of what was added up; four thousand times of what it does.</summary>
+    /// <summary>A bound on rounding, relative to the summed terms; four thousand times the true rounding.</summary>
     private const double Slack = 1e-12;
 
     /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
     private const double Parting = 1e-9;
 
-    /// <summary>What rounding does to the square of a distance, and to that of a miss, in parts of the distance's; thirty times of it.</summary>
+    /// <summary>A bound on the rounding of the square of a distance, and of a miss, relative to the distance's square; thirty times the
+    /// true rounding.</summary>
     private const double FarSlack = 1e-14;
 
     private readonly Vector3D gravity;
     private readonly PeriodicBox box;
     private readonly double near;
     private readonly double sunk;
-    private readonly Vector3D halfBox; // its sides by two; endless if there is none
+    private readonly Vector3D halfBox; // half its sides; infinite if there is none
     private readonly bool hasBox;
     private readonly bool falls;
     private Flight[] flights;
@@ -38,12 +35,12 @@ internal sealed class FreeFlights : INewestSegments
     private Approach[] approaches = Array.Empty<Approach>();
     private SimTime[] straightFrom = Array.Empty<SimTime>(); // only once something rests or slides: since when on a line, or never
 
-    /// <summary>Nobody yet.</summary>
+    /// <summary>No body yet.</summary>
     /// <param name="gravity">The acceleration of free flight, in m/s².</param>
-    /// <param name="near">How far apart two may be, in metres, that are not to be called apart.</param>
-    /// <param name="box">The box whose sides meet; empty if there is none.</param>
-    /// <param name="expected">For how many bodies there is room at first.</param>
-    /// <param name="sunk">How deep two may be in each other, in metres, without a closer look, though they do not close.</param>
+    /// <param name="near">The largest distance, in metres, at which two bodies do not count as apart.</param>
+    /// <param name="box">The periodic box; empty if there is none.</param>
+    /// <param name="expected">The number of bodies that there is room for at first.</param>
+    /// <param name="sunk">The largest overlap of two bodies, in metres, that needs no closer test while they do not close.</param>
     internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0, double sunk = double.PositiveInfinity)
     {
         flights = new Flight[expected];
@@ -78,7 +75,7 @@ internal sealed class FreeFlights : INewestSegments
         flights[slot].Margin = MarginOf(slot);
     }
 
-    /// <summary>The body's newest piece of path, and when it was opened.</summary>
+    /// <summary>The body's newest segment, and when it was opened.</summary>
     public void Set(int slot, in MotionSegment path, SimTime opened)
     {
         ref Flight flight = ref flights[slot];
@@ -104,11 +101,10 @@ internal sealed class FreeFlights : INewestSegments
         }
     }
 
-    /// <summary>
-    /// Whether two bodies surely come nowhere near each other from a time on, on the pieces of path that are their newest, those opened by then; false if it
-    /// cannot be told so easily. A tick more on both sides is looked at. It is told of free flights and of those who rest or slide straight on; of one of each
-    /// where they begin at rest to each other, or come no nearer within the span however the one falls.
-    /// </summary>
+    /// <summary>Whether two bodies surely stay apart from a time on, on their newest segments, opened by then; false if that is not easily
+    /// decided. A tick more on both sides is included. It is decided for two free flights, and for two bodies that rest or slide straight
+    /// on. For one of each it is decided where they begin at rest to each other, or come no nearer within the span however the one
+    /// falls.</summary>
     internal bool AreApart(int slot, int other, SimTime from, SimTime until)
     {
         bool isFree = IsFree(slot);
@@ -172,7 +168,8 @@ internal sealed class FreeFlights : INewestSegments
     /// <summary>Since when the body rests or slides straight on; never if it does not.</summary>
     private SimTime StraightFrom(int slot) => slot < straightFrom.Length ? straightFrom[slot] : SimTime.MaxValue;
 
-    /// <summary>Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the reach.</summary>
+    /// <summary>Where a body is so many seconds after its path was opened, and how fast; what rounding may do to it there widens the
+    /// reach.</summary>
     private void StateAt(
         in Flight flight, double since, bool isFalling, ref double reach, out double x, out double y, out double z, out double u, out double v, out double w)
     {
@@ -208,13 +205,12 @@ internal sealed class FreeFlights : INewestSegments
         straightFrom[slot] = from;
     }
 
-    /// <summary>Whether the body's newest piece of path is free flight.</summary>
+    /// <summary>Whether the body's newest segment is free flight.</summary>
     internal bool IsFree(int slot) => flights[slot].From != SimTime.MaxValue;
 
-    /// <summary>
-    /// Which of the others a body in free flight may touch in a span that begins at its opening or later, and from when on: in seconds from the beginning,
-    /// never too many. Nobody is left out who is touched; who is not in free flight may be touched at once.
-    /// </summary>
+    /// <summary>Which of the other bodies a body in free flight may touch in a span that begins at its opening or later, and from when on:
+    /// in seconds from the beginning, never too many. No body that is touched is left out. A body that is not in free flight may be touched
+    /// at once.</summary>
     internal Span<Approach> Approaches(int slot, Span<int> others, SimTime from, SimTime until)
     {
         if (others.Length > approaches.Length)
@@ -282,18 +278,19 @@ internal sealed class FreeFlights : INewestSegments
                 bool misses = beyond * square > along * along;
                 if (parts | misses)
                 {
-                    continue; // asked at once: which of the two it is nobody can foretell, that it is one of them nearly always can be
+                    continue; // one test: which of the two holds cannot be predicted, but that one of them holds nearly always can
                 }
 
                 double nearest = -along / square;
                 double miss = Square(x + (u * nearest), y + (v * nearest), z + (w * nearest));
                 double seconds = nearest - Math.Sqrt(Math.Max(0, (limit + (FarSlack * distance)) - miss) / square);
                 into[count] = new Approach(other, seconds);
-                count += seconds > span ? 0 : 1; // no branch: nobody can foretell it, and it would wait for the root
+                count += seconds > span ? 0 : 1; // no branch: it cannot be predicted, and it would wait for the root
             }
             else if (other != slot)
             {
-                // What the finder makes of the two at the later opening, of the very signs: they part, and by far more than rounding can turn around.
+                // The narrow phase's result for the two at the later opening, by the same signs: they part, by far more than rounding can
+                // reverse.
                 double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
                 double query = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
                 if (!((isOpened || b.From == from) && along > query))
@@ -306,7 +303,7 @@ internal sealed class FreeFlights : INewestSegments
         return into.Slice(0, count);
     }
 
-    /// <summary>Where a body in free flight is at a tick and so many seconds after it, and how fast: the bits that its segment tells.</summary>
+    /// <summary>The place and velocity of a body in free flight at a tick plus some seconds: the same bits as its segment gives.</summary>
     internal void StateAt(int slot, SimTime time, double after, out Vector3D position, out Vector3D velocity)
     {
         ref readonly Flight flight = ref flights[slot];
@@ -315,10 +312,9 @@ internal sealed class FreeFlights : INewestSegments
         velocity = flight.Velocity + (gravity * seconds);
     }
 
-    /// <summary>
-    /// Whether two bodies in free flight touch, however late, and when: the bits that <see cref="TimeOfImpact"/> tells of their segments, the body of lesser
-    /// identity first. False if they touch so soon after both hold that more has to be looked at.
-    /// </summary>
+    /// <summary>Whether two bodies in free flight touch, however late, and when: the bits that <see cref="TimeOfImpact"/> gives for their
+    /// segments, with the body of lesser identity first. False if they touch so soon after both hold that the general way is
+    /// needed.</summary>
     internal bool TryTouch(int first, int second, out bool touches, out ContactTime contact)
     {
         ref readonly Flight a = ref flights[first];
@@ -338,7 +334,8 @@ internal sealed class FreeFlights : INewestSegments
         return !touches || !contact.IsSoonAfter(from);
     }
 
-    /// <summary>Whether two bodies in free flight are so deep in each other, once both are open, that it has to be looked whether they part.</summary>
+    /// <summary>Whether two bodies in free flight are so deep in each other, once both are open, that it has to be looked whether they
+    /// part.</summary>
     internal bool AreSunk(int first, int second)
     {
         ref readonly Flight a = ref flights[first];
@@ -375,7 +372,8 @@ internal sealed class FreeFlights : INewestSegments
         return least > slack + (TickConversion.SecondsPerTick * Math.Abs(opening)); // not so of what is not a number
     }
 
-    /// <summary>The radius, and how far rounding and a tick may move a body in flight that it is told of at another time, but for what it falls.</summary>
+    /// <summary>The radius, plus how far rounding and a tick may move a body in flight that is read at another time, apart from its
+    /// fall.</summary>
     private double MarginOf(int slot) =>
         radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
 

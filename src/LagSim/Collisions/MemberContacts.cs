@@ -8,15 +8,15 @@ using LagSim.Timelines;
 
 namespace LagSim.Collisions;
 
-/// <summary>Which contacts of members are their steps' affair, so that no impact is looked for.</summary>
+/// <summary>Decides which contacts of members are left to their steps, so that no impact is searched for.</summary>
 internal sealed class MemberContacts(TimelineStore timelines, PathView view, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
 {
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Whether a contact that a member's piece carries is the step's affair and no impact's: a surface that the step took into account, or
-    /// an impact by a hand, which may press no further, or that the member does not close on. What a step's solver leaves is an error of
-    /// the step, which the next goes on from.
+    /// Whether a contact that a member's segment carries is left to the step, not to impacts: a surface that the step took into account, or
+    /// one that an impact by a hand did, which may press no further, or that the member does not close on. What a step's solver leaves is
+    /// an error of the step, and the next continues from it.
     /// </summary>
     internal bool IsCovered(int slot, int piece, int surface)
     {
@@ -32,15 +32,15 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>
-    /// Whether the impact that opened a piece solved a contact that it carries: one that holds, but for an elastic one, which impacts do
-    /// not go on over.
+    /// Whether the impact that opened a segment solved a contact that it carries: one that holds, except an elastic one, which impacts do
+    /// not pass over.
     /// </summary>
     private bool IsSolved(int slot, int piece, int contact) =>
         timelines.Key(piece).Kind == EventKind.Impact && timelines.Carried.At(contact).Holds && !IsElastic(slot, timelines.Carried.At(contact));
 
     /// <summary>
-    /// Whether the impact that opened a member's piece was one with a hand that the member touches. A world that began from a snapshot may
-    /// know the hand's path only from a later piece on; then that one tells.
+    /// Whether the impact that opened a member's segment was one with a hand that the member touches. A world that began from a snapshot
+    /// may know the hand's path only from a later segment on; then that segment decides.
     /// </summary>
     private bool IsOpenedWithHand(int piece)
     {
@@ -70,7 +70,9 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
         return gap > 0 && gap * gap > chord.Velocity.LengthSquared * way * way + (scale.Length * scale.Length * 1e-6);
     }
 
-    /// <summary>The same of two bodies: pieces of one step or impact, or such that do not close where the later one begins.</summary>
+    /// <summary>
+    /// The same for two bodies: segments of one step or impact, or segments that do not close where the later one begins.
+    /// </summary>
     internal bool IsCovered(int slot, int piece, int other, int otherPiece)
     {
         if (paths.IsHeld(otherPiece))
@@ -106,7 +108,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
     }
 
     /// <summary>
-    /// The same of a hand, which may speed up, and a member: neither where the later piece begins nor where the step ends do they close.
+    /// The same for a hand, which may speed up, and a member: they close neither where the later segment begins nor where the step ends.
     /// </summary>
     private bool IsCoveredFromHand(int hand, int handPiece, int piece)
     {

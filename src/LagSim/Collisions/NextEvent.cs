@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Collisions;
 
-/// <summary>The least of what has been considered, and whom it is with.</summary>
+/// <summary>The least event considered so far, and its partner.</summary>
 internal struct NextEvent
 {
     internal bool Any;
@@ -15,8 +15,8 @@ internal struct NextEvent
     internal bool IsTied; // something else was considered at that tick
 
     /// <summary>
-    /// Up to when contacts may come before what was considered: those that come soon may be at once (<see
-    /// cref="ContactTime.IsSoonAfter"/>).
+    /// The time up to which contacts may come before those considered so far: contacts that come soon may be at once
+    /// (<see cref="ContactTime.IsSoonAfter"/>).
     /// </summary>
     internal readonly SimTime Horizon(SimTime from, SimTime until) =>
         Any ? SimTime.Min(until, SimTime.Max(Key.Time, from + ContactTime.Soon)) : until;

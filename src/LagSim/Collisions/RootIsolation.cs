@@ -17,9 +17,9 @@ internal static class RootIsolation
     private const int MaxRefinements = 100;
 
     /// <summary>
-    /// The least t in [0, <paramref name="length"/>] at which f &lt;= 0 while f falls; NaN if there is none. Overlapping and closing at 0 is 0;
-    /// touching without speed but pressing (f = f' = 0 > f'' where the first derivative that is not zero is negative) is closing; overlapping
-    /// and opening is left alone until f falls again.
+    /// The least t in [0, <paramref name="length"/>] at which f &lt;= 0 while f falls; NaN if there is none. Overlapping and closing at 0
+    /// is 0; touching without speed but pressing (f = f' = 0 > f'' where the first derivative that is not zero is negative) is closing;
+    /// overlapping and opening is left alone until f falls again.
     /// </summary>
     /// <param name="f">Coefficients by ascending power; is overwritten.</param>
     /// <param name="length">The length of the interval, above zero and finite.</param>

@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Collisions;
 
 /// <summary>
-/// The bodies that the contact step at hand has opened and that strike nobody of it: nobody needs to look whether they meet.
+/// The bodies that the current contact step has opened and that strike no other body of it: pairs of them need no test.
 /// </summary>
 /// <remarks>Cost: O(1), also of clearing. Allocates only when there are more bodies than ever before.</remarks>
 internal sealed class StepMarks

@@ -6,13 +6,15 @@ using LagSim.Timelines;
 
 namespace LagSim.Collisions;
 
-/// <summary>How often two were struck within one instant while they did not part: the clock cannot tell such impacts apart.</summary>
-/// <remarks>A pure function of the segments that it is asked of.</remarks>
+/// <summary>
+/// The number of times two bodies were struck within one instant while they did not part: the clock cannot distinguish such impacts.
+/// </summary>
+/// <remarks>A pure function of the segments given.</remarks>
 internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, StaticSurfaces surfaces, PeriodicBox box)
 {
     /// <summary>
-    /// What was struck twice in an instant and closes again, slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>. What parts
-    /// slower than this may as well be said to close: rounding decides.
+    /// A contact that was struck twice in an instant and closes again slower than this, in m/s, waits for <see cref="ContactTime.Soon"/>.
+    /// One that parts slower than this may as well count as closing: rounding decides.
     /// </summary>
     internal const double CollapseSpeed = 1e-6;
 
@@ -104,12 +106,12 @@ internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, St
     }
 
     /// <summary>
-    /// What was found out about two pieces of paths: a walk back through an instant ends there. It only saves time, for the same two pieces
-    /// always give the same; without it an instant of many rounds takes their square.
+    /// The cached result for two segments, at which a walk back through an instant ends. It only saves time: the same two segments always
+    /// give the same. Without it the cost of an instant grows with the square of its rounds.
     /// </summary>
     private readonly struct KnownStrikes(long first, long second, int strikes)
     {
-        /// <summary>The serial number of the first piece; those of pieces begin at 0, so that 0 and 0 is nobody.</summary>
+        /// <summary>The serial number of the first segment. Serial numbers begin at 0, so 0 and 0 is no pair.</summary>
         internal readonly long First = first;
 
         /// <summary>That of the second, or the complement of the surface.</summary>

@@ -8,8 +8,8 @@ namespace LagSim.Collisions;
 
 /// <summary>When two paths touch: a pure function of two immutable segments and the instant from which both hold.</summary>
 /// <remarks>
-/// It knows no "now", no order of queries and no index. The two moving bodies come ordered by identity, so that operand order is the same
-/// on every peer. An event is reported only where the gap is at or below zero and closing; see <see cref="RootIsolation"/>.
+/// It knows no "now", no order of queries and no broad phase. The two moving bodies come ordered by identity, so that operand order is the
+/// same on every peer. An event is reported only where the gap is at or below zero and closing; see <see cref="RootIsolation"/>.
 /// </remarks>
 internal static class TimeOfImpact
 {
@@ -80,8 +80,8 @@ internal static class TimeOfImpact
     }
 
     /// <summary>
-    /// The first contact of two parabolas of one acceleration, told by their states so many seconds before <paramref name="from"/>: what the general way makes
-    /// of them, to the bit.
+    /// The first contact of two parabolas of one acceleration, given by their states some seconds before <paramref name="from"/>: the
+    /// result of the general way, to the bit.
     /// </summary>
     internal static bool OfParabolas(
         in Vector3D positionA, in Vector3D velocityA, double sinceA, in Vector3D positionB, in Vector3D velocityB, double sinceB, in Vector3D acceleration,
@@ -110,7 +110,9 @@ internal static class TimeOfImpact
         }
     }
 
-    /// <summary>Relative motion along a straight line: a quadratic whose discriminant is taken from the cross product, exact near a graze.</summary>
+    /// <summary>
+    /// Relative motion along a straight line: a quadratic whose discriminant is taken from the cross product, exact near a graze.
+    /// </summary>
     private static double Linear(in Vector3D d, in Vector3D v, double reach)
     {
         double c = (Vector3D.Dot(d, d)) - (reach * reach);
@@ -136,7 +138,7 @@ internal static class TimeOfImpact
             int terms = SquaredDistance(d, reach, f);
             if (OnlyGrows(f, terms))
             {
-                return double.NaN; // as after some seconds whatever falls away from what does not: the end of time is far
+                return double.NaN; // as when one body has fallen away from one that does not fall for some seconds: the end of time is far
             }
 
             double root = RootIsolation.Find(f.Slice(0, terms), window);

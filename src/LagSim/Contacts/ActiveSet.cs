@@ -117,7 +117,9 @@ internal sealed class ActiveSet
         }
     }
 
-    /// <summary>Takes the contacts whose impulse has come down to nothing out of the active set; the rows from the first of them on are made anew.</summary>
+    /// <summary>
+    /// Removes the contacts whose impulse has fallen to zero from the active set; the rows from the first of them on are made again.
+    /// </summary>
     private int Drop(Span<ContactPoint> contacts, Span<double> masses, Span<double> impulse, int count)
     {
         int kept = 0;

@@ -4,21 +4,22 @@ using LagSim.Scenes;
 namespace LagSim.Contacts;
 
 /// <summary>
-/// The rows of contacts that push, made orthogonal, and what follows from them: the impulses with which each meets its demand, and how they change the
-/// velocities.
+/// The rows of contacts that push, made orthogonal, and what follows from them: the impulses with which each meets its demand, and how they
+/// change the velocities.
 /// </summary>
 /// <remarks>
-/// <para>A contact's row is its part in each body's motion: its normal at the first, the opposite at the second. They are made orthogonal in the space of the
-/// bodies' motions, by modified Gram-Schmidt with 1/mass as weight, rather than by factors of the matrix of their products: where a light body carries a heavy
-/// one, that matrix has already lost the heavy one to rounding. No square roots in what is solved: small integer systems, such as equal masses in a row, stay
-/// exact and a symmetric impact keeps its symmetry.</para>
-/// <para>Cost: a row is made in the rows before it times the bodies. Allocates only when there are more contacts or bodies than ever before.</para>
+/// <para>A contact's row is its part in each body's motion: its normal at the first, the opposite at the second. They are made orthogonal
+/// in the space of the bodies' motions, by modified Gram-Schmidt with 1/mass as weight, rather than by factors of the matrix of their
+/// products: where a light body carries a heavy one, that matrix has already lost the heavy one to rounding. No square roots in what is
+/// solved: small integer systems, such as equal masses in a row, stay exact and a symmetric impact keeps its symmetry.</para>
+/// <para>Cost: a row is made in the rows before it times the bodies. Allocates only when there are more contacts or bodies than ever
+/// before.</para>
 /// </remarks>
 internal sealed class ContactBasis
 {
     /// <summary>
-    /// What is left of a row's part at one body counts as nothing below this share of what was taken away: normals that differ by less than a
-    /// microradian are one. A light body squeezed between two such is held, and not shot out sideways at a million times their speed.
+    /// The remainder of a row's part at one body counts as zero below this share of what was subtracted: normals that differ by less than a
+    /// microradian are one. So a light body squeezed between two such is held, and not shot out sideways at a million times their speed.
     /// </summary>
     private const double Cancelled = 1e-6;
 
@@ -27,11 +28,11 @@ internal sealed class ContactBasis
     private double[] share = Array.Empty<double>(); // row by row: how much of each earlier basis row a contact's row has
     private double[] weight = Array.Empty<double>(); // of a basis row: its square, by 1/mass
     private double[] along = Array.Empty<double>(); // the impulse along each basis row
-    private double[] size = Array.Empty<double>(); // by body, of the row at hand: the largest that its part has been
+    private double[] size = Array.Empty<double>(); // by body, for the current row: the largest that its part has been
     private int bodies;
     private int stride;
 
-    /// <summary>Begins anew, with room for so many rows of so many bodies.</summary>
+    /// <summary>Begins again, with room for that many rows of that many bodies.</summary>
     internal void Clear(int rows, int bodyCount)
     {
         bodies = bodyCount;
@@ -78,7 +79,8 @@ internal sealed class ContactBasis
         TakeAway(mine, shares, row, masses);
         if (Cut(mine))
         {
-            // What the rows before need of it, as at a light body between heavy ones, comes back. That changes no share: they are those of the contact as it is.
+            // Add back what the rows before need of it, as at a light body between heavy ones. That changes no share: shares are those of
+            // the contact as it is.
             TakeAway(mine, Span<double>.Empty, row, masses);
         }
 
@@ -141,7 +143,9 @@ internal sealed class ContactBasis
         return sum;
     }
 
-    /// <summary>The impulses with which the active contacts meet their demands exactly: first along the basis rows, then of each contact.</summary>
+    /// <summary>
+    /// The impulses with which the active contacts meet their demands exactly: first along the basis rows, then of each contact.
+    /// </summary>
     internal void Substitute(Span<double> demand, Span<int> active, int count, Span<double> trial)
     {
         for (int r = 0; r < count; r++)

@@ -12,8 +12,7 @@ namespace LagSim.Contacts;
 /// </summary>
 /// <remarks>
 /// Bodies are numbered within the graph; each has a place in every span of states. A graph is filled, solved and cleared again and again:
-/// it
-/// allocates only when an event has more bodies or contacts than any before.
+/// it allocates only when an event has more bodies or contacts than any before.
 /// </remarks>
 internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, StaticSurfaces surfaces, PeriodicBox box)
 {
@@ -33,10 +32,10 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     /// <summary>How many contacts there are.</summary>
     internal int ContactCount { get; private set; }
 
-    /// <summary>Whose states these are, by slot.</summary>
+    /// <summary>The slots of the bodies that these states belong to.</summary>
     internal Span<int> Slots => slots.AsSpan(0, BodyCount);
 
-    /// <summary>In kg; infinite of a body in a hand.</summary>
+    /// <summary>In kg; infinite for a held body.</summary>
     internal Span<double> Masses => masses.AsSpan(0, BodyCount);
 
     /// <summary>In metres.</summary>
@@ -48,7 +47,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     /// <summary>In m/s; before the event is solved as the bodies come to it, then as they leave.</summary>
     internal Span<Vector3D> Velocities => velocities.AsSpan(0, BodyCount);
 
-    /// <summary>What forces give, in m/s².</summary>
+    /// <summary>The acceleration by forces, in m/s².</summary>
     internal Span<Vector3D> Accelerations => accelerations.AsSpan(0, BodyCount);
 
     /// <summary>How the bodies turn, in rad/s; as velocities.</summary>
@@ -59,7 +58,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     /// <summary>Begins another event.</summary>
     internal void Clear() => BodyCount = ContactCount = 0;
 
-    /// <summary>Adds a body that is not there, and tells its number. Its state is not known yet.</summary>
+    /// <summary>Adds a body that is not in the graph, and returns its number. Its state is not known yet.</summary>
     internal int AddBody(int slot)
     {
         if (BodyCount == slots.Length)
@@ -122,7 +121,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
         return has;
     }
 
-    /// <summary>Whether some body is in a hand.</summary>
+    /// <summary>Whether some body is held.</summary>
     internal bool HasHand()
     {
         bool has = false;
@@ -135,8 +134,8 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     }
 
     /// <summary>
-    /// Puts bodies in the order of their identities, and contacts in that of theirs, then of their surfaces: whose slot came first, and who
-    /// found whom, leaves no trace in any sum over them.
+    /// Sorts bodies by identity, and contacts by their bodies' identities and then by surface. So the order of slots, and of discovery,
+    /// leaves no trace in any sum over them.
     /// </summary>
     internal void Sort()
     {
@@ -206,7 +205,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
         spins[body] = timelines.SpinOf(last).At(seconds);
     }
 
-    /// <summary>Whether one of a contact's two bodies is in a hand, which goes its own way, so that nothing lasts on it.</summary>
+    /// <summary>Whether one of a contact's two bodies is held. A hand follows its own path, so no contact with it persists.</summary>
     internal bool IsByHand(in ContactPoint c) =>
         double.IsPositiveInfinity(masses[c.First]) || (c.Second != ContactPoint.Static && double.IsPositiveInfinity(masses[c.Second]));
 
@@ -257,8 +256,8 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     }
 
     /// <summary>
-    /// The impact's key whichever of its contacts was popped: named by the least body that is struck and that one's least partner. What a
-    /// collapse takes in besides has no part in it: that would come before impacts of the round that are done already.
+    /// The impact's key, the same whichever of its contacts was popped: it names the least body that is struck and that body's least
+    /// partner. Bodies that only a collapse adds do not count: the key would come before impacts of the round that are done already.
     /// </summary>
     internal EventKey CanonicalKey(in EventKey popped)
     {

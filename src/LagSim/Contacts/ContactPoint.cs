@@ -44,12 +44,12 @@ internal struct ContactPoint
     /// <summary>Whether it is the last rebound of the two, after which they are in persistent contact.</summary>
     internal bool Lasts;
 
-    /// <summary>From the second party to the first.</summary>
+    /// <summary>From the second body, or the surface, to the first body.</summary>
     internal Vector3D Normal;
 
     /// <summary>The relative normal speed after the impact where the contact pushes at all, in m/s, at least zero.</summary>
     internal double Target;
 
-    /// <summary>What the contact exchanged along the normal, in N s; the solver sets it.</summary>
+    /// <summary>The impulse along the normal, in N s; the solver sets it.</summary>
     internal double Impulse;
 }

@@ -17,14 +17,14 @@ internal sealed class ContactProblem
 
     internal int ContactCount { get; private set; }
 
-    /// <summary>Begins again, with nobody.</summary>
+    /// <summary>Begins again, with no body.</summary>
     internal void Clear()
     {
         BodyCount = 0;
         ContactCount = 0;
     }
 
-    /// <summary>Adds a body; one in a hand has an infinite mass.</summary>
+    /// <summary>Adds a body; a held one has an infinite mass.</summary>
     /// <returns>Its number.</returns>
     internal int AddBody(double mass, double radius, in Vector3D velocity, in Vector3D spin)
     {
@@ -152,7 +152,7 @@ internal sealed class ContactProblem
     private int[] listFrom = Array.Empty<int>();
     private int[] listed = Array.Empty<int>();
 
-    /// <summary>Whether a body of it is in a hand, which gives and takes energy.</summary>
+    /// <summary>Whether one of its bodies is held, since a hand gives and takes energy.</summary>
     internal bool HasHand()
     {
         bool has = false;
@@ -179,7 +179,7 @@ internal sealed class ContactProblem
     /// <summary>Whether energy has grown by more than rounding, of a sum over thousands of bodies.</summary>
     internal static bool IsGain(double before, double after) => after > before * (1 + 1e-9);
 
-    /// <summary>The kinetic energy of a body that is not in a hand, at such a velocity and spin; in J.</summary>
+    /// <summary>The kinetic energy of a body that is not held, at this velocity and spin; in J.</summary>
     internal static double EnergyOf(in SolverBody body, in Vector3D velocity, in Vector3D spin) =>
         0.5 * (velocity.LengthSquared + (SphereInertia * body.Radius * body.Radius * spin.LengthSquared)) / body.InverseMass;
 
@@ -205,12 +205,14 @@ internal struct SolverBody
 {
     internal Vector3D Velocity;
     internal Vector3D Spin;
-    internal double InverseMass; // 0 of one in a hand
+    internal double InverseMass; // 0 for a held body
     internal double Radius;
     internal double Changed; // by the visits of its contacts, in m/s, all added up
 }
 
-/// <summary>One contact of a <see cref="ContactProblem"/>: what is asked of it, and the impulses that do it, on the first of the two.</summary>
+/// <summary>
+/// One contact of a <see cref="ContactProblem"/>: what is asked of it, and the impulses that do it, on the first of the two.
+/// </summary>
 internal struct SolverContact
 {
     internal int First;

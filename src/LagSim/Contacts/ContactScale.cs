@@ -5,30 +5,37 @@ using LagSim.Time;
 
 namespace LagSim.Contacts;
 
-/// <summary>What follows from a scene's contact tolerance d and from what presses its bodies together: the lengths, speeds and spans that decide persistent contact.</summary>
+/// <summary>
+/// The lengths, speeds and spans that decide persistent contact. They follow from a scene's contact tolerance d and from the acceleration
+/// that presses its bodies together.
+/// </summary>
 /// <remarks>
-/// <para>A body that falls freely for a step of h leaves the chord of its path by a h^2 / 8 at most, and gains a h of speed. With h at most sqrt(2 d / a) the first is at
-/// most d / 4, and the second at most the speed from which a body rises by d. So all of these are one length, seen as a time, a speed and a place.</para>
+/// <para>A body that falls freely for a step of h leaves the chord of its path by a h^2 / 8 at most, and gains a h of speed. With h at most
+/// sqrt(2 d / a) the first is at most d / 4, and the second at most the speed from which a body rises by d. So all of these are one length,
+/// seen as a time, a speed and a place.</para>
 /// <para>Immutable; the same on every peer.</para>
 /// </remarks>
 internal class ContactScale
 {
-    /// <summary>No step is longer: a picture a frame of an old screen, so that what moves in a heap is seen to.</summary>
+    /// <summary>No step is longer: one frame of an old screen, so that a moving heap is seen to move.</summary>
     private const long LongestTicks = SimDuration.TicksPerSecond / 64;
 
-    /// <summary>No step is shorter than 2^-20 s, whatever asks for it: what closes sooner is as good as at once.</summary>
+    /// <summary>The shortest step, 2^-20 s, whatever asks for less: a gap that closes sooner counts as closing at once.</summary>
     internal const long ShortestTicks = ContactTime.SoonTicks;
 
-    /// <summary>What presses where the scene has no gravity, in m/s²: of hands and forces nobody knows beforehand, and a hand moves things by about so much.</summary>
+    /// <summary>
+    /// The assumed pressing acceleration where the scene has no gravity, in m/s². Hands and forces are not known beforehand, and a hand
+    /// moves things by about this much.
+    /// </summary>
     private const double LeastPull = 1;
 
     /// <summary>
-    /// The sweeps leave contacts to close by this part of the tolerance in a step. Measured: at a twentieth friction at the edge of rolling is turned aside
-    /// (<c>hard groove</c>).
+    /// The sweeps leave contacts to close by this part of the tolerance in a step. Measured: at a twentieth friction at the edge of rolling
+    /// is turned aside (<c>hard groove</c>).
     /// </summary>
     private const double SweepPart = 0.005;
 
-    /// <summary>So long nobody of an island may have moved by the tolerance before it sleeps.</summary>
+    /// <summary>The time in which no member of an island may have moved by the tolerance before the island sleeps.</summary>
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
 
     private readonly SimTime start;
@@ -60,15 +67,19 @@ internal class ContactScale
     internal double Length { get; }
 
     /// <summary>
-    /// What comes within this gap in a step, in metres, is a contact of it: two bodies that the pull drives at each other from rest close by so much in a
-    /// step. Never more than the tolerance, and less only where that would allow a step longer than the longest.
+    /// The speculative margin, in metres: pairs that come within it in a step are contacts of the step. Two bodies that the pull drives at
+    /// each other from rest close by this much in a step. Never more than the tolerance, and less only where that would allow a step longer
+    /// than the longest.
     /// </summary>
     internal double SpeculativeMargin { get; }
 
-    /// <summary>What presses bodies together, in m/s²: the scene's gravity.</summary>
+    /// <summary>The acceleration that presses bodies together, in m/s²: the scene's gravity.</summary>
     internal double Pull { get; }
 
-    /// <summary>How long a contact step is where no force asks for less: the largest power of two of ticks in which a fall stays within the tolerance.</summary>
+    /// <summary>
+    /// The length of a contact step where no force asks for less: the largest power of two of ticks in which a fall stays within the
+    /// tolerance.
+    /// </summary>
     internal SimDuration Step { get; }
 
     /// <summary>The speed, in m/s, from which a body rises by the tolerance.</summary>
@@ -77,27 +88,32 @@ internal class ContactScale
     /// <summary>The same where forces pull a body harder than gravity does, in m/s².</summary>
     internal double CaptureSpeedAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length * pull) : CaptureSpeed;
 
-    /// <summary>How long, in seconds, a fall by the tolerance takes where forces pull a body harder than gravity does; else as long as you like.</summary>
+    /// <summary>
+    /// The time, in seconds, of a fall by the tolerance where forces pull a body harder than gravity does; infinite otherwise.
+    /// </summary>
     internal double FallAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length / pull) : double.PositiveInfinity;
 
-    /// <summary>What the sweeps of a step leave contacts to close at, in m/s.</summary>
+    /// <summary>The closing speed that the sweeps of a step may leave at contacts, in m/s.</summary>
     internal double SweepSpeed { get; }
 
-    /// <summary>What impacts within a step leave contacts that hold to close at, in m/s.</summary>
+    /// <summary>The closing speed that impacts within a step may leave at contacts that hold, in m/s.</summary>
     internal double ImpactSpeed => ImpactPart * Length / Step.ToSeconds();
 
-    /// <summary>Twice as deep as what holds may get, in metres, before it is looked at within a step: by a hand that speeds up.</summary>
+    /// <summary>
+    /// Twice the depth, in metres, that a contact that holds may reach before it is tested within a step: because of a hand that speeds up.
+    /// </summary>
     internal double LookDepth => 2 * ImpactPart * Length;
 
-    /// <summary>An impact goes on from a body to those that it holds if it changed its velocity by more than this, in m/s.</summary>
+    /// <summary>An impact passes from a body to the bodies that it holds if it changed its velocity by more than this, in m/s.</summary>
     internal virtual double ReachSpeed => SweepSpeed;
 
-    /// <summary>What moves slower than this, in m/s, does not move by the tolerance while it is waited for its sleep.</summary>
+    /// <summary>A body slower than this, in m/s, does not move by the tolerance while it waits to sleep.</summary>
     internal double StillSpeed { get; }
 
     /// <summary>
-    /// Contacts that hold, and that an impact within a step leaves to close by less than this part, are not struck before the next tick. Measured, on 63 balls that fall
-    /// into a pit: with none of it 490,000 impacts instead of 600; with a tenth of it 9 % more impacts, and half the overlap.
+    /// Contacts that hold, and that an impact within a step leaves to close by less than this part of the tolerance, are not struck before
+    /// the next tick. Measured, on 63 balls that fall into a pit: with none of it 490,000 impacts instead of 600; with a tenth of it 9 % more
+    /// impacts, and half the overlap.
     /// </summary>
     private protected virtual double ImpactPart => 10 * SweepPart;
 
@@ -113,7 +129,9 @@ internal class ContactScale
         return start + SimDuration.FromTicks(((time - start).Ticks + step - 1) & -step); // a power of two
     }
 
-    /// <summary>How long a step may be that begins at a tick: of those that the clock has there the longest that is not longer than wanted.</summary>
+    /// <summary>
+    /// How long a step may be that begins at a tick: of those that the clock has there the longest that is not longer than wanted.
+    /// </summary>
     internal SimDuration StepFrom(SimTime tick, double seconds)
     {
         long step = Step.Ticks;

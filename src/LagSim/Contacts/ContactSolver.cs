@@ -3,13 +3,17 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Finds the impulses of a <see cref="ContactProblem"/>: no contact opens slower than its target or else it pushes, with Coulomb friction and rolling resistance.</summary>
+/// <summary>
+/// Finds the impulses of a <see cref="ContactProblem"/>: each contact opens at least at its target, or pushes, with Coulomb friction and
+/// rolling resistance.
+/// </summary>
 /// <remarks>
-/// <para>The law of Stewart and Trinkle (1996, Int. J. Numer. Methods Eng. 39, 2673-2691) and of Anitescu and Potra (1997, Nonlinear Dyn. 14, 231-247): along the normal opening
-/// >= target, impulse >= 0, one of the two an equality; across it the impulse against the slip that stops it, or as much as mu times the normal impulse; and against
-/// turning on each other likewise, by a lever.</para>
-/// <para>Projected Gauss-Seidel (Moreau and Jean's non-smooth contact dynamics; Jean 1999, Comput. Methods Appl. Mech. Eng. 177, 235-257): contact after contact, to
-/// and fro, from the impulses that are given, until a sweep changes no contact's speed by more than the tolerance.</para>
+/// <para>The law of Stewart and Trinkle (1996, Int. J. Numer. Methods Eng. 39, 2673-2691) and of Anitescu and Potra (1997, Nonlinear Dyn.
+/// 14, 231-247): along the normal opening >= target, impulse >= 0, one of the two an equality; across it the impulse against the slip that
+/// stops it, or as much as mu times the normal impulse; and against turning on each other likewise, by a lever.</para>
+/// <para>Projected Gauss-Seidel (Moreau and Jean's non-smooth contact dynamics; Jean 1999, Comput. Methods Appl. Mech. Eng. 177, 235-257):
+/// contact after contact, to and fro, from the impulses that are given, until a sweep changes no contact's speed by more than the
+/// tolerance.</para>
 /// <para>Deterministic: the order of bodies and contacts counts, so both come in canonical order. Cost: contacts times sweeps.</para>
 /// </remarks>
 internal static class ContactSolver
@@ -66,10 +70,10 @@ internal static class ContactSolver
     /// </summary>
     /// <param name="problem">With targets.</param>
     /// <param name="tolerance">In m/s.</param>
-    /// <param name="most">How many sweeps at most.</param>
-    /// <param name="knownBodies">So many of the bodies, and</param>
-    /// <param name="knownContacts">so many of the contacts were there when it was solved before, and go on from that.</param>
-    /// <returns>How many sweeps that took.</returns>
+    /// <param name="most">The largest number of sweeps.</param>
+    /// <param name="knownBodies">The number of bodies that were there when it was solved before.</param>
+    /// <param name="knownContacts">The number of contacts that were there then, and continue from that solution.</param>
+    /// <returns>The number of sweeps it took.</returns>
     internal static int Solve(ContactProblem problem, double tolerance, int most, int knownBodies = 0, int knownContacts = 0)
     {
         SolverContact[] contacts = problem.Contacts;
@@ -119,8 +123,8 @@ internal static class ContactSolver
     }
 
     /// <summary>
-    /// A hand pushes with no more than would give all that takes part the speed that it asks for, and some more: so it throws and lifts whatever can give way, and goes
-    /// through what cannot.
+    /// Limits each hand's push to what would give all bodies that take part the speed that it asks for, and some more. So a hand throws and
+    /// lifts whatever can give way, and goes through what cannot.
     /// </summary>
     /// <param name="problem">With targets, and the velocities before.</param>
     /// <param name="more">The speed, in m/s, that may be asked for besides.</param>
@@ -243,8 +247,9 @@ internal static class ContactSolver
     }
 
     /// <summary>
-    /// The bound of friction, which follows the normal impulse only in part where friction is large and what touches slips. Between a floor and a wall the push of the one is the friction of the
-    /// other, so that sweeps multiply what is off by minus mu²; followed by 1 / (1 + mu²) of the way they multiply it by nothing.
+    /// The bound of friction, which follows the normal impulse only in part where friction is large and what touches slips. Between a floor
+    /// and a wall the push of the one is the friction of the other, so that sweeps multiply what is off by minus mu²; followed by 1 / (1 +
+    /// mu²) of the way they multiply it by nothing.
     /// </summary>
     private static double Follow(ref SolverContact c, double square)
     {

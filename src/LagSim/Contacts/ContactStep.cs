@@ -3,20 +3,24 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>One step of an island: from where its bodies are, and how fast, to the velocities with which they go on for a step of the common clock.</summary>
+/// <summary>
+/// One step of an island: from its bodies' places and velocities to the velocities for the next step of the common clock.
+/// </summary>
 /// <remarks>
-/// <para>Leapfrog: velocities are those of the middle of a step, and a body moves on the chord that they give; at a tick they get what the forces give in a whole step and
-/// what the contacts give. So what falls, slides or rolls under constant forces is exact but for rounding at the ticks.</para>
-/// <para>Contacts are solved at the velocity level (see <see cref="ContactSolver"/>), those that might close within the step among them: a gap may be used up and no
-/// more. Since spheres are convex, chords that keep to that on the line between two centres keep to it everywhere.</para>
-/// <para>A pure function of what it is given. Order counts: bodies come in canonical order, and contacts are found in it. Cost: the pairs that are near along one axis,
-/// and the contacts times the sweeps.</para>
+/// <para>Leapfrog: velocities are those of the middle of a step, and a body moves on the chord that they give. At a tick they get the
+/// impulses of the forces in a whole step and those of the contacts. So bodies that fall, slide or roll under constant forces are exact at
+/// the ticks, but for rounding.</para>
+/// <para>Contacts are solved at the velocity level (see <see cref="ContactSolver"/>), including those that might close within the step: a
+/// gap may be used up and no more. Since spheres are convex, chords that obey this on the line between two centres obey it
+/// everywhere.</para>
+/// <para>A pure function of its inputs. Order counts: bodies come in canonical order, and contacts are found in it. Cost: the pairs that
+/// are near along one axis, and the contacts times the sweeps.</para>
 /// </remarks>
 internal sealed class ContactStep
 {
     /// <summary>
-    /// So many sweeps at most. Then <see cref="NormalsAfterSweeps"/> settles what keeps bodies out of each other; what is left of friction is
-    /// an error and no fault, for the next step goes on from the impulses that they got to.
+    /// The largest number of sweeps. Then <see cref="NormalsAfterSweeps"/> solves the normals. What is left of friction is an error but no
+    /// fault: the next step continues from the impulses that the sweeps reached.
     /// </summary>
     internal const int MostSweeps = 200;
 
@@ -37,22 +41,23 @@ internal sealed class ContactStep
 
     internal ContactScale Scale { get; }
 
-    /// <summary>What its solutions, and those of impacts on islands, are held to.</summary>
+    /// <summary>The rules for its solutions, and for those of impacts on islands.</summary>
     internal SolverRules Rules { get; }
 
     /// <summary>How many sweeps the last took, and steps of <see cref="NormalsAfterSweeps"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
 
-    /// <summary>Begins again, with nobody.</summary>
+    /// <summary>Begins again, with no body.</summary>
     internal void Clear() => Problem.Clear();
 
     /// <summary>Adds a body of the island.</summary>
-    /// <param name="spec">What it is.</param>
+    /// <param name="spec">The body's spec.</param>
     /// <param name="position">Where it is at the tick.</param>
-    /// <param name="velocity">With which it came: of the middle of the step before.</param>
-    /// <param name="gain">What forces add to that until the middle of this step; zero of one in a hand, whose velocity is its mean in the step.</param>
-    /// <param name="spin">How it turned.</param>
-    /// <param name="isHeld">Whether it is in a hand.</param>
+    /// <param name="velocity">Its velocity so far: that of the middle of the step before.</param>
+    /// <param name="gain">The velocity that forces add until the middle of this step; zero for a held body, whose velocity is its mean in
+    /// the step.</param>
+    /// <param name="spin">Its spin.</param>
+    /// <param name="isHeld">Whether it is held.</param>
     /// <param name="pull">How hard forces pull it, in m/s².</param>
     internal void AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld, double pull = 0)
     {
@@ -69,7 +74,7 @@ internal sealed class ContactStep
     /// <summary>Finds what touches, or might within the step, among the bodies and with static surfaces.</summary>
     internal void FindContacts(double seconds) => contacts.Find(seconds);
 
-    /// <summary>Leaves out what did not hold before and is impacts' affair; see <see cref="StepContacts.DropImpacts"/>.</summary>
+    /// <summary>Leaves out contacts that did not hold before and are left to impacts; see <see cref="StepContacts.DropImpacts"/>.</summary>
     internal void DropImpacts(double seconds) => contacts.DropImpacts(seconds);
 
     /// <summary>Whether a body might strike another of the island within the step.</summary>
@@ -94,9 +99,10 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// No step leaves more energy than its bodies came with, what forces give in it included, or than the pull gives them from rest. Each
-    /// contact pushes its overlap out no faster than a fall of a step, but in a stack these speeds add up and would throw its top into the
-    /// air; so it goes from a solution that pushes nothing out only as far towards the one that does as there is energy for.
+    /// Limits the energy of a step to what its bodies came with, including what forces give in it, or to what the pull gives them from
+    /// rest. Each contact pushes its overlap out no faster than a fall of a step, but in a stack these speeds add up and would throw its
+    /// top into the air. So the result moves from a solution that pushes nothing out towards the one that does only as far as there is
+    /// energy for.
     /// </summary>
     internal void LimitEnergy(double seconds, double tolerance)
     {
@@ -122,8 +128,8 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// Which contacts hold in the step that was solved: those that push, and those that held before and open by less than a quarter of the tolerance, as along what is round, where
-    /// a chord leads away a little and comes back.
+    /// Which contacts hold in the step that was solved: those that push, and those that held before and open by less than a quarter of the
+    /// tolerance, as along what is round, where a chord leads away a little and comes back.
     /// </summary>
     internal void FindHolding(double seconds)
     {

@@ -7,8 +7,7 @@ namespace LagSim.Contacts;
 /// <remarks>
 /// The way between two solutions is straight. Every point of it keeps to the law of contact as both ends do: openings and what they must be
 /// at least are linear, and the impulses that friction allows form a cone. Energy along it is a parabola, so how far it may go is known in
-/// closed form.
-/// Cost: bodies and contacts. Allocates only when there are more of them than ever before. Not thread-safe.
+/// closed form. Cost: bodies and contacts. Allocates only when there are more of them than ever before. Not thread-safe.
 /// </remarks>
 internal sealed class EnergyLimit
 {
@@ -78,11 +77,11 @@ internal sealed class EnergyLimit
         double room = most - energy;
         if (!(room > 0))
         {
-            return along < 0 ? Math.Min(1, -along / square) : 0; // as little as there is on the way
+            return along < 0 ? Math.Min(1, -along / square) : 0; // the least energy on the way
         }
 
         double root = Math.Sqrt((along * along) + (square * room));
         double part = along > 0 ? room / (along + root) : (root - along) / square;
-        return part <= 1 ? part : 1; // no number where there is no way
+        return part <= 1 ? part : 1; // not a number if the two solutions are the same
     }
 }

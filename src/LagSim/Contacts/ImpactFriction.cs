@@ -3,14 +3,14 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>What Coulomb friction does in an impact, once the impulses along the normals are known.</summary>
+/// <summary>Coulomb friction in an impact, once the impulses along the normals are known.</summary>
 /// <remarks>
-/// <para>In each contact it works against the slip u of the two surfaces, by as much as the normal impulse p allows, mu p, or as stops the slip, |u| / (7/2
-/// (1/m1 + 1/m2)) between solid spheres (moment of inertia 2/5 m r²): for one contact this is the usual law of a bouncing ball (Garwin 1969, Am. J. Phys. 37,
-/// 88-92).</para>
-/// <para>All contacts see the velocities that the normal impulses left, whatever their order, and each gives the part 1/n of its impulse, n the larger number
-/// of rubbing contacts of its two bodies. So energy never grows: each impulse alone lowers it, and the square of a mean is at most the mean of the
-/// squares.</para>
+/// <para>In each contact it works against the slip u of the two surfaces, by as much as the normal impulse p allows, mu p, or as stops the
+/// slip, |u| / (7/2 (1/m1 + 1/m2)) between solid spheres (moment of inertia 2/5 m r²): for one contact this is the usual law of a bouncing
+/// ball (Garwin 1969, Am. J. Phys. 37, 88-92).</para>
+/// <para>All contacts see the velocities that the normal impulses left, whatever their order, and each gives the part 1/n of its impulse, n
+/// the larger number of rubbing contacts of its two bodies. So energy never grows: each impulse alone lowers it, and the square of a mean
+/// is at most the mean of the squares.</para>
 /// <para>Cost: the number of contacts. Allocates only when an impact has more bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactFriction

@@ -8,8 +8,8 @@ namespace LagSim.Contacts;
 /// <para>The law, for every contact i: separation speed u_i' >= target_i, impulse p_i >= 0, and one of the two is an equality. With the
 /// targets e_i |u_i| of closing contacts this is Newton's law of restitution for each, made consistent by leaving out what would have to
 /// pull. Energy changes by -1/2 sum (1 - e_i) p_i |u_i|, so it never grows for e_i at most 1 (Moreau 1988 treats this family).</para>
-/// <para>If no velocities satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy, every target
-/// becomes 0, which can always be had.</para>
+/// <para>If no velocities satisfy all targets (a body squeezed between surfaces that cannot give way), or only at an expense of energy,
+/// every target becomes 0, which can always be had.</para>
 /// <para>Solved by <see cref="NormalImpulses"/>. Allocates only when an impact has more contacts or bodies than any before.</para>
 /// </remarks>
 internal sealed class ImpactSolver
@@ -24,7 +24,8 @@ internal sealed class ImpactSolver
     private int bodies;
 
     /// <summary>
-    /// Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body; one in a hand has an infinite mass.
+    /// Changes the velocities by the impulses of all contacts. <paramref name="masses"/> and velocities by number of body; a held one has
+    /// an infinite mass.
     /// </summary>
     internal void Solve(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities)
     {
@@ -64,7 +65,7 @@ internal sealed class ImpactSolver
             contact.Normal,
             contact.Second == ContactPoint.Static ? velocities[contact.First] : velocities[contact.First] - velocities[contact.Second]);
 
-    /// <summary>How much an impulse changes a velocity: of a body in a hand nothing does.</summary>
+    /// <summary>How much an impulse changes a velocity: zero for a held body.</summary>
     internal static double Inverse(double mass) => IsHand(mass) ? 0 : 1 / mass;
 
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.
@@ -136,7 +137,7 @@ internal sealed class ImpactSolver
 
         if (isPushed)
         {
-            // What a hand does to the bodies is no gain: what counts is what the contacts make of the speeds at which they are met.
+            // The work of a hand is not a gain: only what the contacts make of the approach speeds counts.
             gain = 0;
             for (int i = 0; i < contacts.Length; i++)
             {

@@ -3,19 +3,21 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Whether contacts that strike each other in turn come to an end, or infinitely often in a finite time.</summary>
+/// <summary>
+/// Decides whether contacts that are struck in turn stop after finitely many impacts, or are struck infinitely often in a finite time.
+/// </summary>
 /// <remarks>
-/// <para>Two contacts of one body whose pushes meet by the cosine k, in the metric of the masses, strike in turn for ever if
-/// k (1 + e) >= 2 sqrt(e): then the product of the two impacts has a real positive eigenvalue, and the closing speeds are a geometric series.
-/// Else its eigenvalues are complex, and after a finite number of impacts the two part. For many contacts the cosine is the greatest
-/// eigenvalue of the matrix that couples them. For a row of N balls that closes on a wall it is cos(pi / 2N), which gives the known
-/// threshold tan^2 (pi/4 (1 - 1/N)).</para>
-/// <para>Reference: Bernu and Mazighi 1990 (J. Phys. A 23, 5745-5754); Constantin, Grossman and Mungan 1995 (Physica D 83, 409-420). Restitutions
-/// that differ: the impact at a contact turns its speed by -e and gives the others 1 + e times the coupling, so the cosine is multiplied by
-/// the root of (1 + e)(1 + f), over the root of e and the root of f. Friction drives a body across the normal by mu of its push at most, in
-/// whatever direction it slips, so the cosine is taken at the direction that couples most: where two contacts of one body are at right
-/// angles it is the root of the product of their frictions.</para>
-/// <para>A pure function; the order of contacts counts for rounding alone. Cost: the cube of the contacts.</para>
+/// <para>Two contacts of one body whose pushes meet by the cosine k, in the metric of the masses, strike in turn for ever if k (1 + e) >= 2
+/// sqrt(e): then the product of the two impacts has a real positive eigenvalue, and the closing speeds are a geometric series. Otherwise
+/// its eigenvalues are complex, and after a finite number of impacts the two part. For many contacts the cosine is the greatest eigenvalue
+/// of the matrix that couples them. For a row of N balls that closes on a wall it is cos(pi / 2N), which gives the known threshold tan^2
+/// (pi/4 (1 - 1/N)).</para>
+/// <para>Reference: Bernu and Mazighi 1990 (J. Phys. A 23, 5745-5754); Constantin, Grossman and Mungan 1995 (Physica D 83, 409-420).
+/// Restitutions that differ: the impact at a contact turns its speed by -e and gives the others 1 + e times the coupling, so the cosine is
+/// multiplied by the root of (1 + e)(1 + f), over the root of e and the root of f. Friction drives a body across the normal by mu of its
+/// push at most, in whatever direction it slips, so the cosine is taken at the direction that couples most: where two contacts of one body
+/// are at right angles it is the root of the product of their frictions.</para>
+/// <para>A pure function; the order of contacts affects rounding alone. Cost: the cube of the contacts.</para>
 /// </remarks>
 internal sealed class InelasticCollapse
 {
@@ -25,7 +27,7 @@ internal sealed class InelasticCollapse
     /// <param name="contacts">With their normals.</param>
     /// <param name="restitutions">Of each contact, 0 to 1.</param>
     /// <param name="frictions">Of each contact, the coefficient.</param>
-    /// <param name="masses">Of the bodies, in kg; infinite of one in a hand.</param>
+    /// <param name="masses">Of the bodies, in kg; infinite for a held one.</param>
     internal bool IsPossible(Span<ContactPoint> contacts, Span<double> restitutions, Span<double> frictions, Span<double> masses)
     {
         int count = contacts.Length;
@@ -82,7 +84,7 @@ internal sealed class InelasticCollapse
     private static double Inverse(in ContactPoint c, Span<double> masses) =>
         ImpactSolver.Inverse(masses[c.First]) + (c.Second == ContactPoint.Static ? 0 : ImpactSolver.Inverse(masses[c.Second]));
 
-    /// <summary>Cholesky's decomposition of the matrix whose diagonal is 1; it ends early where there is none.</summary>
+    /// <summary>Cholesky's decomposition of the matrix with a diagonal of 1; it ends early if there is none.</summary>
     private bool IsPositiveDefinite(int count)
     {
         for (int i = 0; i < count; i++)

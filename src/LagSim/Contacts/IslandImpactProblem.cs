@@ -4,8 +4,8 @@ using LagSim.Scenes;
 namespace LagSim.Contacts;
 
 /// <summary>
-/// An impact as a contact problem that grows: what is struck first, and then what the impulse reaches over contacts that last. It goes on
-/// from the impulses so far each time it has grown.
+/// An impact as a contact problem that grows: first the bodies struck, then those that the impulse reaches over persistent contacts. Each
+/// time it has grown, it continues from the impulses so far.
 /// </summary>
 internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
 {
@@ -43,10 +43,10 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
     /// <summary>Whether the impact has changed how a body moves or turns.</summary>
     internal bool HasChanged(int body, in Vector3D velocity, in Vector3D spin) => velocity != velocitiesBefore[body] || spin != spinsBefore[body];
 
-    /// <summary>Whether the impulse has gone on from a body to those that it holds; it never does from one in a hand.</summary>
+    /// <summary>Whether the impulse has passed from a body to those that it holds; it never does from a held body.</summary>
     internal bool IsReached(int body) => isReached[body];
 
-    /// <summary>The impulse goes on from a body.</summary>
+    /// <summary>The impulse passes on from a body.</summary>
     internal void Reach(int body) => isReached[body] = true;
 
     /// <summary>Whether it has a contact.</summary>

@@ -3,15 +3,18 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>The impulses along the normals of contacts: of few exactly (<see cref="ActiveSet"/>), of many by <see cref="ProjectedGradients"/>.</summary>
+/// <summary>
+/// The impulses along the normals of contacts: of few exactly (<see cref="ActiveSet"/>), of many by <see cref="ProjectedGradients"/>.
+/// </summary>
 /// <remarks>Deterministic: contacts come in canonical order. Not thread-safe. Cost: that of the solver it takes.</remarks>
 internal sealed class NormalImpulses
 {
-    /// <summary>So many contacts at most are solved exactly: beyond, what that costs grows too fast for one event.</summary>
+    /// <summary>The largest number of contacts that are solved exactly: beyond it the cost grows too fast for one event.</summary>
     internal const int MostAtOnce = 96;
 
     /// <summary>
-    /// So many are always solved exactly; more than these only if masses differ by more than <see cref="LikeMasses"/>, else gradients get as near in less time.
+    /// The number of contacts that are always solved exactly. More are only if masses differ by more than <see cref="LikeMasses"/>;
+    /// otherwise gradients get as near in less time.
     /// </summary>
     internal const int FewAtOnce = 32;
 
@@ -19,25 +22,25 @@ internal sealed class NormalImpulses
     internal const double LikeMasses = 1000;
 
     /// <summary>
-    /// So many bodies make a contact that is solved exactly cost as much as a sweep. Measured: 66 contacts of 36 bodies take 740 µs, and
-    /// count as 650.
+    /// The number of bodies at which a contact that is solved exactly costs as much as a sweep. Measured: 66 contacts of 36 bodies take 740
+    /// µs, and count as 650.
     /// </summary>
     private const int BodiesAStep = 8;
 
     private readonly ActiveSet few = new();
     private readonly ProjectedGradients many = new();
 
-    /// <summary>What the last cost, in sweeps over all its contacts.</summary>
+    /// <summary>The cost of the last solution, in sweeps over all its contacts.</summary>
     internal int Steps { get; private set; }
 
     /// <summary>Solves; false if some demand cannot be met, or was not. Leaves the impulses, and the change of every velocity.</summary>
     /// <param name="contacts">With their normals.</param>
-    /// <param name="masses">By number of body, in kg; one in a hand has an infinite mass.</param>
+    /// <param name="masses">By number of body, in kg; a held one has an infinite mass.</param>
     /// <param name="demand">By contact: by how much faster it is to open, at least.</param>
     /// <param name="impulse">By contact: is set.</param>
     /// <param name="change">By body: is set.</param>
     /// <param name="again">Whether many begin with the contacts' impulses as they are, not with none.</param>
-    /// <param name="enough">What many may lack, in m/s, and are met.</param>
+    /// <param name="enough">The shortfall, in m/s, at which a demand of many contacts counts as met.</param>
     internal bool TrySolve(
         Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change,
         bool again = false, double enough = 0)

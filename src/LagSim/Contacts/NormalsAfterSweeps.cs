@@ -5,11 +5,11 @@ namespace LagSim.Contacts;
 
 /// <summary>Settles the normals of a <see cref="ContactProblem"/> that sweeps have not settled, with friction as they left it.</summary>
 /// <remarks>
-/// <para>A sweep hands an impulse on from one body to the next, so a column of n bodies takes in the order of n² of them, and more where a
-/// light body carries a heavy one. <see cref="NormalImpulses"/> solves few contacts exactly, and many from the impulses that the sweeps got
-/// to, in a few times n steps, each of which costs what a sweep does.</para>
-/// <para>Not with a body in a hand, whose push is limited. Cost: that of the solver. Allocates only when there are more bodies or contacts
-/// than ever before. Not thread-safe.</para>
+/// <para>A sweep passes an impulse on from one body to the next, so a column of n bodies takes on the order of n² sweeps, and more where a
+/// light body carries a heavy one. <see cref="NormalImpulses"/> solves few contacts exactly, and many from the impulses that the sweeps
+/// reached, in a few times n steps, each of which costs as much as a sweep.</para>
+/// <para>Not for a problem with a held body, because a hand's push is limited. Cost: that of the solver. Allocates only when there are more
+/// bodies or contacts than ever before. Not thread-safe.</para>
 /// </remarks>
 internal sealed class NormalsAfterSweeps
 {
@@ -28,9 +28,9 @@ internal sealed class NormalsAfterSweeps
         !problem.HasHand() && (sweeps == ContactStep.MostSweeps || !ContactSolver.CanAddUp(problem, tolerance));
 
     /// <summary>Sets velocities, and the impulses along normals: each contact opens at least at its target, or pushes.</summary>
-    /// <param name="problem">With the velocities before it, and the impulses that sweeps got to; nobody is in a hand.</param>
-    /// <param name="tolerance">What many contacts may be left to close at, in m/s; few are solved exactly.</param>
-    /// <returns>How many steps that took: each costs about as much as a sweep.</returns>
+    /// <param name="problem">With the velocities before it, and the impulses that sweeps reached; no body is held.</param>
+    /// <param name="tolerance">The closing speed, in m/s, that may be left at many contacts; few are solved exactly.</param>
+    /// <returns>The number of steps it took: each costs about as much as a sweep.</returns>
     internal int Solve(ContactProblem problem, double tolerance)
     {
         Grow(problem);

@@ -4,11 +4,13 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Which of the planes that a body touches carry it under a constant acceleration, and what acceleration is left.</summary>
+/// <summary>
+/// Finds which of the planes that a body touches carry it under a constant acceleration, and the acceleration that is left.
+/// </summary>
 /// <remarks>
 /// Frictionless support: the body gets the acceleration nearest to the free one among those that point into no plane. At most three planes
-/// push at once in space (Caratheodory), so all subsets of one, two and three are tried in the order of the planes; the first that pushes with
-/// each and leaves none violated is the answer.
+/// push at once in space (Caratheodory), so all subsets of one, two and three are tried in the order of the planes; the first that pushes
+/// with each and leaves none violated is the answer.
 /// </remarks>
 internal static class PlaneSupport
 {

@@ -3,22 +3,23 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Solves many contacts at once, as of a large heap, by conjugate gradients that are kept from pulling.</summary>
+/// <summary>Solves many contacts at once, such as a large heap, by conjugate gradients that are kept from pulling.</summary>
 /// <remarks>
-/// <para>What is solved is what <see cref="ActiveSet"/> solves: the impulses p >= 0 that make 1/2 p'Ap - p'demand least, which is the change of energy where
-/// nothing is to open after. The method is "modified proportioning with reduced gradient projections" (Dostál and Schöberl 2005, Comput. Optim. Appl. 30,
-/// 23-43): conjugate gradients among the contacts that push, a step along the gradient cut off at zero where one of them would pull, and one along what closes
-/// where that has come to outweigh the rest. What it makes least never grows, so where nothing is to part faster than at rest no energy is gained, whenever it
-/// ends.</para>
-/// <para>Each contact is measured by the root of its 1/mass, so that unequal masses count alike. Cost: the number of contacts, times some 50 to 300 steps, at
-/// most <see cref="MostSteps"/>; more where light bodies carry heavy ones. Allocates only when there are more contacts or bodies than ever before.</para>
+/// <para>It solves the problem of <see cref="ActiveSet"/>: the impulses p >= 0 that minimise 1/2 p'Ap - p'demand, which is the change of
+/// energy where nothing is to open after. The method is "modified proportioning with reduced gradient projections" (Dostál and Schöberl
+/// 2005, Comput. Optim. Appl. 30, 23-43): conjugate gradients among the contacts that push, a step along the gradient cut off at zero where
+/// one of them would pull, and one along what closes where that has come to outweigh the rest. The minimised quantity never grows. So where
+/// nothing is to part faster than at rest no energy is gained, whenever it ends.</para>
+/// <para>Each contact is measured by the root of its 1/mass, so that unequal masses count alike. Cost: the number of contacts, times some
+/// 50 to 300 steps, at most <see cref="MostSteps"/>; more where light bodies carry heavy ones. Allocates only when there are more contacts
+/// or bodies than ever before.</para>
 /// </remarks>
 internal sealed class ProjectedGradients
 {
-    /// <summary>So many steps at most.</summary>
+    /// <summary>The largest number of steps.</summary>
     internal const int MostSteps = 1000;
 
-    /// <summary>What lacks less than this part of the most that any contact lacked is met.</summary>
+    /// <summary>A demand counts as met once its shortfall is below this part of the largest that any contact had.</summary>
     private const double Met = 1e-12;
 
     /// <summary>And what lacks more than this part of it at the end is not.</summary>
@@ -33,15 +34,17 @@ internal sealed class ProjectedGradients
     /// <summary>How many steps the last took.</summary>
     internal int Steps { get; private set; }
 
-    /// <summary>Solves; false if some demand cannot be met, or was not in so many steps. Leaves the impulses, and the change of every velocity.</summary>
+    /// <summary>
+    /// Solves; false if some demand cannot be met, or was not within the steps. Leaves the impulses, and the change of every velocity.
+    /// </summary>
     /// <param name="contacts">With their normals.</param>
-    /// <param name="masses">By number of body, in kg; one in a hand has an infinite mass.</param>
+    /// <param name="masses">By number of body, in kg; a held one has an infinite mass.</param>
     /// <param name="demand">By contact: by how much faster it is to open, at least.</param>
     /// <param name="impulse">By contact: is set.</param>
     /// <param name="change">By body: is set.</param>
     /// <param name="again">Whether to begin with the contacts' impulses as they are, not with none.</param>
-    /// <param name="enough">What lacks no more than this, in m/s, is met as well.</param>
-    /// <param name="steps">So many at most.</param>
+    /// <param name="enough">A shortfall of no more than this, in m/s, counts as met too.</param>
+    /// <param name="steps">The largest number of steps.</param>
     internal bool TrySolve(
         Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change, bool again,
         double enough = 0, int steps = MostSteps)
@@ -124,7 +127,7 @@ internal sealed class ProjectedGradients
     }
 
     /// <summary>
-    /// A step along the direction, or as far along it as nobody pulls and then one along the gradient. False if nothing is to be had that way.
+    /// A step along the direction, or as far along it as no contact pulls, and then one along the gradient. False if that gains nothing.
     /// </summary>
     private bool Follow(Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<Vector3D> change, double stride)
     {

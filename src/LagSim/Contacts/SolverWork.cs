@@ -1,12 +1,12 @@
 namespace LagSim.Contacts;
 
-/// <summary>What the contact solvers did for the event at hand, in units of about a microsecond on a core of the 2020s.</summary>
+/// <summary>The work of the contact solvers for the current event, in units of about a microsecond on a core of the 2020s.</summary>
 internal sealed class SolverWork
 {
-    /// <summary>What it costs to visit a contact in a sweep; most visits find that nothing has changed.</summary>
+    /// <summary>The cost of visiting a contact in a sweep; most visits find that nothing has changed.</summary>
     private const double WorkPerVisit = 0.03;
 
-    /// <summary>So much since it was last cleared.</summary>
+    /// <summary>The work since it was last cleared.</summary>
     internal double Done { get; private set; }
 
     /// <summary>Begins another event.</summary>

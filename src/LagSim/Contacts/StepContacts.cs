@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Finds the contacts of a contact step: what touches, or might within the step, and is no impact's affair.</summary>
+/// <summary>Finds the contacts of a contact step: pairs that touch, or might within the step, and are not left to impacts.</summary>
 /// <remarks>Order counts: contacts are found in the order of their bodies. Cost: the pairs that are near along one axis.</remarks>
 internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, ContactProblem problem)
 {
@@ -16,9 +16,9 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     private int nearCount;
     private double fastest; // that the near ones were found for
 
-    /// <summary>Tells of a body that was added to the problem.</summary>
+    /// <summary>Notes a body that was added to the problem.</summary>
     /// <param name="body">Its number.</param>
-    /// <param name="spec">What it is.</param>
+    /// <param name="spec">The body's spec.</param>
     /// <param name="position">Where it is at the tick.</param>
     /// <param name="pull">How hard forces pull it, in m/s².</param>
     internal void SetBody(int body, in BodySpec spec, in Vector3D position, double pull)
@@ -59,11 +59,11 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Leaves out what did not hold before and is impacts' affair: elastic contacts, of which they take nothing, but where there is a hand,
-    /// which gives and takes; and contacts past which the two go so fast that within the step the surfaces curve away by more than the
-    /// tolerance, for then the gap along the line between them does not tell whether they touch.
+    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts, from which impacts take no energy,
+    /// unless there is a hand, which gives and takes. And they are contacts past which the two move so fast that within the step the
+    /// surfaces curve away by more than the tolerance: then the gap along the line between them does not show whether they touch.
     /// </summary>
-    /// <param name="seconds">How long the step is.</param>
+    /// <param name="seconds">The length of the step.</param>
     internal void DropImpacts(double seconds)
     {
         bool hasHand = problem.HasHand();
@@ -109,8 +109,8 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Whether two that pass each other are by more than the tolerance further apart at the end of the step than the plane between them
-    /// tells: by s^2 / 2R, where s is how far one moves past the other and R how far apart their centres are.
+    /// Whether two bodies that pass each other are more than the tolerance further apart at the end of the step than the plane between them
+    /// shows: by s^2 / 2R, where s is how far one moves past the other and R how far apart their centres are.
     /// </summary>
     private bool CurvesAway(in SolverContact c, double seconds)
     {
@@ -122,8 +122,8 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Whether two may touch in the step, and are then a contact of it: not what closes so fast that its rebound would rise by more than the tolerance, for which
-    /// there are impacts.
+    /// Whether two may touch in the step, and so are a contact of it. A pair that closes so fast that its rebound would rise by more than
+    /// the tolerance is left to impacts.
     /// </summary>
     private bool MayTouch(double gap, double opening, double seconds, double restitution, double pull)
     {
@@ -183,7 +183,8 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Marks the bodies that might strike another of the island within the step that was solved, which is no contact of it: for all others nobody need look.
+    /// Marks the bodies that might strike another member within the solved step although the pair is not a contact of it. All others need
+    /// no test.
     /// </summary>
     internal void FindMeetings(double seconds)
     {

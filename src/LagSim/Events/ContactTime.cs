@@ -20,8 +20,8 @@ internal readonly struct ContactTime
     internal double Residual { get; }
 
     /// <summary>
-    /// 2^-20 s. What closes a gap of rounding later than that closes at less than 1 nm/s. What closes slowly is asked for again only so
-    /// much later.
+    /// 2^-20 s. A pair that closes a gap of rounding later than that closes at less than 1 nm/s. A slowly closing pair is rechecked only
+    /// this much later.
     /// </summary>
     internal static readonly SimDuration Soon = SimDuration.FromTicks(SoonTicks);
 
@@ -34,7 +34,9 @@ internal readonly struct ContactTime
     /// <summary>The contact at a tick itself.</summary>
     internal static ContactTime At(SimTime tick) => new(tick, 0);
 
-    /// <summary>The contact a root in seconds after <paramref name="from"/> stands for; none if the root is NaN or after <paramref name="until"/>.</summary>
+    /// <summary>
+    /// The contact of a root in seconds after <paramref name="from"/>; none if the root is NaN or after <paramref name="until"/>.
+    /// </summary>
     internal static bool TryMake(SimTime from, SimTime until, double root, out ContactTime contact)
     {
         // The span from..until may exceed the range of a long; as an unsigned difference it never does.

@@ -7,9 +7,10 @@ namespace LagSim.Events;
 
 /// <summary>The place of an event in the one canonical order: time, round, rank of kind, body identities, peer, sequence.</summary>
 /// <remarks>
-/// <para>What an event causes at its own tick takes the next <see cref="Round"/>, so a cause sorts before its effect. Every cut of a
-/// timeline compares whole keys. Two different events of one world never have equal keys.</para>
-/// <para>Immutable, safe on any thread; comparison is integers only and a total order. <c>default</c> is before every event at the origin.</para>
+/// <para>An effect at the tick of its cause takes the next <see cref="Round"/>, so a cause sorts before its effect. Every cut of a timeline
+/// compares whole keys. Two different events of one world never have equal keys.</para>
+/// <para>Immutable, safe on any thread; comparison is integers only and a total order. <c>default</c> is before every event at the
+/// origin.</para>
 /// </remarks>
 public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
 {
@@ -31,15 +32,15 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     /// <summary>How many causes at the same tick precede it; 0 for what comes from outside or from an earlier tick.</summary>
     public uint Round => (uint)(rank >> 32);
 
-    /// <summary>What it is.</summary>
+    /// <summary>The kind of the event.</summary>
     public EventKind Kind => (EventKind)(byte)rank;
 
-    /// <summary>The body it happens to; of an impact the least identity among its parties.</summary>
+    /// <summary>The body it happens to; for an impact the least identity among its bodies.</summary>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Of an impact the partner of <see cref="Body"/> with the least identity, <see cref="Body"/> itself where it hit only static geometry; else
-    /// <see cref="Body"/>.
+    /// For an impact, the partner of <see cref="Body"/> with the least identity, or <see cref="Body"/> itself where it hit only static
+    /// geometry; for any other event, <see cref="Body"/>.
     /// </summary>
     public BodyId Other { get; }
 

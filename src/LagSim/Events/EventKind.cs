@@ -1,11 +1,12 @@
 namespace LagSim.Events;
 
 /// <summary>
-/// What an event is. The number is its rank in the canonical order of one tick and round, and stands in wire, recordings and hashes: never renumber.
+/// The kind of an event. The number is its rank in the canonical order of one tick and round, and is part of wire, recordings and hashes:
+/// never renumber.
 /// </summary>
 /// <remarks>
-/// What comes from outside precedes what the model makes, and a spawn precedes all, so that what is said of a body at the tick of its spawn
-/// finds it there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends.
+/// External events precede those that the model makes, and a spawn precedes all, so that other events at the tick of a body's spawn find it
+/// there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends.
 /// </remarks>
 public enum EventKind : byte
 {
@@ -30,10 +31,10 @@ public enum EventKind : byte
     /// <summary>External: a hand takes a body. One that is held it does not get.</summary>
     Grab = 12,
 
-    /// <summary>External: where the hand that holds a body is, and how fast. Without one for a second it has let go.</summary>
+    /// <summary>External: the position and velocity of the hand that holds a body. Without one for a second the hold ends.</summary>
     HoldKeyframe = 13,
 
-    /// <summary>External: the hand that holds a body lets go of it, with a velocity.</summary>
+    /// <summary>External: the hand that holds a body releases it, with a velocity.</summary>
     Release = 14,
 
     /// <summary>External: a body disappears.</summary>

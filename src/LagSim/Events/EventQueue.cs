@@ -4,16 +4,17 @@ namespace LagSim.Events;
 
 /// <summary>The pending events of a world: at most one a body, by construction, popped in canonical order.</summary>
 /// <remarks>
-/// <para>A calendar (Paul 2007, physics/0606226): time in slices, each with a list of its events in no order; those of the slice at hand, and whatever lies
-/// before it, in a heap (<see cref="NearEvents"/>); those beyond the last slice in a list of their own. So an event is put in, replaced and taken out in O(1)
-/// but for the few of the slice at hand. The slices are as long as makes them hold a few events, which the queue finds out as it goes; few events are all in
-/// the heap. Where an event is kept has no influence on the order.</para>
-/// <para>Two bodies that wait for the same impact have equal keys; which slot comes first does not matter, for the impact settles both.</para>
+/// <para>A calendar (Paul 2007, physics/0606226): time is cut into slices, each with a list of its events in no order. Events of the
+/// current slice, and all before it, are in a heap (<see cref="NearEvents"/>); events beyond the last slice are in a list of their own. So
+/// an event is added, replaced and removed in O(1), apart from the few of the current slice. The queue adapts the length of slices so that
+/// each holds a few events; few events are all in the heap. Where an event is kept has no influence on the order.</para>
+/// <para>Two bodies that wait for the same impact have equal keys. Which slot comes first does not matter, because the impact handles
+/// both.</para>
 /// <para>Cost: O(1), amortised, unless all happens at one tick: then O(log n). Allocates only when more is pending than ever before.</para>
 /// </remarks>
 internal sealed class EventQueue
 {
-    /// <summary>So many events a slice is to hold.</summary>
+    /// <summary>The number of events that a slice should hold.</summary>
     private const int PerSlice = 4;
 
     /// <summary>Up to so many events are all in the heap; and so many there are too many, if they need not be.</summary>
@@ -32,13 +33,13 @@ internal sealed class EventQueue
     private readonly NearEvents near;
     private long[] samples = Array.Empty<long>(); // only once slices are made
     private Node[] nodes; // by slot
-    private int[] slices = Array.Empty<int>(); // a ring, made once events are many: the first slot of each slice from the one at hand on
+    private int[] slices = Array.Empty<int>(); // a ring, made once events are many: the first slot of each slice from the current one on
     private int inSlices;
     private int beyond = None;
     private int inBeyond;
     private int shift; // a slice is 2^shift ticks
-    private long current = long.MaxValue; // the slice at hand; the last there is while events are few
-    private long swept; // the slice at hand when it was last looked at what lies beyond
+    private long current = long.MaxValue; // the current slice; the last there is while events are few
+    private long swept; // the current slice when the events beyond the last one were last tested
     private long taken; // how many events were taken out of slices since
     private long changes; // since the slices were made
 
@@ -52,7 +53,7 @@ internal sealed class EventQueue
 
     internal int Count => near.Count + inSlices + inBeyond;
 
-    /// <summary>The slot whose event is the least.</summary>
+    /// <summary>The slot of the least event.</summary>
     internal int LeastSlot
     {
         get
@@ -72,7 +73,7 @@ internal sealed class EventQueue
         }
     }
 
-    /// <summary>True, the slot whose event is the least, and its key; false if none is pending.</summary>
+    /// <summary>True, with the slot of the least event and its key; false if none is pending.</summary>
     internal bool TryGetLeast(out int slot, out EventKey key)
     {
         if (Count == 0)
@@ -95,7 +96,8 @@ internal sealed class EventQueue
     }
 
     /// <summary>
-    /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the same.
+    /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the
+    /// same.
     /// </summary>
     internal bool IsLeastAloneWith(int other, in EventKey least) =>
         other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsLeastAloneWith(other);
@@ -216,7 +218,7 @@ internal sealed class EventQueue
         inBeyond -= node.Where == Beyond ? 1 : 0;
     }
 
-    /// <summary>Goes on to the next slice with anything in it, if there is nothing left of the one at hand.</summary>
+    /// <summary>Moves to the next slice that is not empty, if the current one is.</summary>
     private void Advance()
     {
         while (near.Count == 0)
@@ -277,7 +279,7 @@ internal sealed class EventQueue
         }
     }
 
-    /// <summary>Makes the slices anew for what is pending now.</summary>
+    /// <summary>Makes the slices again for the events that are pending now.</summary>
     private void Arrange()
     {
         int count = Count;
@@ -300,7 +302,7 @@ internal sealed class EventQueue
         current = long.MaxValue;
         if (count > Few / 2)
         {
-            // An eighth of what is pending tells how dense events are from here on, whatever the rest waits for.
+            // An eighth of the pending events shows how dense events are from here on, whatever the rest waits for.
             Array.Sort(samples, 0, sampled);
             ulong eighth = (ulong)samples[sampled / 8] - (ulong)least;
             ulong length = Math.Min(eighth / ((ulong)count / 8), long.MaxValue / PerSlice) * PerSlice;

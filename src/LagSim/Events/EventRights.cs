@@ -3,10 +3,12 @@ using LagSim.Scenes;
 
 namespace LagSim.Events;
 
-/// <summary>Which peer may do what, if the scene says so. A host asks it for its verdict; a world by itself knows no rights.</summary>
+/// <summary>Which peer may do what, if the scene limits it. A host uses it to validate events; a world by itself knows no rights.</summary>
 public static class EventRights
 {
-    /// <summary>Whether the peer that did this may do it: spawn at all, or touch that body of the scene. What was spawned everyone may touch.</summary>
+    /// <summary>
+    /// Whether the peer that did this may do it: spawn at all, or touch that body of the scene. Spawned bodies may be touched by all.
+    /// </summary>
     public static bool Has(in ExternalEvent external, Scene scene)
     {
         if (scene is null)
@@ -19,7 +21,7 @@ public static class EventRights
     }
 
     /// <summary>Throws if the peer that did this may not do it.</summary>
-    /// <exception cref="SceneException">The sentence names the peer, what it did, and who may.</exception>
+    /// <exception cref="SceneException">The message names the peer, its action, and the peers that may do it.</exception>
     public static void Throw(in ExternalEvent external, Scene scene)
     {
         if (Has(external, scene))

@@ -2,9 +2,10 @@ using System;
 
 namespace LagSim.Events;
 
-/// <summary>What is due next: at most one event a body, and of an impact with whom it is.</summary>
-/// <remarks>Cost: O(1), amortised (<see cref="EventQueue"/>). Allocates only when there are more bodies, or more is pending, than ever
-/// before.</remarks>
+/// <summary>The scheduled events: at most one a body, and the partner of each impact.</summary>
+/// <remarks>
+/// Cost: O(1), amortised (<see cref="EventQueue"/>). Allocates only when there are more bodies, or more is pending, than ever before.
+/// </remarks>
 internal sealed class EventScheduler(int expected)
 {
     private readonly EventQueue queue = new(expected);
@@ -13,7 +14,7 @@ internal sealed class EventScheduler(int expected)
     /// <summary>How many events are pending.</summary>
     internal int Count => queue.Count;
 
-    /// <summary>The slot whose event is the least.</summary>
+    /// <summary>The slot of the least event.</summary>
     internal int LeastSlot => queue.LeastSlot;
 
     /// <summary>The least pending key.</summary>
@@ -30,10 +31,10 @@ internal sealed class EventScheduler(int expected)
         contacts[slot] = new PendingContact { Partner = PendingContact.NoPartner };
     }
 
-    /// <summary>With whom the body's pending event is, if it is an impact.</summary>
+    /// <summary>The partner of the body's pending event, if that is an impact.</summary>
     internal ref readonly PendingContact Contact(int slot) => ref contacts[slot];
 
-    /// <summary>True, the slot whose event is the least, and its key; false if none is pending.</summary>
+    /// <summary>True, with the slot of the least event and its key; false if none is pending.</summary>
     internal bool TryGetLeast(out int slot, out EventKey key) => queue.TryGetLeast(out slot, out key);
 
     /// <summary>True and the key of the body's pending event, if it has one.</summary>

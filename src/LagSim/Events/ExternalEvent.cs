@@ -5,9 +5,11 @@ using LagSim.Time;
 
 namespace LagSim.Events;
 
-/// <summary>What did not come from the model: something a player did to a body, stamped (time, peer, sequence) once and for all.</summary>
+/// <summary>
+/// An event that did not come from the model: a player's action on a body, stamped (time, peer, sequence) once and for all.
+/// </summary>
 /// <remarks>
-/// <para>An event for a body that is not there at its time does nothing, and may still do something should a late event put the body there.</para>
+/// <para>An event for a body that is not there at its time has no effect. It may still get one if a late event puts the body there.</para>
 /// <para>Immutable, safe on any thread. <c>default</c> is no event (<see cref="EventKind.None"/>) and is refused everywhere.</para>
 /// </remarks>
 public readonly struct ExternalEvent : IEquatable<ExternalEvent>
@@ -26,13 +28,13 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         Spin = spin;
     }
 
-    /// <summary>What is done.</summary>
+    /// <summary>The kind of the action.</summary>
     public EventKind Kind { get; }
 
     /// <summary>When, in shared simulation time.</summary>
     public SimTime Time { get; }
 
-    /// <summary>The peer who did it.</summary>
+    /// <summary>The peer that did it.</summary>
     public byte Peer { get; }
 
     /// <summary>The number of the event at its peer, counted from 1.</summary>
@@ -42,18 +44,20 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public BodyId Body { get; }
 
     /// <summary>
-    /// Metres; of a spawn or teleport where the body's centre is put, of a keyframe where the hand's point is, of a grab that point less the body's centre; else
-    /// zero.
+    /// In metres. For a spawn or teleport, where the body's centre is put; for a keyframe, where the hand's point is; for a grab, that
+    /// point less the body's centre; zero for any other.
     /// </summary>
     public Vector3D Position { get; }
 
-    /// <summary>Metres per second, of a spawn, teleport, set velocity, keyframe or release; newton seconds, of an impulse; else zero.</summary>
+    /// <summary>
+    /// In metres per second for a spawn, teleport, set velocity, keyframe or release; in newton seconds for an impulse; zero for any other.
+    /// </summary>
     public Vector3D Velocity { get; }
 
-    /// <summary>Of a spawn what appears; else <c>default</c>.</summary>
+    /// <summary>The spec of a spawned body; <c>default</c> for any other event.</summary>
     public BodySpec Spec { get; }
 
-    /// <summary>Radians per second about the vector, of a spawn; else zero.</summary>
+    /// <summary>The spin of a spawned body, in radians per second about the vector; zero for any other event.</summary>
     public Vector3D Spin { get; }
 
     /// <summary>Its place in the canonical order.</summary>
@@ -77,31 +81,33 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.SetVelocity, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>
-    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it faster than a
-    /// tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike; what it meets is known only when its
-    /// time comes. <see cref="Simulation.TookEffect"/> tells.
+    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it
+    /// faster than a tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike.
+    /// What it meets is known only when its time comes: see <see cref="Simulation.TookEffect"/>.
     /// </summary>
     public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 
     /// <summary>
-    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first keyframe the hand is taken to be
-    /// at rest where the body was. What is held already, or faster than may be given, it does not get. What is held does not turn, nor when it is let go.
+    /// The peer's hand takes the body, by a point that lies <paramref name="offset"/> from its centre, in metres. Until the first keyframe
+    /// the hand is assumed to be at rest where the body was. It does not get a body that is held already, or one that is faster than a
+    /// player may make it. A held body does not turn, nor does it when it is released.
     /// </summary>
     public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
         new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
 
     /// <summary>
-    /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for what follows.
+    /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for
+    /// what follows.
     /// </summary>
     public static ExternalEvent HoldKeyframe(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
         new(EventKind.HoldKeyframe, time, peer, sequence, body, position, velocity, default);
 
-    /// <summary>The peer's hand, if it holds the body, lets go of it, which from where it is goes on with this velocity (m/s).</summary>
+    /// <summary>The peer's hand, if it holds the body, releases it. The body continues from where it is with this velocity (m/s).</summary>
     public static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
-    /// <summary>The same scripted action at another time; how a peer that does not heal applies what it hears late.</summary>
+    /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>
     public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin);
 
     /// <inheritdoc/>

@@ -3,7 +3,8 @@ using LagSim.Scenes;
 namespace LagSim.Events;
 
 /// <summary>
-/// The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when it is asked.
+/// The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when
+/// it is asked.
 /// </summary>
 public static class ExternalEventCheck
 {
@@ -117,7 +118,7 @@ public static class ExternalEventCheck
     private static SceneException Inside(Subject whose, in Vector3D position, double gap, string what) =>
         new($"The position of {whose}, {position}, lies {Limits.Text(-gap)} m deep inside {what}; it must be outside.");
 
-    /// <summary>What an error says the value belongs to. Made into text only then: the check is asked for every event.</summary>
+    /// <summary>The owner of the value, for an error message. Made into text only then, because the check runs for every event.</summary>
     private readonly struct Subject
     {
         private readonly EventKind kind;

@@ -3,8 +3,8 @@ using System;
 namespace LagSim.Events;
 
 /// <summary>
-/// The events of an <see cref="EventQueue"/> that come next, as a heap with four children a node; times stand in it, keys are looked at only where times are
-/// equal.
+/// The next events of an <see cref="EventQueue"/>, as a heap with four children a node. The heap holds times; keys are read only where
+/// times are equal.
 /// </summary>
 internal sealed class NearEvents
 {
@@ -12,7 +12,7 @@ internal sealed class NearEvents
 
     private Item[] items;
 
-    /// <summary>No events yet; with room for so many at first, at least one.</summary>
+    /// <summary>No events yet; with room for that many at first, at least one.</summary>
     internal NearEvents(int room) => items = new Item[room];
 
     internal int Count { get; private set; }

@@ -1,6 +1,6 @@
 namespace LagSim.Events;
 
-/// <summary>With whom, or what, a body's pending impact is, and what it was found with.</summary>
+/// <summary>The partner or surface of a body's pending impact, and the segment it was found with.</summary>
 internal struct PendingContact
 {
     /// <summary>The partner of what is no contact with another body.</summary>
@@ -9,7 +9,7 @@ internal struct PendingContact
     /// <summary>The other body's slot, or <see cref="NoPartner"/>.</summary>
     internal int Partner;
 
-    /// <summary>Where there is no partner, which static surface.</summary>
+    /// <summary>The static surface, if there is no partner.</summary>
     internal int Surface;
 
     /// <summary>The serial of the partner's segment that the impact was found with.</summary>
@@ -18,6 +18,6 @@ internal struct PendingContact
     /// <summary>How far the unrounded root lies from its tick, in seconds.</summary>
     internal double Residual;
 
-    /// <summary>Whether the body may have another event at the tick of its pending one, that nobody waits for.</summary>
+    /// <summary>Whether the body may have another event at the tick of its pending one, which no body waits for.</summary>
     internal bool IsTied;
 }

@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Events;
 
-/// <summary>What a player does to a body, before it is stamped with time, peer and sequence and so becomes an <see cref="ExternalEvent"/>.</summary>
+/// <summary>
+/// A player's action on a body, before it is stamped with time, peer and sequence and so becomes an <see cref="ExternalEvent"/>.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no action and cannot be stamped.</remarks>
 /// <example>
 /// A kick, then a ball that is put elsewhere at rest:
@@ -31,12 +33,12 @@ public readonly struct PlayerAction
         this.spin = spin;
     }
 
-    /// <summary>What is done; <see cref="EventKind.None"/> of the default.</summary>
+    /// <summary>The kind of the action; <see cref="EventKind.None"/> for the default.</summary>
     public EventKind Kind { get; }
 
     /// <summary>
-    /// A new body appears, at metres, with metres per second, and turning by radians per second about <paramref name="spin"/> (default: not). Its identity
-    /// comes with the stamp.
+    /// A new body appears, at metres, with metres per second, and turning by radians per second about <paramref name="spin"/> (default:
+    /// not). Its identity comes with the stamp.
     /// </summary>
     public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
         new(EventKind.Spawn, default, position, velocity, spec, spin);
@@ -52,25 +54,28 @@ public readonly struct PlayerAction
     public static PlayerAction SetVelocity(BodyId body, Vector3D velocity) => new(EventKind.SetVelocity, body, default, velocity, default);
 
     /// <summary>
-    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it faster than a
-    /// tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike; what it meets is known only when its
-    /// time comes. <see cref="Simulation.TookEffect"/> tells.
+    /// The body's momentum changes by this many newton seconds, as of a push through its centre: it turns as it did. One that would make it
+    /// faster than a tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike.
+    /// What it meets is known only when its time comes: see <see cref="Simulation.TookEffect"/>.
     /// </summary>
     public static PlayerAction Impulse(BodyId body, Vector3D impulse) => new(EventKind.Impulse, body, default, impulse, default);
 
     /// <summary>
-    /// The player's hand takes the body, by a point that lies <paramref name="offset"/> (metres) from its centre. It lasts as long as the hand tells where it
-    /// is, a second at a time; see <see cref="Motion.HandPath"/>. What is held does not turn, nor when it is let go.
+    /// The player's hand takes the body, by a point that lies <paramref name="offset"/> (metres) from its centre. The hold lasts while the
+    /// hand sends keyframes, a second after each; see <see cref="Motion.HandPath"/>. A held body does not turn, nor does it when it is
+    /// released.
     /// </summary>
     public static PlayerAction Grab(BodyId body, Vector3D offset = default) => new(EventKind.Grab, body, offset, default, default);
 
     /// <summary>The hand that holds the body is at a position (metres) with a velocity (m/s).</summary>
     public static PlayerAction HoldKeyframe(BodyId body, Vector3D position, Vector3D velocity) => new(EventKind.HoldKeyframe, body, position, velocity, default);
 
-    /// <summary>The hand that holds the body lets go of it, which goes on with this velocity (m/s).</summary>
+    /// <summary>The hand that holds the body releases it. The body continues with this velocity (m/s).</summary>
     public static PlayerAction Release(BodyId body, Vector3D velocity = default) => new(EventKind.Release, body, default, velocity, default);
 
-    /// <summary>The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.</summary>
+    /// <summary>
+    /// The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.
+    /// </summary>
     /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
     public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => Kind switch
     {

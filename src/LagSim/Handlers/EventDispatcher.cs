@@ -15,8 +15,8 @@ internal sealed class EventDispatcher(
     StepMarks marks, RewindRequests rewinds, Rewinder rewinder)
 {
     /// <summary>
-    /// Processes the least event that is due. Where somebody that takes part is ahead of it, that one is rewound instead, and the event is
-    /// due again.
+    /// Processes the least event that is due. If a body that takes part is ahead of it, that body is rewound instead, and the event is due
+    /// again.
     /// </summary>
     internal void Process(int slot, in EventKey key)
     {

@@ -19,8 +19,8 @@ internal sealed class ExternalHandler(
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Applies the body's event that is due; the graph has whose segments follow. False if somebody who sleeps on it has to be rewound
-    /// first.
+    /// Applies the body's event that is due; the graph then has the bodies whose segments follow. False if a body that sleeps on it has to
+    /// be rewound first.
     /// </summary>
     internal bool TryHandle(int slot, in EventKey key)
     {
@@ -67,7 +67,7 @@ internal sealed class ExternalHandler(
         }
         else if (paths.IsHeld(last))
         {
-            return; // what is in a hand goes where the hand goes
+            return; // a held body goes where the hand goes
         }
         else if (isForwarded)
         {

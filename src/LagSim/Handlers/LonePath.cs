@@ -12,10 +12,10 @@ internal sealed class LonePath(Scene scene, BodyTable bodies, TimelineStore time
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Puts the body at the key's time on the very path it would be on, had the event come in time and were nothing there but static
-    /// geometry. The path keeps its own epoch and step grid, so where it flew freely at the stamp and nothing else was touched it agrees
-    /// with the other peers bit for bit. What carried it then is found again by contact, and a closed-form flight's next contact is looked
-    /// for from the arrival on: both may differ in rounding.
+    /// Puts the body at the key's time on the path it would be on if the event had come in time and there were nothing but static geometry.
+    /// The path keeps its own epoch and step grid, so where it flew freely at the stamp and nothing else was touched it agrees with the
+    /// other peers bit for bit. The surface that carried it is found again by contact, and a closed-form flight's next contact is searched
+    /// for from the arrival on. Both may differ in rounding.
     /// </summary>
     internal void Follow(int slot, in EventKey key, in ExternalEvent external)
     {

@@ -5,12 +5,12 @@ using LagSim.Scenes;
 
 namespace LagSim.Handlers;
 
-/// <summary>What impulses, new velocities and teleports make of a state.</summary>
+/// <summary>Applies impulses, new velocities and teleports to a state.</summary>
 internal static class Pushes
 {
     /// <summary>
-    /// The state right after an event that comes so many seconds into a segment. False if it would be faster than may be given: the check at
-    /// submission cannot know the velocity that an impulse meets, so such an event has no effect, on every peer alike.
+    /// The state right after an event that comes so many seconds into a segment. False if it would be faster than may be given: the check
+    /// at submission cannot know the velocity that an impulse meets, so such an event has no effect, on every peer alike.
     /// </summary>
     internal static bool TryApply(
         in ExternalEvent external, in MotionSegment before, in DenseOutput dense, double seconds, double mass, Scene scene,

@@ -7,11 +7,11 @@ using LagSim.Trajectories;
 
 namespace LagSim.Handlers;
 
-/// <summary>The end of a segment: an island takes a contact step, and any other body goes on by the law that follows.</summary>
+/// <summary>Handles the end of a segment: an island takes a contact step, and any other body continues by the law that follows.</summary>
 internal sealed class StepEndHandler(
     TimelineStore timelines, ContactGraph graph, IslandStepper stepper, TrajectoryFactory trajectories, SegmentLinker linker)
 {
-    /// <summary>Opens the segments that follow; the graph has whose they are. False if somebody has to be rewound first.</summary>
+    /// <summary>Opens the segments that follow; the graph then has their bodies. False if a body has to be rewound first.</summary>
     internal bool TryHandle(int slot, in EventKey key)
     {
         if (timelines.Segment(timelines.Last(slot)).Law != MotionLaw.Constrained)

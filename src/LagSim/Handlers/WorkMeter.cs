@@ -5,12 +5,12 @@ using LagSim.Timelines;
 
 namespace LagSim.Handlers;
 
-/// <summary>Tells an observer how much work each event is.</summary>
+/// <summary>Reports to an observer how much work each event is.</summary>
 internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork work, RollbackState rollback)
 {
     /// <summary>
-    /// What a body costs in an event that a contact solver solves, besides the sweeps. Measured with the next, by <c>LagSim.Bench --
-    /// heapheals</c>.
+    /// The cost of a body in an event that a contact solver solves, besides the sweeps. Measured together with the next constant, by
+    /// <c>LagSim.Bench -- heapheals</c>.
     /// </summary>
     private const double WorkPerBody = 2;
 
@@ -19,7 +19,7 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     /// </summary>
     private const double WorkAgain = 4;
 
-    /// <summary>Is told of every event that is processed; null, the default, costs nothing.</summary>
+    /// <summary>Notified of every event that is processed; null, the default, costs nothing.</summary>
     internal IWorkObserver? Observer { get; set; }
 
     /// <summary>An event is about to be processed.</summary>
@@ -29,8 +29,8 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
         work.Clear();
     }
 
-    /// <summary>The event has been processed: tells the observer which bodies took part.</summary>
-    /// <returns>What the observer says of it.</returns>
+    /// <summary>The event has been processed: reports to the observer which bodies took part.</summary>
+    /// <returns>The observer's verdict.</returns>
     internal WorkVerdict Tell(int slot, in EventKey key)
     {
         bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
@@ -41,10 +41,10 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     }
 
     /// <summary>
-    /// How much an event of so many bodies costs, in units of about a microsecond on a core of the 2020s. What contact solvers solve counts
-    /// by their sweeps, and no more where it is done again. Else a lone bounce is 3, an impact in a crowd the square of who takes part, for
-    /// all are held against all; and several times that where they are held against paths that stand already. docs/BUDGETS.md has how near
-    /// that is.
+    /// The cost of an event by its number of bodies, in units of about a microsecond on a core of the 2020s. Events of contact solvers
+    /// count by their sweeps, and no more where they are re-simulated. Otherwise a lone bounce is 3, and an impact in a crowd is the square
+    /// of the bodies that take part, because all are tested against all. It is several times that where they are tested against existing
+    /// paths. docs/BUDGETS.md says how accurate that is.
     /// </summary>
     private double WorkOf(int bodies, bool isAgain) =>
         work.Done > 0 ? 2 + (WorkPerBody * bodies) + work.Done : (isAgain ? WorkAgain : 1) * (2 + ((double)bodies * bodies));

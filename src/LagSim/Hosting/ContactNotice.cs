@@ -7,10 +7,12 @@ using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
-/// <summary>Two things that meet: a body and another, or a body and a surface of the scene; what a game needs for a sound or a score.</summary>
+/// <summary>
+/// A contact: a body meets another, or a surface of the scene. It has what a game needs for a sound or a score.
+/// </summary>
 /// <remarks>
-/// Immutable, safe on any thread. What it tells of the contact has the same bits on every peer; <see cref="Number"/> and which come as predicted are a peer's
-/// own.
+/// Immutable, safe on any thread. The data of the contact has the same bits on every peer. <see cref="Number"/>, and which contacts come as
+/// predicted, are each peer's own.
 /// </remarks>
 public readonly struct ContactNotice : IEquatable<ContactNotice>
 {
@@ -36,7 +38,9 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
     /// <summary>Whether it is predicted, confirmed or retracted.</summary>
     public ContactNoticeKind Kind { get; }
 
-    /// <summary>Counts the notices of this peer from 1, lost ones included: a gap is one that found no room; see <see cref="ContactNotices.Lost"/>.</summary>
+    /// <summary>
+    /// Counts the notices of this peer from 1, lost ones included: a gap is one that found no room; see <see cref="ContactNotices.Lost"/>.
+    /// </summary>
     public long Number { get; }
 
     /// <summary>The impact. All contacts of one tick and round that share bodies are one impact, and so have one key.</summary>
@@ -52,15 +56,17 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
     public BodyId Second { get; }
 
     /// <summary>
-    /// What of the scene it met: below the number of <see cref="Scene.Planes"/> the plane of that index, from there on the static sphere of what is left; -1
-    /// where two bodies met.
+    /// The surface that it met. Below the number of <see cref="Scene.Planes"/> it is the index of a plane; from there on the rest is the
+    /// index of a static sphere; -1 where two bodies met.
     /// </summary>
     public int Surface { get; }
 
     /// <summary>Where they touch, in metres.</summary>
     public Vector3D Position { get; }
 
-    /// <summary>How fast they approach along their normal right before, in m/s, above zero. With the masses it tells how hard the blow is.</summary>
+    /// <summary>
+    /// How fast they approach along their normal right before, in m/s, above zero. With the masses it gives the strength of the impact.
+    /// </summary>
     public double ClosingSpeed { get; }
 
     /// <summary>The name of the surface in its scene; empty where two bodies met.</summary>
@@ -80,7 +86,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
                 + $" {scene.Planes.Count + scene.StaticSpheres.Count}.", nameof(scene));
     }
 
-    /// <summary>Whether it is of the same contact, to the bit, whatever it says of it.</summary>
+    /// <summary>Whether it is about the same contact, to the bit, whatever its kind.</summary>
     public bool IsSameContact(in ContactNotice other) =>
         Compare(this, other) == 0 && Position.Equals(other.Position) && ClosingSpeed.Equals(other.ClosingSpeed);
 

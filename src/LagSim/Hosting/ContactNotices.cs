@@ -7,21 +7,24 @@ using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
-/// <summary>Tells a game of contacts: each predicted, then confirmed when nothing can change it any more, or retracted after a late event.</summary>
+/// <summary>
+/// Reports contacts to a game: each is predicted, then confirmed when nothing can change it any more, or retracted after a late event.
+/// </summary>
 /// <remarks>
-/// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with the options of a
-/// session. It changes no bit of what happens.</para>
-/// <para>Told after each step of the world, so what a rewind took back and re-simulation made again just so is not told at all: nothing is retracted that is then
-/// predicted unchanged. Each contact that was predicted is in the end either retracted or confirmed, once. Confirmed ones come in ascending order of their
-/// keys, each once, and are the same on all peers from where each of them began; what is not committed when a world ends is never confirmed. Confirmation comes
-/// as late as a late event may: the history of the world or session, and up to as long as a session at rest is silent.</para>
-/// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with <see cref="TryRead"/>, without a
-/// lock.</para>
-/// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted; these are no more than the world's own pieces of path,
-/// which the world bounds.</para>
+/// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with
+/// the options of a session. It changes no bit of what happens.</para>
+/// <para>Notices are made after each step of the world. A contact that a rewind undid and re-simulation made again unchanged gives no
+/// notice: nothing is retracted and then predicted unchanged. Each predicted contact is in the end either retracted or confirmed, once.
+/// Confirmed ones come in ascending order of their keys, each once, and are the same on all peers from where each of them began. A contact
+/// that is not committed when a world ends is never confirmed. Confirmation comes as late as a late event may: the history of the world or
+/// session, and up to as long as a session at rest is silent.</para>
+/// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with
+/// <see cref="TryRead"/>, without a lock.</para>
+/// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted. These are no more than the world's
+/// own segments, which the world bounds.</para>
 /// </remarks>
 /// <example>
-/// A score that counts only what nothing can change any more:
+/// A score that counts only confirmed contacts:
 /// <code>
 /// ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s
 /// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Contacts = contacts });
@@ -36,10 +39,12 @@ namespace LagSim.Hosting;
 /// </example>
 public sealed class ContactNotices : IImpactObserver
 {
-    /// <summary>The least closing speed where nothing else is said, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.</summary>
+    /// <summary>
+    /// The default least closing speed, 0.05 m/s: ten times that of the least bounces that are followed on other bodies.
+    /// </summary>
     public const double DefaultMinClosingSpeed = 0.05;
 
-    /// <summary>How many notices wait to be read at most, where nothing else is said.</summary>
+    /// <summary>The default limit on notices that wait to be read.</summary>
     public const int DefaultCapacity = 4096;
 
     /// <summary>The largest queue.</summary>
@@ -49,20 +54,22 @@ public sealed class ContactNotices : IImpactObserver
     private const int FewChanges = 1024;
 
     private readonly ContactQueue queue;
-    private readonly List<ContactNotice> tail = new(); // of what stands, while it is merged with what changed
-    private List<Change> changes = new(); // since the last step that was told, in the order in which they came
+    private readonly List<ContactNotice> tail = new(); // the known contacts, while they are merged with the changes
+    private List<Change> changes = new(); // since the last step that was reported, in the order in which they came
     private List<Change> spare = new();
     private readonly List<ContactNotice> standing = new(); // predicted and neither confirmed nor retracted, in order
-    private int confirmed; // so many of these at the front have been confirmed
+    private int confirmed; // the number of these at the front that have been confirmed
     private int settledChanges; // how many changes were left when they were last put together
     private long number;
     private long lost;
     private bool isFollowing;
 
-    /// <summary>Notices of the contacts of one world, which is told of them.</summary>
-    /// <param name="minClosingSpeed">Slower contacts are not told, in m/s; at least zero, default <see cref="DefaultMinClosingSpeed"/>. With zero a body that
-    /// lies on another is told a thousand times a second. The same on all peers that are to be told the same.</param>
-    /// <param name="capacity">How many notices may wait to be read, 16 to <see cref="MaxCapacity"/>, default <see cref="DefaultCapacity"/>.</param>
+    /// <summary>Creates the notices for the contacts of one world, which is given them.</summary>
+    /// <param name="minClosingSpeed">Slower contacts are not reported, in m/s; at least zero, default <see cref="DefaultMinClosingSpeed"/>.
+    /// With zero a body that lies on another is reported a thousand times a second. Peers that are to get the same notices need the same
+    /// value.</param>
+    /// <param name="capacity">How many notices may wait to be read, 16 to <see cref="MaxCapacity"/>, default
+    /// <see cref="DefaultCapacity"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public ContactNotices(double minClosingSpeed = DefaultMinClosingSpeed, int capacity = DefaultCapacity)
     {
@@ -81,18 +88,21 @@ public sealed class ContactNotices : IImpactObserver
         queue = new ContactQueue(capacity);
     }
 
-    /// <summary>Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.</summary>
+    /// <summary>
+    /// Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.
+    /// </summary>
     public event Action<ContactNotice>? Noticed;
 
-    /// <summary>Slower contacts are not told, in m/s.</summary>
+    /// <summary>Slower contacts are not reported, in m/s.</summary>
     public double MinClosingSpeed { get; }
 
     /// <summary>How many notices may wait to be read.</summary>
     public int Capacity => queue.Capacity;
 
     /// <summary>
-    /// How many notices <see cref="TryRead"/> will never give, because too many waited: predictions take at most half of the queue, and what else finds no room
-    /// is left out too, each with a gap in <see cref="ContactNotice.Number"/>. <see cref="Noticed"/> had them. From any thread.
+    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Predictions take at most half of the
+    /// queue; other notices that find no room are left out too, each with a gap in <see cref="ContactNotice.Number"/>.
+    /// <see cref="Noticed"/> had them. From any thread.
     /// </summary>
     public long Lost => Volatile.Read(ref lost);
 
@@ -141,7 +151,8 @@ public sealed class ContactNotices : IImpactObserver
     }
 
     /// <summary>
-    /// Tells what a step changed and what can no longer change. While a heal is under way it waits: most of what that takes back it makes again.
+    /// Reports what a step changed and what can no longer change. While a heal is under way it waits: most of what a heal undoes it makes
+    /// again.
     /// </summary>
     internal void Tell(Simulation simulation)
     {
@@ -163,12 +174,14 @@ public sealed class ContactNotices : IImpactObserver
         }
     }
 
-    /// <summary>When a world that forgets by itself has the next to be confirmed; <see cref="SimTime.MaxValue"/> if none waits for that.</summary>
+    /// <summary>
+    /// When a world that forgets by itself has the next to be confirmed; <see cref="SimTime.MaxValue"/> if none waits for that.
+    /// </summary>
     internal SimTime NextDue(SimDuration history, SimDuration lookAhead)
     {
         if (Pending == 0 || history > SimDuration.FromSeconds(1 << 20))
         {
-            return SimTime.MaxValue; // whoever forgets for it has it step
+            return SimTime.MaxValue; // the owner that forgets for it has it step
         }
 
         return standing[confirmed].Time + history - lookAhead + SimDuration.OneTick;
@@ -183,7 +196,9 @@ public sealed class ContactNotices : IImpactObserver
         }
     }
 
-    /// <summary>Leaves of the changes of each impact whether it was cut, and what was made after that; in the order of the impacts.</summary>
+    /// <summary>
+    /// Leaves of the changes of each impact whether it was cut, and what was made after that; in the order of the impacts.
+    /// </summary>
     private void PutTogether()
     {
         changes.Sort(static (a, b) =>
@@ -213,7 +228,7 @@ public sealed class ContactNotices : IImpactObserver
         settledChanges = changes.Count;
     }
 
-    /// <summary>Brings what changed into what stands, and tells the difference.</summary>
+    /// <summary>Merges the changes into the known contacts, and reports the difference.</summary>
     private void Merge()
     {
         if (changes.Count == 0)
@@ -241,7 +256,8 @@ public sealed class ContactNotices : IImpactObserver
 
             at += changes[at].IsCut ? 1 : 0;
 
-            // An impact is made anew only after it was cut, so this is what stood of it against what stands now; both in the order of contacts.
+            // An impact is made again only after it was cut. So this compares its old contacts with its new ones; both are in the order of
+            // contacts.
             while ((old < tail.Count && tail[old].Key == key) || (at < changes.Count && changes[at].Contact.Key == key))
             {
                 bool hasOld = old < tail.Count && tail[old].Key == key;
@@ -273,7 +289,9 @@ public sealed class ContactNotices : IImpactObserver
         settledChanges = 0;
     }
 
-    /// <summary>Where in what stands the first contact of that impact or a later one is; what is confirmed is before all.</summary>
+    /// <summary>
+    /// The place in the known contacts of the first contact of that impact or a later one; confirmed contacts come first.
+    /// </summary>
     private int FirstFrom(in EventKey key)
     {
         int low = confirmed;
@@ -300,7 +318,7 @@ public sealed class ContactNotices : IImpactObserver
         Noticed?.Invoke(notice);
         if (!queue.TryWrite(notice, kind == ContactNoticeKind.Predicted ? queue.Capacity / 2 : queue.Capacity))
         {
-            Volatile.Write(ref lost, lost + 1); // nobody else writes it
+            Volatile.Write(ref lost, lost + 1); // no other thread writes it
         }
     }
 

@@ -3,7 +3,8 @@ using System.Threading;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Hands contact notices from the simulation's thread to one reading thread, in order, without a lock and without waiting: a ring of fixed size.
+/// Hands contact notices from the simulation's thread to one reading thread, in order, without a lock and without waiting: a ring of fixed
+/// size.
 /// </summary>
 internal sealed class ContactQueue
 {

@@ -10,17 +10,17 @@ namespace LagSim.Hosting;
 
 /// <summary>A simulation kept ahead of a clock: it is advanced to now plus the look-ahead, and its render snapshot published.</summary>
 /// <remarks>
-/// For the simulation's thread, in real or virtual time alike, except <see cref="RenderSnapshots"/>, which is how another thread reads, and <see cref="LateSteps"/>
-/// and <see cref="MaxLateness"/>, which any thread may read, each for itself, and what <see cref="Contacts"/> says of itself. What changes the world goes
-/// through this type, so that the next <see cref="Step"/> publishes it.
+/// For the simulation's thread, in real or virtual time alike, with three exceptions: <see cref="RenderSnapshots"/> is how another thread
+/// reads, any thread may read <see cref="LateSteps"/> and <see cref="MaxLateness"/>, each for itself, and <see cref="Contacts"/> states its
+/// own rules. All changes of the world go through this type, so that the next <see cref="Step"/> publishes them.
 /// </remarks>
 public sealed class LiveWorld
 {
-    /// <summary>How much of the past render snapshots show where nothing else is said: 250 ms.</summary>
+    /// <summary>The default length of the past that render snapshots show: 250 ms.</summary>
     public static readonly SimDuration DefaultRenderedPast = SimDuration.FromMilliseconds(250);
 
     /// <summary>
-    /// What a step may cost where nothing else is said, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.
+    /// The default cost limit of a step, as <see cref="Effort"/> counts: some hundredths of a second for a heap, which costs most.
     /// </summary>
     private const long DefaultEffort = 8_192;
 
@@ -31,18 +31,18 @@ public sealed class LiveWorld
     private bool changed = true;
     private volatile bool isBehind;
     private SimTime shownTo = SimTime.MinValue; // how far the newest render snapshot's world was simulated
-    private SimTime renderedTo = SimTime.MaxValue; // how far the newest render snapshot can be read; before there is one nobody waits for it
+    private SimTime renderedTo = SimTime.MaxValue; // how far the newest render snapshot can be read; before there is one no reader waits for it
     private long maxRenderLateness;
     private long events; // how many may still happen before the next step
     private long lateSteps;
     private long maxLatenessTicks;
 
     /// <summary>Keeps a new simulation of the scene ahead.</summary>
-    /// <param name="scene">What is simulated.</param>
+    /// <param name="scene">The scene to simulate.</param>
     /// <param name="options">Start and history; the history must exceed the look-ahead.</param>
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
-    /// <param name="contacts">What tells of its contacts, of this world alone; null, the default, for nobody.</param>
+    /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null)
@@ -50,13 +50,13 @@ public sealed class LiveWorld
     {
     }
 
-    /// <summary>Keeps a simulation that goes on from a snapshot ahead.</summary>
-    /// <param name="scene">What is simulated.</param>
-    /// <param name="snapshot">From where it goes on.</param>
+    /// <summary>Keeps a simulation that continues from a snapshot ahead.</summary>
+    /// <param name="scene">The scene to simulate.</param>
+    /// <param name="snapshot">The snapshot to continue from.</param>
     /// <param name="options">The history, which must exceed the look-ahead.</param>
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
-    /// <param name="contacts">What tells of its contacts, of this world alone; null, the default, for nobody.</param>
+    /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
@@ -82,11 +82,12 @@ public sealed class LiveWorld
     /// <summary>How far ahead of the clock it is simulated.</summary>
     public SimDuration LookAhead { get; }
 
-    /// <summary>What tells of its contacts; null for nobody.</summary>
+    /// <summary>Receives its contacts; null for none.</summary>
     public ContactNotices? Contacts { get; }
 
     /// <summary>
-    /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a time. It changes no bit of what happens.
+    /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a
+    /// time. It changes no bit of what happens.
     /// </summary>
     public WorkLedger? Work
     {
@@ -104,36 +105,45 @@ public sealed class LiveWorld
     public SimDuration MaxLateness => SimDuration.FromTicks(Volatile.Read(ref maxLatenessTicks));
 
     /// <summary>
-    /// How far the newest render snapshot can be read. During a rollback it stays where it was, though <see cref="Simulation.SimulatedTo"/> goes back. The latest time there is
-    /// before the first render snapshot. On the simulation's thread.
+    /// How far the newest render snapshot can be read. During a rollback it stays where it was, though <see cref="Simulation.SimulatedTo"/>
+    /// goes back. The latest time there is before the first render snapshot. On the simulation's thread.
     /// </summary>
     public SimTime RenderedTo => renderedTo;
 
-    /// <summary>The furthest the clock was beyond the newest render snapshot when a step began, so that who draws had nothing newer to show. From any thread.</summary>
+    /// <summary>
+    /// The furthest that the clock was beyond the newest render snapshot when a step began, so that a reader had nothing newer to show.
+    /// From any thread.
+    /// </summary>
     public SimDuration MaxRenderLateness => SimDuration.FromTicks(Volatile.Read(ref maxRenderLateness));
 
     /// <summary>
-    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or <see cref="Advance"/>, because
-    /// there was more to do than may be done at a time; the next step goes on. From any thread.
+    /// Whether the world is not where it should be, <see cref="LookAhead"/> beyond the clock of the last <see cref="Step"/> or
+    /// <see cref="Advance"/>, because there was more to do than one step may do; the next step continues. From any thread.
     /// </summary>
     public bool IsBehind => isBehind;
 
     /// <summary>
-    /// What a step may cost, as looks of one body at another: an event of a body looks at all others, or at those that the index names. Counted, not timed, so
-    /// that where a step stops depends on the world alone.
+    /// The cost limit of a step, in tests of one body against another: an event of a body tests all others, or those that the broad phase
+    /// names. Counted, not timed, so that where a step stops depends on the world alone.
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
     private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.MostLooks) + 8));
 
-    /// <summary>Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be stepped again.</summary>
+    /// <summary>
+    /// Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to
+    /// be stepped again.
+    /// </summary>
     public void Retire() => Contacts?.Restart();
 
     /// <summary>
-    /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an event comes that lies no later
-    /// than it; default no: then an instant happens as a whole, and such a one ends the simulation.
+    /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an
+    /// event comes that lies no later than it; default no: then an instant happens as a whole, and such a one ends the simulation.
     /// </summary>
-    /// <remarks>For a session, whose host removes the cause. Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the world's thread.</remarks>
+    /// <remarks>
+    /// For a session, because its host removes the cause. Without effect in a sync test (<see cref="HealingMode.SyncTest"/>). On the
+    /// world's thread.
+    /// </remarks>
     public bool WaitsForLateEvents
     {
         get => Simulation.WaitsForLateEvents;
@@ -146,13 +156,14 @@ public sealed class LiveWorld
     /// <summary>Why an instant blocks the world, in a sentence; empty if none does.</summary>
     public string BlockedBecause => Simulation.Engine.Loop.Blocked?.Message ?? "";
 
-    /// <summary>Tells <see cref="Work"/>, if there is one, whose event is submitted next.</summary>
+    /// <summary>Notifies <see cref="Work"/>, if there is one, which peer's event is submitted next.</summary>
     /// <param name="player">The player's number.</param>
     public void NoteLateEvent(byte player) => Work?.NoteLateEvent(player, Simulation.Engine.Rollback.IsActive);
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
-    /// What a late event has simulated again counts as this step's work: if it is too much, the next step goes on, and the world is behind meanwhile.
+    /// Re-simulation for a late event counts as this step's work. If it is too much, the next step continues, and the world is behind
+    /// meanwhile.
     /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
@@ -169,14 +180,16 @@ public sealed class LiveWorld
         return change.Finish(Simulation.SubmitForwarded(external, arrival));
     }
 
-    /// <summary>Takes an event back; see <see cref="Simulation.Retract"/>.</summary>
+    /// <summary>Retracts an event; see <see cref="Simulation.Retract"/>.</summary>
     public bool Retract(in ExternalEvent external)
     {
         Change change = new(this);
         return change.Finish(Simulation.Retract(external));
     }
 
-    /// <summary>Brings the world ahead of <paramref name="now"/>, without publishing, as far as this step's work goes; see <see cref="IsBehind"/>.</summary>
+    /// <summary>
+    /// Brings the world ahead of <paramref name="now"/>, without publishing, as far as this step's work goes; see <see cref="IsBehind"/>.
+    /// </summary>
     public void Advance(SimTime now)
     {
         SimTime target = SimTime.Max(now, Simulation.Start) + LookAhead;
@@ -187,12 +200,15 @@ public sealed class LiveWorld
 
     /// <summary>Brings the world ahead of <paramref name="now"/> again and publishes it if it changed.</summary>
     /// <returns>
-    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead later while an instant blocks it, and
-    /// <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no contact is to be confirmed.
+    /// When the next step is due if nothing changes before: <paramref name="now"/> while the world <see cref="IsBehind"/>, but a look-ahead
+    /// later while an instant blocks it, and <see cref="SimTime.MaxValue"/> for a world in which nothing will happen, and of which no
+    /// contact is to be confirmed.
     /// </returns>
-    /// <remarks>It does a bounded number of events, so that whoever calls it gets to other things in between. While a rollback takes several steps
-    /// the last whole render snapshot stays, until the world has caught up with it. Half of the look-ahead may be used up before the next step is due, so a moving
-    /// world steps about once a frame, one at rest never.</remarks>
+    /// <remarks>
+    /// It does a bounded number of events, so that the caller can do other things in between. While a rollback takes several steps the last
+    /// complete render snapshot stays, until the world has caught up with it. Half of the look-ahead may be used up before the next step is
+    /// due, so a moving world steps about once a frame, one at rest never.
+    /// </remarks>
     public SimTime Step(SimTime now)
     {
         if (Simulation.Horizon < now)
@@ -212,7 +228,7 @@ public sealed class LiveWorld
         Advance(now);
         if (changed && !(isBehind && Simulation.SimulatedTo < shownTo))
         {
-            // What is behind shows where it stands, and ends there; but a world that went back to heal does not run a second time before everybody's eyes.
+            // A world that is behind publishes how far it is; but a world that rewound to heal is not shown running a second time.
             shownTo = Simulation.SimulatedTo;
             SimTime from = SimTime.Min(SimTime.Max(now, Simulation.Start), Simulation.SimulatedTo) - renderedPast;
             RenderSnapshots.Publish(Simulation, SimTime.Max(from, Simulation.HistoryEdge));
@@ -263,7 +279,10 @@ public sealed class LiveWorld
         return contacts is null ? options : options.WithObserver(contacts);
     }
 
-    /// <summary>A change of the world: what a late event takes back is simulated again as part of the step's work, which may end before it is done.</summary>
+    /// <summary>
+    /// A change of the world: the paths that a late event undoes are re-simulated as part of the step's work, which may end before that is
+    /// done.
+    /// </summary>
     private readonly ref struct Change
     {
         private readonly LiveWorld world;
@@ -281,7 +300,8 @@ public sealed class LiveWorld
         {
             if (world.Simulation.SimulatedTo < front)
             {
-                // The instant of a late event is simulated at once, whatever this step may still cost: else one such event a step would keep the world there.
+                // The instant of a late event is simulated at once, whatever this step may still cost. Otherwise one such event a step
+                // would keep the world there.
                 long all = long.MaxValue;
                 world.Simulation.TryAdvanceTo(world.Simulation.SimulatedTo + SimDuration.OneTick, ref all);
             }

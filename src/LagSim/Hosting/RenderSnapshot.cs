@@ -4,10 +4,12 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>What a game's frame reads: the paths of all bodies over a span of time, as the simulation had them at one moment.</summary>
+/// <summary>
+/// The data that a game's frame reads: the paths of all bodies over a span of time, as the simulation had them at one moment.
+/// </summary>
 /// <remarks>
-/// It does not change while its reader has it, that is until that reader asks its <see cref="RenderTripleBuffer"/> for the next. For the one
-/// reading thread. Reading is a pure function of the render snapshot and the time, takes no lock and allocates nothing.
+/// It does not change while its reader has it, that is, until the reader asks its <see cref="RenderTripleBuffer"/> for the next. For the
+/// one reading thread. Reading is a pure function of the render snapshot and the time, takes no lock and allocates nothing.
 /// </remarks>
 public sealed class RenderSnapshot
 {
@@ -43,7 +45,8 @@ public sealed class RenderSnapshot
     /// <summary>Where a body is at an instant that the render snapshot covers.</summary>
     /// <returns>False if the instant is not covered, or the body is unknown or not there; the state is then the default.</returns>
     /// <remarks>
-    /// An instant that is not covered is no mistake of a reader: the thread that makes render snapshots may be late. <see cref="Simulation.TryRead"/> throws there.
+    /// An instant that is not covered is no mistake of a reader: the thread that makes render snapshots may be late.
+    /// <see cref="Simulation.TryRead"/> throws there.
     /// </remarks>
     public bool TryRead(BodyId body, SimTime time, out BodyState state)
     {
@@ -64,7 +67,8 @@ public sealed class RenderSnapshot
     /// <param name="after">The earlier instant, itself left out.</param>
     /// <param name="upTo">The later one.</param>
     /// <param name="speed">
-    /// The largest such change in m/s, 0 if there was none; <see cref="double.PositiveInfinity"/> if the body was put elsewhere, came or went in between.
+    /// The largest such change in m/s, 0 if there was none; <see cref="double.PositiveInfinity"/> if the body was put elsewhere, came or
+    /// went in between.
     /// </param>
     /// <returns>False if an instant is not covered or the body is unknown; the change is then 0.</returns>
     public bool TryReadSuddenChange(BodyId body, SimTime after, SimTime upTo, out double speed)

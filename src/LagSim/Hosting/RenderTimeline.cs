@@ -9,9 +9,9 @@ namespace LagSim.Hosting;
 /// <summary>One body's timeline inside a render snapshot: a copy that follows the simulation's by taking over only what changed.</summary>
 internal sealed class RenderTimeline
 {
-    private const double LeastStep = 1e-6; // m; less between two pieces of a path is rounding, or a hop's height
+    private const double LeastStep = 1e-6; // m; a smaller step between two segments is rounding, or a bounce's height
 
-    private Entry[] entries = Array.Empty<Entry>(); // a body that is only heard of never needs one
+    private Entry[] entries = Array.Empty<Entry>(); // a body that is known only by name never needs one
     private int first;
     private int end;
 
@@ -90,7 +90,8 @@ internal sealed class RenderTimeline
     }
 
     /// <summary>
-    /// The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere, came or went.
+    /// The largest change of velocity at one stroke after one instant and up to another, in m/s; infinite if the body was put elsewhere,
+    /// came or went.
     /// </summary>
     internal double SuddenChange(SimTime after, SimTime upTo, in PeriodicBox box)
     {

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>Hands whole render snapshots from the simulation's thread to one reading thread, without a lock and without waiting: a triple buffer.</summary>
+/// <summary>
+/// Hands whole render snapshots from the simulation's thread to one reading thread, without a lock and without waiting: a triple buffer.
+/// </summary>
 /// <remarks>
 /// One buffer is being written, one is being read, and the third is swapped with either. A writer never waits for a reader, and a reader
 /// always gets the last whole render snapshot.

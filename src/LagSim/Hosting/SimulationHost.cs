@@ -9,8 +9,9 @@ namespace LagSim.Hosting;
 
 /// <summary>A world for one machine: simulated ahead of real time on its own thread, acted on and read from the game's.</summary>
 /// <remarks>
-/// Every member may be called from any thread, but <see cref="RenderSnapshot"/> from one only. An action is stamped when it is done, and seen in
-/// the render snapshots that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in the same way.
+/// Every member may be called from any thread, but <see cref="RenderSnapshot"/> from one only. An action is stamped when it is done, and
+/// seen in the render snapshots that follow a moment later. For several machines see the peers of LagSim.Net, which keep their worlds in
+/// the same way.
 /// </remarks>
 /// <example>
 /// A world on one machine; each frame reads it:
@@ -35,12 +36,12 @@ public sealed class SimulationHost : IDisposable
     private uint lastSequence;
     private volatile bool disposed;
 
-    /// <summary>A world whose scene starts now by the clock. It stands still until <see cref="Start"/>.</summary>
-    /// <param name="scene">What is simulated.</param>
-    /// <param name="clock">Tells the time; usually a <see cref="StopwatchClock"/>.</param>
+    /// <summary>Creates a world whose scene starts now by the clock. It stands still until <see cref="Start"/>.</summary>
+    /// <param name="scene">The scene to simulate.</param>
+    /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
-    /// <param name="contacts">What tells of contacts, of this world alone; null, the default, for nobody. They are confirmed after 2 s.</param>
-    /// <param name="threads">How many threads at most may be at work for the world at once; as in <see cref="SimulationOptions"/>.</param>
+    /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
+    /// <param name="threads">The largest number of threads that work for the world at once; as in <see cref="SimulationOptions"/>.</param>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64.</exception>
     public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, int? threads = null)
@@ -53,7 +54,10 @@ public sealed class SimulationHost : IDisposable
 
     internal LiveWorld World => world;
 
-    /// <summary>The clock's time: what to read the render snapshot at. From any thread, if the clock can be read so, as a <see cref="StopwatchClock"/> can.</summary>
+    /// <summary>
+    /// The clock's time: what to read the render snapshot at. From any thread, if the clock can be read so, as a
+    /// <see cref="StopwatchClock"/> can.
+    /// </summary>
     public SimTime Now => clock.Now;
 
     /// <summary>The newest render snapshot, for the one reading thread.</summary>
@@ -67,7 +71,7 @@ public sealed class SimulationHost : IDisposable
         }
     }
 
-    /// <summary>What tells of contacts; null for nobody. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
+    /// <summary>Receives contacts; null for none. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
     public ContactNotices? Contacts => world.Contacts;
 
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
@@ -77,7 +81,8 @@ public sealed class SimulationHost : IDisposable
     public SimDuration MaxLateness => world.MaxLateness;
 
     /// <summary>
-    /// Whether there is more to simulate than could be done by now, so that <see cref="RenderSnapshot"/> ends before <see cref="Now"/> or soon after.
+    /// Whether there is more to simulate than could be done by now, so that <see cref="RenderSnapshot"/> ends before <see cref="Now"/> or
+    /// soon after.
     /// </summary>
     public bool IsBehind => world.IsBehind;
 
@@ -89,9 +94,15 @@ public sealed class SimulationHost : IDisposable
     /// <exception cref="ObjectDisposedException">It has been stopped for good.</exception>
     public void Start() => thread.Start();
 
-    /// <summary>Does something to the world, now by the clock; the render snapshot has it as soon as the world's thread has simulated it. From any thread.</summary>
-    /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
-    /// <remarks>What meets a body that is not there, or gives it more speed than it may be given, has no effect; see <see cref="Simulation.TookEffect"/>.</remarks>
+    /// <summary>
+    /// Applies an action to the world, now by the clock. The render snapshot has it as soon as the world's thread has simulated it. From
+    /// any thread.
+    /// </summary>
+    /// <returns>The stamped event; for a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
+    /// <remarks>
+    /// An action on a body that is not there, or one that gives it more speed than allowed, has no effect; see
+    /// <see cref="Simulation.TookEffect"/>.
+    /// </remarks>
     /// <exception cref="SceneException">A value may not enter the world; nothing happened.</exception>
     /// <exception cref="ObjectDisposedException">The thread has been stopped for good; nothing would come of it.</exception>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception, the inner one.</exception>
@@ -117,7 +128,8 @@ public sealed class SimulationHost : IDisposable
     }
 
     /// <summary>
-    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last render snapshot stays readable; nothing more can be done to the world.
+    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last render snapshot stays readable; nothing
+    /// more can be done to the world.
     /// </summary>
     public void Dispose()
     {

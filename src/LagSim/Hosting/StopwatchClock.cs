@@ -14,7 +14,7 @@ public sealed class StopwatchClock : IClock
     private readonly SimTime origin;
 
     /// <summary>A clock that starts now.</summary>
-    /// <param name="offset">What it reads at first, default zero: other values stand in for another machine's clock.</param>
+    /// <param name="offset">The first reading, default zero: other values stand in for another machine's clock.</param>
     public StopwatchClock(SimDuration offset = default) => origin = SimTime.Zero + offset;
 
     /// <inheritdoc/>

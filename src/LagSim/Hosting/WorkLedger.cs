@@ -7,24 +7,26 @@ using LagSim.Timelines;
 
 namespace LagSim.Hosting;
 
-/// <summary>Keeps account of what it costs to simulate a world, and of whose acts it is for.</summary>
+/// <summary>Accounts for the cost of simulating a world, by the player whose actions caused it.</summary>
 /// <remarks>
-/// <para>Each body is on the account of the player who spawned it, or whose act touched it last; a body of the scene that nobody touched is on nobody's. One of the scene that is touched is on
-/// that account for 30 s of simulated time, and one that is struck by a body on an account for 2 s, and no longer than 2 s after the act that it comes of: what the scene would do
-/// without them is not the players'. What happens is charged to the accounts of the bodies that take part, to each in equal shares, however many bodies it has in it. What a late event has simulated again is charged
-/// by one half to the player whose event it was.</para>
+/// <para>Each body is on the account of the player that spawned it or whose action touched it last. A body of the scene that no player
+/// touched is on no account. A body of the scene that is touched is on that account for 30 s of simulated time. One that is struck by a
+/// body on an account is on it for 2 s, and no longer than 2 s after the action behind it: what the scene would do by itself is not charged
+/// to players. An event is charged to the accounts of the bodies that take part, to each in equal shares, however many of its bodies take
+/// part. Half of the re-simulation for a late event is charged to the player of that event.</para>
 /// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted by events, by how many bodies take part in
-/// each and what contact solvers did for it. Where the ledger has a clock, and something took longer by that than was counted, that is what
-/// it cost: no count foresees all that can be
-/// dear, and a clock that stands still, as in virtual time, leaves what was counted, the same in every run. The world never hears of it: it enters no state and no hash.</para>
-/// <para>For the simulation's thread. Cost: some ten nanoseconds an event, and a reading of the clock; for each body that was there at a time some 24 bytes.</para>
+/// each and what contact solvers did for it. If the ledger has a clock, and by it something took longer than was counted, that time is the
+/// cost: no count foresees everything that can be expensive. A clock that stands still, as in virtual time, leaves the count, which is the
+/// same in every run. The world does not know the cost: it enters no state and no hash.</para>
+/// <para>For the simulation's thread. Cost: some ten nanoseconds an event, and a reading of the clock; for each body that was there at a
+/// time some 24 bytes.</para>
 /// </remarks>
 public sealed class WorkLedger : IWorkObserver
 {
     /// <summary>How many accounts there are: one for each number that a player can have in an event.</summary>
     public const int Accounts = byte.MaxValue;
 
-    /// <summary>The account of what nobody did: the scene's own, before any act.</summary>
+    /// <summary>The account of no player: the scene's own, before any action.</summary>
     public const byte Nobody = byte.MaxValue;
 
     private const double DefaultMostAStep = 20_000;
@@ -45,7 +47,7 @@ public sealed class WorkLedger : IWorkObserver
     private SimTime measured; // up to then all is accounted for
 
     /// <summary>An empty ledger, for one world.</summary>
-    /// <param name="clock">By what it is measured how long things take; null only counts them.</param>
+    /// <param name="clock">The clock that measures how long work takes; null to only count it.</param>
     public WorkLedger(IClock? clock = null)
     {
         this.clock = clock;
@@ -59,22 +61,31 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>All that was done so far, in units of about a microsecond.</summary>
     public double Total { get; private set; }
 
-    /// <summary>What a step may cost at most before it goes on in the next, in units of about a microsecond; above zero, default 20,000.</summary>
+    /// <summary>
+    /// The largest cost of a step before it continues in the next, in units of about a microsecond; above zero, default 20,000.
+    /// </summary>
     public double MostAStep { get; set; } = DefaultMostAStep;
 
-    /// <summary>What was charged to a player's account so far, in units of about a microsecond.</summary>
+    /// <summary>The amount charged to a player's account so far, in units of about a microsecond.</summary>
     public double ChargedTo(byte player) => accounts[player].Charged;
 
-    /// <summary>What of that was for what happened the first time, not for what was simulated again: whose own doing it is.</summary>
+    /// <summary>The part of that for events simulated the first time, not re-simulated: the player's own doing.</summary>
     public double FirstChargedTo(byte player) => accounts[player].First;
 
-    /// <summary>The earliest simulated instant of what was charged to a player since <see cref="Calm"/>; the latest there is if nothing was.</summary>
+    /// <summary>
+    /// The earliest simulated instant of the charges to a player since <see cref="Calm"/>; the latest there is if there were none.
+    /// </summary>
     public SimTime ChargedSince(byte player) => accounts[player].Since;
 
-    /// <summary>Sets up to which <see cref="ChargedTo"/> a player may be charged before each advance stops; <see cref="double.PositiveInfinity"/> for no limit.</summary>
+    /// <summary>
+    /// Sets up to which <see cref="ChargedTo"/> a player may be charged before each advance stops; <see cref="double.PositiveInfinity"/>
+    /// for no limit.
+    /// </summary>
     public void Limit(byte player, double most) => accounts[player].Most = most;
 
-    /// <summary>What was charged so far is forgiven: from here on counts for <see cref="ChargedSince"/> and <see cref="CostlyBodiesOf"/>.</summary>
+    /// <summary>
+    /// Forgives all charges so far: <see cref="ChargedSince"/> and <see cref="CostlyBodiesOf"/> count from here on.
+    /// </summary>
     public void Calm(byte player)
     {
         ref Account account = ref accounts[player];
@@ -82,7 +93,10 @@ public sealed class WorkLedger : IWorkObserver
         account.Period++;
     }
 
-    /// <summary>Notes whose late event is being applied: what it has simulated again is charged to that player by one half, shared with those whose late events are being healed already.</summary>
+    /// <summary>
+    /// Notes whose late event is being applied: what it has simulated again is charged to that player by one half, shared with those whose
+    /// late events are being healed already.
+    /// </summary>
     internal void NoteLateEvent(byte player, bool isHealing)
     {
         if (!isHealing)
@@ -110,7 +124,9 @@ public sealed class WorkLedger : IWorkObserver
         }
     }
 
-    /// <summary>The bodies on a player's account with more than so much charged for them since <see cref="Calm"/>, the costliest first.</summary>
+    /// <summary>
+    /// The bodies on a player's account with more than so much charged for them since <see cref="Calm"/>, the costliest first.
+    /// </summary>
     public IReadOnlyList<BodyId> CostlyBodiesOf(byte player, double atLeast)
     {
         List<(double Charged, BodyId Body)> found = [];
@@ -133,7 +149,9 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>The world is at work from now on.</summary>
     internal void Resume() => measured = clock?.Now ?? default;
 
-    /// <summary>A late event was applied: what that took, besides the events of its instant, is charged to the player whose it was.</summary>
+    /// <summary>
+    /// A late event was applied: what that took, besides the events of its instant, is charged to the player whose it was.
+    /// </summary>
     internal void ChargeLateEvent(SimTime at)
     {
         double took = Measure();
@@ -289,7 +307,7 @@ public sealed class WorkLedger : IWorkObserver
         internal int Period;
     }
 
-    /// <summary>What is known of the body in a place.</summary>
+    /// <summary>The record of the body in a place.</summary>
     private struct Entry
     {
         internal BodyId Body;
@@ -300,7 +318,7 @@ public sealed class WorkLedger : IWorkObserver
         internal SimTime Until; // it is on that account
         internal SimTime Spreads; // to bodies of the scene that it strikes, until then
 
-        /// <summary>Puts it on an account; a body that somebody spawned stays there.</summary>
+        /// <summary>Puts it on an account; a body that a player spawned stays there.</summary>
         internal void Give(byte owner, SimTime until, SimTime spreads)
         {
             bool isOfScene = Body.Sequence == 0;

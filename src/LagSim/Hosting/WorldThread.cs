@@ -4,10 +4,12 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>One dedicated thread that does a step, waits until the next is due or something wakes it, and does the next. It never spins.</summary>
+/// <summary>
+/// One dedicated thread that does a step, waits until the next is due or something wakes it, and does the next. It never spins.
+/// </summary>
 /// <remarks>
-/// Thread-safe. An exception in a step ends the thread; <see cref="Fault"/> tells, and <see cref="ThrowIfFaulted"/> throws it to whoever
-/// still relies on it.
+/// Thread-safe. An exception in a step ends the thread; <see cref="Fault"/> returns it, and <see cref="ThrowIfFaulted"/> throws it to a
+/// caller that still relies on the thread.
 /// </remarks>
 public sealed class WorldThread : IDisposable
 {
@@ -22,11 +24,12 @@ public sealed class WorldThread : IDisposable
     private int disposed; // 1 once it is
 
     /// <summary>A thread that is not started yet.</summary>
-    /// <param name="name">What debuggers and profilers call it.</param>
-    /// <param name="step">Does what is due and tells how long until something is due again; <see cref="SimDuration.MaxValue"/>: until woken.</param>
+    /// <param name="name">The name in debuggers and profilers.</param>
+    /// <param name="step">Does what is due and returns the time until something is due again; <see cref="SimDuration.MaxValue"/>: until
+    /// woken.</param>
     /// <param name="interrupt">
-    /// Has a step that is at work end soon, by an <see cref="OperationCanceledException"/>; called once, when the thread is disposed, from
-    /// whoever does that. Default: such a step is waited for.
+    /// Makes a running step end soon, by an <see cref="OperationCanceledException"/>. Called once, when the thread is disposed, on the
+    /// disposing thread. Default: such a step is waited for.
     /// </param>
     /// <param name="atEnd">
     /// Called on the thread after its last step, with the exception that ended it or null; <see cref="Fault"/> is set by then, and
@@ -83,7 +86,7 @@ public sealed class WorldThread : IDisposable
         }
     }
 
-    /// <summary>Interrupts the step at hand, or waits for it where nothing can, and ends.</summary>
+    /// <summary>Interrupts the current step, or waits for it where nothing can, and ends the thread.</summary>
     /// <remarks>
     /// Safe to call twice, and from several threads: each returns once the thread has ended. Called from the thread itself it returns at
     /// once, and the thread ends after this step.
@@ -112,7 +115,7 @@ public sealed class WorldThread : IDisposable
             while (!stopping)
             {
                 SimDuration left = step();
-                Volatile.Write(ref steps, steps + 1); // nobody else writes it
+                Volatile.Write(ref steps, steps + 1); // no other thread writes it
                 if (left > SimDuration.Zero && !stopping)
                 {
                     wake.WaitOne(Milliseconds(left));

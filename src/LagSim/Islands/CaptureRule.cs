@@ -9,7 +9,7 @@ using LagSim.Trajectories;
 
 namespace LagSim.Islands;
 
-/// <summary>Which rebound is the last of its contact, which then lasts (docs/CONTACT.md, rule 7).</summary>
+/// <summary>Decides which rebound is the last of its contact, which then persists (docs/CONTACT.md, rule 7).</summary>
 internal sealed class CaptureRule(
     Scene scene, TimelineStore timelines, ContactGraph graph, ContactScale scale, MemberFactory members, SlipFactory friction,
     bool hasIslands)
@@ -18,11 +18,9 @@ internal sealed class CaptureRule(
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Whether a rebound is the last of its contact, which lasts from then on (docs/CONTACT.md, rule of capture): not of an elastic one;
-    /// of two that are members
-    /// already if it is slower than the capture speed; else if something presses them together so that the rebound would rise less than
-    /// the contact tolerance, and
-    /// all bounces to come would be over within a step.
+    /// Whether a rebound is the last of its contact, which persists from then on (docs/CONTACT.md, rule 7). Never for an elastic contact.
+    /// For two that are members already, if it is slower than the capture speed. For any other, if something presses them together so that
+    /// the rebound would rise less than the contact tolerance, and all bounces to come would be over within a step.
     /// </summary>
     internal bool IsLast(in ContactPoint c, double restitution, double rebound, SimTime time)
     {
@@ -56,7 +54,7 @@ internal sealed class CaptureRule(
             return false;
         }
 
-        if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord's acceleration does not tell
+        if (restitution < 1 && isPair && members > 0) // leaves at the next tick if nothing presses it: a chord has no acceleration to test
         {
             return rebound <= scale.CaptureSpeedAt(Math.Max(PullOn(c.First, time), PullOn(c.Second, time)));
         }

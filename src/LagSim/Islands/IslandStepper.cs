@@ -12,9 +12,9 @@ namespace LagSim.Islands;
 
 /// <summary>Contact steps: bodies in persistent contact are islands, which move by steps of a common clock, or rest together.</summary>
 /// <remarks>
-/// A step opens the segments of all of an island with one key. Within it an impact or a player opens new ones for those alone whom it
-/// reaches;
-/// all others go on along their chords to the next tick, which gathers the island by the contacts that its segments carry.
+/// A step opens the segments of all of an island with one key. Within it an impact or a player opens new ones only for the bodies that it
+/// reaches. All others continue along their chords to the next tick, which finds the island's members by the contacts that its segments
+/// carry.
 /// </remarks>
 internal sealed class IslandStepper(
     BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
@@ -26,7 +26,9 @@ internal sealed class IslandStepper(
     /// <summary>How many contact steps were taken.</summary>
     internal long StepsTaken { get; private set; }
 
-    /// <summary>A tick of an island has come; false if somebody that takes part is ahead and has to be rewound first.</summary>
+    /// <summary>
+    /// Takes the step of an island whose tick has come; false if a body that takes part is ahead and has to be rewound first.
+    /// </summary>
     internal bool TryStep(int slot, in EventKey key, out EventKey canonical)
     {
         canonical = default;
@@ -64,7 +66,7 @@ internal sealed class IslandStepper(
         return true;
     }
 
-    /// <summary>Marks those of the step who strike nobody of it, so that in the predictions that follow nobody looks.</summary>
+    /// <summary>Marks the bodies of the step that strike no other body of it, so that the predictions that follow skip them.</summary>
     private void MarkStep()
     {
         for (int i = 0; i < graph.BodyCount; i++)
@@ -77,8 +79,8 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
-    /// The parties: all that hold together with a body, through others as well, and who is held among them, by the pieces of path that
-    /// they are on at the key.
+    /// Collects the solver bodies: all that hold together with a body, through others as well, and which of them are held, by the segments
+    /// that they are on at the key.
     /// </summary>
     private void GatherIsland(int slot, in EventKey key)
     {
@@ -89,7 +91,7 @@ internal sealed class IslandStepper(
             int piece = timelines.Last(graph.Slots[i]);
             if (!paths.IsMember(piece))
             {
-                continue; // in a hand
+                continue; // held
             }
 
             for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
@@ -106,7 +108,7 @@ internal sealed class IslandStepper(
         graph.Sort();
     }
 
-    /// <summary>The step's key whoever of the island was popped: the least of those of its members, sleepers not among them.</summary>
+    /// <summary>The step's key, the same whichever member was popped: the least of its members' keys, without sleepers.</summary>
     private EventKey StepKey()
     {
         EventKey least = default;
@@ -127,7 +129,7 @@ internal sealed class IslandStepper(
         return least;
     }
 
-    /// <summary>How long, in seconds, a step of the parties may be at most by where they come from.</summary>
+    /// <summary>The longest step of these bodies, in seconds, by where they come from.</summary>
     private double StepWanted(SimTime time)
     {
         double wanted = double.PositiveInfinity;
@@ -201,9 +203,8 @@ internal sealed class IslandStepper(
 
     /// <summary>
     /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under
-    /// which a magnetic force makes and
-    /// takes no speed, and a damper none but what it should. At the velocity that the body came with, a force across it would drive away
-    /// what lies still.
+    /// which a magnetic force makes and takes no speed, and a damper none but what it should. At the velocity that the body came with, a
+    /// force across it would drive away what lies still.
     /// </summary>
     private void SettleForces(SimTime tick, SimDuration length, double tolerance)
     {
@@ -242,7 +243,8 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
-    /// So often at most a force is asked again for the velocity that it leaves: what is off gets half as large each time, or far less.
+    /// The largest number of times that a force is evaluated again for the velocity that it leaves: each time the error halves, or shrinks
+    /// far more.
     /// </summary>
     private const int MostForceIterations = 64;
 

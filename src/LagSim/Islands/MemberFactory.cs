@@ -12,13 +12,13 @@ namespace LagSim.Islands;
 /// <summary>Opens the paths of members of islands: chords to the next tick, and rest.</summary>
 internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories)
 {
-    /// <summary>So far, in parts of a force's own time, a step may go.</summary>
+    /// <summary>The longest step, in parts of a force's own time.</summary>
     private const double MostRateTimesStep = 1.0 / 16;
 
     private readonly Forces forces = forces;
 
     /// <summary>
-    /// Opens the next piece of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.
+    /// Opens the next segment of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.
     /// </summary>
     internal void GoOn(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
     {
@@ -56,8 +56,7 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     }
 
     /// <summary>
-    /// When the first step of a body begins that becomes a member: at this instant if it is a tick, but for one that a step has let go
-    /// at it.
+    /// When the first step of a new member begins: at this instant if it is a tick, unless a step has released the body at it.
     /// </summary>
     internal SimTime NextTick(int slot, SimTime time, double wanted)
     {
@@ -67,9 +66,8 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     }
 
     /// <summary>
-    /// How long a step may be at most, in seconds, for the forces on a body to be followed, and for it not to fall by more than the
-    /// tolerance
-    /// where they are stronger than gravity; infinite where there are none.
+    /// The longest step, in seconds, that follows the forces on a body, and in which it does not fall by more than the tolerance where they
+    /// are stronger than gravity; infinite where there are none.
     /// </summary>
     internal double StepWanted(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
@@ -85,7 +83,7 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     }
 
     /// <summary>
-    /// How hard forces, gravity among them, pull a body, in m/s²; 0 of one on which gravity alone acts, for the scale knows that.
+    /// How hard forces, gravity included, pull a body, in m/s²; 0 for a body under gravity alone, because the scale includes that.
     /// </summary>
     internal double PullOn(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {

@@ -12,12 +12,14 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathVi
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Who was looked at for the event at hand and is no part of it: one that carries no contact that another still carries with it.
+    /// The near misses: bodies that were tested for the current event and take no part in it. Such a body does not carry a contact that
+    /// another still carries with it.
     /// </summary>
     internal List<int> NearMisses { get; } = new();
 
     /// <summary>
-    /// The other body of a contact that is carried, if it carries it too, or is in a hand; who is ahead of the key has to be rewound to it.
+    /// The other body of a carried contact, if it carries the contact too, or is held. A body that is ahead of the key has to be rewound to
+    /// it.
     /// </summary>
     internal bool TryFind(BodyId body, BodyId partnerId, in EventKey key, out int partner)
     {

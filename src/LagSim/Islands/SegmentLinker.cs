@@ -11,8 +11,8 @@ internal class SegmentLinker(
     private readonly Paths paths = new(timelines);
 
     /// <summary>
-    /// Joins those of the graph's bodies, and opens segments for the near misses, which go on as they did, and are the graph's too from
-    /// then on: who is cut later cuts whoever looked at it.
+    /// Joins the segments of the graph's bodies, and opens segments for the near misses. These continue as before, and belong to the graph
+    /// from then on: cutting one later cuts the bodies that it was tested against.
     /// </summary>
     internal virtual void Join(in EventKey key)
     {

@@ -6,7 +6,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Islands;
 
-/// <summary>Who sleeps on a body to which something is about to happen, and wakes.</summary>
+/// <summary>Wakes the bodies that sleep on a body to which something is about to happen.</summary>
 internal class SleepWaker(
     BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members)
 {

@@ -45,8 +45,8 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// How a body turns once its centre rests: as it did, but for what moves its surface slower than rest allows. What turns about the
-    /// normal of a contact and what rolls there are told apart, so that what goes on turning on the spot does not go on rolling.
+    /// The spin of a body once its centre rests: as before, except what moves its surface slower than rest allows. Turning about the normal
+    /// of a contact and rolling there are separated, so that a body that continues to turn on the spot does not continue to roll.
     /// </summary>
     private Vector3D SpinAtRest(int body)
     {
@@ -63,7 +63,7 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// Opens the pieces of the step that was solved: chords of those that something holds, else whatever law they follow alone.
+    /// Opens the segments of the solved step: chords for bodies that something holds, and for the others the law that they follow alone.
     /// </summary>
     internal void OpenStep(in EventKey key, SimDuration length)
     {
@@ -105,8 +105,7 @@ internal sealed class StepSegments(
 
     /// <summary>
     /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs
-    /// on,
-    /// or what rolling resistance is to have it turn with.
+    /// on, or what rolling resistance is to have it turn with.
     /// </summary>
     private bool IsStill(int body, in SolverBody solved)
     {
@@ -125,7 +124,7 @@ internal sealed class StepSegments(
         return isStill;
     }
 
-    /// <summary>Who is held by another body in the step.</summary>
+    /// <summary>The bodies that another body holds in the step.</summary>
     private void FindHoldingPairs()
     {
         if (holdsPair.Length < graph.BodyCount)
@@ -150,8 +149,8 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// Whether something pushes a body in the step. If that is static planes alone, on which a closed form carries it, <paramref
-    /// name="planes"/> tells how many.
+    /// Whether something pushes a body in the step. If that is static planes alone, on which a closed form carries it,
+    /// <paramref name="planes"/> is their number.
     /// </summary>
     private bool IsHeldTogether(int body, out int planes)
     {
@@ -176,8 +175,8 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// The velocity at the tick of who leaves: with what the contacts of the last step gave in its second half, for until now they have
-    /// held it.
+    /// The velocity at the tick of a body that leaves. It includes what the contacts of the last step gave in its second half, because
+    /// until now they have held it.
     /// </summary>
     private Vector3D LeavingVelocity(int body, int piece, SimTime tick)
     {

@@ -4,7 +4,8 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for them.
+/// The cubic, quartic and quintic coefficients of a path whose acceleration is not constant; kept apart so that parabolas do not pay for
+/// them.
 /// </summary>
 internal readonly struct DenseOutput
 {
@@ -22,12 +23,12 @@ internal readonly struct DenseOutput
 
     internal Vector3D Quintic { get; }
 
-    /// <summary>Of a step under error control how long the next is to be tried; else zero.</summary>
+    /// <summary>For a step under error control, the proposed length of the next; zero otherwise.</summary>
     internal SimDuration NextStep { get; }
 
     /// <summary>
-    /// The quintic Hermite polynomial of a step: through position, velocity and acceleration at both ends. Its error is h^6 |x^(6)| / 46080 in the position at
-    /// most.
+    /// The quintic Hermite polynomial of a step: through position, velocity and acceleration at both ends. Its error is h^6 |x^(6)| / 46080
+    /// in the position at most.
     /// </summary>
     /// <param name="h">The step in seconds.</param>
     /// <param name="dx">How far the position moves in the step.</param>
@@ -39,7 +40,7 @@ internal readonly struct DenseOutput
     internal static DenseOutput Between(
         double h, in Vector3D dx, in Vector3D dv, in Vector3D v0, in Vector3D a0, in Vector3D a1, SimDuration nextStep = default)
     {
-        // What the parabola from the start misses at the end, scaled to the size of a third derivative.
+        // The error at the end of the parabola from the start, scaled to the size of a third derivative.
         Vector3D p = (dx - ((v0 + (a0 * (0.5 * h))) * h)) / (h * h * h);
         Vector3D q = (dv - (a0 * h)) / (h * h);
         Vector3D r = (a1 - a0) / h;

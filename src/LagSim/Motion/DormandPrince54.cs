@@ -5,28 +5,30 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// One step of the embedded Runge-Kutta method of orders 5 and 4 by Dormand and Prince (1980, J. Comp. Appl. Math. 6, 19-26) on position and velocity: under
-/// error control, or of a fixed length.
+/// One step of the embedded Runge-Kutta method of orders 5 and 4 by Dormand and Prince (1980, J. Comp. Appl. Math. 6, 19-26) on position
+/// and velocity: under error control, or of a fixed length.
 /// </summary>
 /// <remarks>
-/// <para>Goes on with the fifth order (local extrapolation). The seventh stage is the acceleration at the end, which the quintic Hermite polynomial between the
-/// ends needs too; with an error of O(h^6) in the position it keeps the order where a contact is found inside a step.</para>
-/// <para>A step is accepted if the estimate of its error is within the body's tolerance, in metres for the position and in m/s for the velocity, or within a
-/// few roundings of them. The next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most five times. So stiff forces are
-/// sub-stepped, and never blow up; fixed steps are halved until the rate of the forces lets them be, as those of <see cref="RungeKutta4"/>.</para>
+/// <para>Goes on with the fifth order (local extrapolation). The seventh stage is the acceleration at the end, which the quintic Hermite
+/// polynomial between the ends needs too; with an error of O(h^6) in the position it keeps the order where a contact is found inside a
+/// step.</para>
+/// <para>A step is accepted if the estimate of its error is within the body's tolerance, in metres for the position and in m/s for the
+/// velocity, or within a few roundings of them. The next one is 0.9 (tolerance / error)^(1/5) times as long, at least a fifth and at most
+/// five times. So stiff forces are sub-stepped, and never blow up; fixed steps are halved until the rate of the forces lets them be, as
+/// those of <see cref="RungeKutta4"/>.</para>
 /// </remarks>
 internal static class DormandPrince54
 {
-    /// <summary>The first step that is tried of a flight: 1/64 s. What is smooth gets to the longest in three steps.</summary>
+    /// <summary>The first step tried in a flight: 1/64 s. A smooth flight reaches the longest step in three steps.</summary>
     private static readonly SimDuration FirstTried = SimDuration.FromTicks(1L << 34);
 
     /// <summary>
-    /// The largest product of rate and step of fixed steps: the end of the stability interval on the imaginary axis, which is less than a third of that on the
-    /// negative real one.
+    /// The largest product of rate and step of fixed steps: the end of the stability interval on the imaginary axis, which is less than a
+    /// third of that on the negative real one.
     /// </summary>
     internal const double MaxRateTimesStep = FlightLaws.RateTimesStepOfDormandPrince54;
 
-    /// <summary>What an estimate cannot be below, in parts of what it was subtracted from.</summary>
+    /// <summary>The floor of an error estimate, relative to the terms that it is the difference of.</summary>
     private const double Rounding = 4 * 2.220446049250313e-16;
 
     /// <summary>One step from a state.</summary>
@@ -42,7 +44,8 @@ internal static class DormandPrince54
     /// The error in tolerances that even the shortest step has, infinite if it has no number; the step is then not to be used. Else zero.
     /// </param>
     /// <param name="rate">
-    /// Of fixed steps the rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be used. Else zero.
+    /// Of fixed steps the rate in 1/s that was met, where no step that may be taken is short enough for it; the step is then not to be
+    /// used. Else zero.
     /// </param>
     internal static MotionSegment Step(
         in Forces forces, in BodySpec spec, SimTime epoch, in Vector3D x0, in Vector3D v0, in Vector3D spin, SimDuration tried, out DenseOutput dense,

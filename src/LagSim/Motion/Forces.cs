@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>The acceleration of a free body: uniform gravity, and the scene's forces that the body names. Time is counted from the scene's start.</summary>
+/// <summary>
+/// The acceleration of a free body: uniform gravity, and the scene's forces that the body names. Time is counted from the scene's start.
+/// </summary>
 internal readonly struct Forces
 {
     private readonly Scene scene;
@@ -41,7 +43,7 @@ internal readonly struct Forces
         return sum;
     }
 
-    /// <summary>What a program's own force adds; what that throws is told as what it is.</summary>
+    /// <summary>The acceleration by a program's own force; what it throws is reported as such.</summary>
     /// <exception cref="SimulationException">The program's code threw.</exception>
     private Vector3D Supplied(Force force, double at, SimTime epoch, double seconds, in Vector3D position, in Vector3D velocity)
     {
@@ -60,7 +62,8 @@ internal readonly struct Forces
     }
 
     /// <summary>
-    /// How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more than their sum.
+    /// How fast, in 1/s, a deviation changes at a state, as far as it is known: no less than the largest of the forces' own rates, no more
+    /// than their sum.
     /// </summary>
     internal double RateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
@@ -73,7 +76,9 @@ internal readonly struct Forces
         return sum;
     }
 
-    /// <summary>The same, and how fast the forces change because the body moves: what steps without an estimate of their error have to follow.</summary>
+    /// <summary>
+    /// The same, and how fast the forces change because the body moves: what steps without an estimate of their error have to follow.
+    /// </summary>
     internal double FixedStepRateAt(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         double sum = 0;

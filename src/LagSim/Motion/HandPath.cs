@@ -4,29 +4,34 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// How a hand is taken to move on after it has told where it is: the one rule by which every peer extrapolates, and a sender foresees what they do.
+/// How a hand is assumed to move after its last keyframe: the one rule by which every peer extrapolates, and by which a sender foresees
+/// what they do.
 /// </summary>
 /// <remarks>
-/// <para>From a keyframe on the hand brakes evenly, from the keyframe's velocity to rest, for <see cref="Stops"/>, and then keeps still: so it never gets further from
-/// the keyframe than half the way that it would have gone. The held body converges on that within <see cref="Settles"/>, by a cubic, without a jump in position or
-/// velocity.</para>
+/// <para>From a keyframe on the hand brakes evenly, from the keyframe's velocity to rest, for <see cref="Stops"/>, and then keeps still: so
+/// it never gets further from the keyframe than half the way that it would have gone. The held body converges on that within
+/// <see cref="Settles"/>, by a cubic, without a jump in position or velocity.</para>
 /// <para>Pure functions, safe on any thread.</para>
 /// </remarks>
 public static class HandPath
 {
     /// <summary>
-    /// How long a held body takes to converge on what its newest keyframe foretells: 50 ms. Shorter than that a correction is a jerk that throws what lies in its
-    /// way; longer, and at usual rates of keyframes the body never gets to where the hand is.
+    /// How long a held body takes to converge on what its newest keyframe foretells: 50 ms. Shorter than that a correction is a jerk that
+    /// throws what lies in its way; longer, and at usual rates of keyframes the body never gets to where the hand is.
     /// </summary>
     public static readonly SimDuration Settles = SimDuration.FromMilliseconds(50);
 
     /// <summary>
-    /// How long a hand of which nothing more is heard takes to come to rest: 300 ms, about as long as one movement of a hand goes on one way. A shorter braking
-    /// needs more keyframes for the same error, and a longer one hardly fewer, but goes further astray where a hand turns back.
+    /// The time that a hand takes to come to rest if no more keyframes come: 300 ms, about as long as one movement of a hand continues one
+    /// way. A shorter braking needs more keyframes for the same error, and a longer one hardly fewer, but goes further astray where a hand
+    /// turns back.
     /// </summary>
     public static readonly SimDuration Stops = SimDuration.FromMilliseconds(300);
 
-    /// <summary>How long a hold lasts after its last keyframe, or its grab: 1 s. Whoever holds a body still has to say so more often.</summary>
+    /// <summary>
+    /// The time that a hold lasts after its last keyframe, or its grab: 1 s. A hand that keeps a body still has to send keyframes more
+    /// often than that.
+    /// </summary>
     public static readonly SimDuration Lasts = SimDuration.FromSeconds(1);
 
     /// <summary>Where the hand is taken to be so long after a keyframe, in metres; <paramref name="since"/> is at least zero.</summary>
@@ -45,8 +50,8 @@ public static class HandPath
     }
 
     /// <summary>
-    /// The path from a pose at a keyframe to what the keyframe foretells: the foretold braking, and the error of pose and velocity times the cubic that takes both
-    /// to zero, (1 - s/T)^2 (e + (e' + 2 e/T) s).
+    /// The path from a pose at a keyframe to what the keyframe foretells: the foretold braking, and the error of pose and velocity times
+    /// the cubic that takes both to zero, (1 - s/T)^2 (e + (e' + 2 e/T) s).
     /// </summary>
     internal static MotionSegment Converge(
         SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, out DenseOutput dense)
@@ -71,7 +76,9 @@ public static class HandPath
     internal static MotionSegment Still(SimTime time, SimTime keyframe, in Vector3D position) =>
         new(MotionLaw.Held, time, keyframe + Lasts, position, Vector3D.Zero, Vector3D.Zero);
 
-    /// <summary>No less than the highest speed on a held path, in m/s: the largest of its velocity's three Bernstein coefficients.</summary>
+    /// <summary>
+    /// No less than the highest speed on a held path, in m/s: the largest of its velocity's three Bernstein coefficients.
+    /// </summary>
     internal static double SpeedBound(in MotionSegment segment, in DenseOutput dense)
     {
         double t = segment.End.SecondsSince(segment.Epoch);

@@ -2,21 +2,26 @@ using System;
 
 namespace LagSim.Motion;
 
-/// <summary>How far a quintic Hermite polynomial strays from the path of which it has position, velocity and acceleration at both ends.</summary>
+/// <summary>
+/// How far a quintic Hermite polynomial strays from the path of which it has position, velocity and acceleration at both ends.
+/// </summary>
 /// <remarks>
-/// At most h^6 |x^(6)| / 46080 in the position and sqrt(5) h^5 |x^(6)| / 30000 in the velocity, with the largest sixth derivative in the step (Birkhoff and
-/// Priver 1967, J. Math. and Phys. 46, 440-447).
+/// At most h^6 |x^(6)| / 46080 in the position and sqrt(5) h^5 |x^(6)| / 30000 in the velocity, with the largest sixth derivative in the
+/// step (Birkhoff and Priver 1967, J. Math. and Phys. 46, 440-447).
 /// </remarks>
 internal static class HermiteError
 {
     private const double Position = 46080;
     private const double Velocity = 13416.407864998738; // 30000 / sqrt(5)
 
-    /// <summary>The longest step, in seconds, within which the polynomial is off by no more than a tolerance, or by rounding where that is more.</summary>
-    /// <param name="tolerance">What may be, in metres and in m/s.</param>
-    /// <param name="size">What the position is rounded as, in metres.</param>
-    /// <param name="speed">What the velocity is rounded as, in m/s, at the start.</param>
-    /// <param name="acceleration">By how much it changes in a second, in m/s²: at a turning point there is no speed, but after a step there is this much.</param>
+    /// <summary>
+    /// The longest step, in seconds, within which the polynomial is off by no more than a tolerance, or by rounding where that is more.
+    /// </summary>
+    /// <param name="tolerance">The tolerance, in metres and in m/s.</param>
+    /// <param name="size">The size at which the position is rounded, in metres.</param>
+    /// <param name="speed">The size at which the velocity is rounded, in m/s, at the start.</param>
+    /// <param name="acceleration">By how much it changes in a second, in m/s²: at a turning point there is no speed, but after a step there
+    /// is this much.</param>
     /// <param name="sixth">The sixth derivative's size at the start.</param>
     /// <param name="seventh">How fast the sixth changes at most: |x^(6)| stays below sixth + t seventh.</param>
     /// <param name="most">No longer than this, in seconds.</param>
@@ -33,7 +38,8 @@ internal static class HermiteError
     }
 
     /// <summary>
-    /// No longer than the h with h^n derivative = allowed. What is not a number changes nothing here: it is found where the state is checked.
+    /// Limits a step to the h with h^n derivative = allowed. A value that is not a number changes nothing here: it is found where the state
+    /// is checked.
     /// </summary>
     private static double Shorter(double h, double allowed, double derivative, int n)
     {

@@ -6,10 +6,12 @@ namespace LagSim.Motion;
 
 /// <summary>Flight under one inverse-square pull alone, in closed form: ellipse, parabola or hyperbola.</summary>
 /// <remarks>
-/// <para>Kepler's equation in universal variables (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.5): with beta = 2 mu / r - v² and
-/// the functions G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One formula for every eccentricity.</para>
-/// <para>A piece of path is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a tenth of the time in
-/// which the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by less than four.</para>
+/// <para>Kepler's equation in universal variables (Battin, An Introduction to the Mathematics and Methods of Astrodynamics, 4.5): with beta
+/// = 2 mu / r - v² and the functions G of s, t = r G1 + (x.v) G2 + mu G3 is solved for s by Newton's method; then x(t) = f x + g v. One
+/// formula for every eccentricity.</para>
+/// <para>A segment is the quintic Hermite polynomial between two such states, within the body's tolerance of the orbit. It lasts a
+/// tenth of the time in which the body could reach the centre or circle it, at most; in that time the sixth and seventh derivative grow by
+/// less than four.</para>
 /// </remarks>
 internal readonly struct KeplerFlight
 {
@@ -30,12 +32,13 @@ internal readonly struct KeplerFlight
         mu = pull.Strength;
     }
 
-    /// <summary>A piece of the orbit from a state on.</summary>
+    /// <summary>A segment of the orbit from a state on.</summary>
     /// <param name="epoch">When it begins.</param>
     /// <param name="position">The position then.</param>
     /// <param name="velocity">The velocity then.</param>
     /// <param name="dense">The path's higher coefficients.</param>
-    /// <param name="error">How many times too long the shortest piece there is would be, which is then not to be used. Else zero.</param>
+    /// <param name="error">How many times too long the shortest possible segment would be, which must then not be used; zero
+    /// otherwise.</param>
     internal MotionSegment Piece(SimTime epoch, in Vector3D position, in Vector3D velocity, out DenseOutput dense, out double error)
     {
         Vector3D x = position - centre;
@@ -59,7 +62,8 @@ internal readonly struct KeplerFlight
     }
 
     /// <summary>
-    /// The s that belongs to a time: the time is a growing function of s, with the distance as its slope, and nearly a straight line over a tenth of an orbit.
+    /// The s that belongs to a time: the time is a growing function of s, with the distance as its slope, and nearly a straight line over a
+    /// tenth of an orbit.
     /// </summary>
     private double Solve(double h, double r, double eta, double beta, out UniversalFunctions g)
     {
@@ -79,7 +83,7 @@ internal readonly struct KeplerFlight
         }
     }
 
-    /// <summary>How long the piece may be, in seconds.</summary>
+    /// <summary>How long the segment may be, in seconds.</summary>
     private double Length(in Vector3D x, in Vector3D v, double r)
     {
         // The power series of the orbit by the recurrences of w = |x|² and u = mu w^(-3/2).

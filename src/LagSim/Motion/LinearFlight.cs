@@ -4,13 +4,14 @@ using LagSim.Time;
 namespace LagSim.Motion;
 
 /// <summary>
-/// Flight under forces that are linear in position and velocity, in closed form: gravity, linear drag, springs with dampers, magnetic fields, the Magnus force
-/// of a body that turns evenly, together x'' = f - kappa x - gamma v + Omega x v.
+/// Flight under forces that are linear in position and velocity, in closed form: gravity, linear drag, springs with dampers, magnetic
+/// fields, and the Magnus force of a body that turns evenly. Together they are x'' = f - kappa x - gamma v + Omega x v.
 /// </summary>
 /// <remarks>
-/// <para>A piece of path is the quintic Hermite polynomial between two states of which the second follows from the first by <see cref="LinearResponse"/>. So no
-/// error adds up but rounding; that of the polynomial, within a piece, is the body's tolerance at most. For that |x^(6)| stays below |x^(6)(0)| + t |x^(7)(0)|:
-/// the derivatives obey the same equation without f, whose answers to a position and a velocity of 1 never exceed 1 and t.</para>
+/// <para>A segment is the quintic Hermite polynomial between two states. The second follows from the first by <see cref="LinearResponse"/>,
+/// so only rounding adds up. The error of the polynomial within a segment is at most the body's tolerance. The bound uses that |x^(6)|
+/// stays below |x^(6)(0)| + t |x^(7)(0)|: the derivatives obey the same equation without f, and its responses to a position and a velocity
+/// of 1 never exceed 1 and t.</para>
 /// </remarks>
 internal readonly struct LinearFlight
 {
@@ -40,7 +41,7 @@ internal readonly struct LinearFlight
         turn = omega.Length;
     }
 
-    /// <summary>A piece of the flight from a state on, as long as a quintic follows it within the body's tolerance.</summary>
+    /// <summary>A segment of the flight from a state on, as long as a quintic follows it within the body's tolerance.</summary>
     internal MotionSegment Piece(in Forces forces, SimTime epoch, in Vector3D x, in Vector3D v, out DenseOutput dense)
     {
         Vector3D still = forces.At(spec, epoch, 0, x, Vector3D.Zero, spin);
@@ -67,7 +68,7 @@ internal readonly struct LinearFlight
         return new MotionSegment(MotionLaw.ClosedForm, epoch, epoch + step, x, v, a);
     }
 
-    /// <summary>What depends on the velocity in the acceleration, and in every derivative on the one before.</summary>
+    /// <summary>The part of the acceleration that depends on the velocity, and of every derivative on the one before.</summary>
     private Vector3D Damped(in Vector3D v) => (v * -gamma) + Vector3D.Cross(omega, v);
 
     private SimDuration Length(in Vector3D x, in Vector3D v, in Vector3D a)

@@ -3,17 +3,18 @@ using System;
 namespace LagSim.Motion;
 
 /// <summary>
-/// What x'' = -lambda x' - kappa x + f makes of a state in a time t, exactly: x(t) = x + S v + Q f, v(t) = E v + S f, with f the acceleration of the body at
-/// rest where it starts.
+/// The exact solution of x'' = -lambda x' - kappa x + f from a state after a time t: x(t) = x + S v + Q f, v(t) = E v + S f, with f the
+/// acceleration of the body at rest where it starts.
 /// </summary>
 /// <remarks>
-/// <para>S answers a kick, E = S' and Q is the integral of S; exponentials, sines and cosines of lambda and kappa all in one. They are summed as power series
-/// over a part of t so short that every term is far smaller than the one before, and doubled from there by S(2t) = S (E + 1 - kappa Q), E(2t) = E² - kappa S²,
-/// Q(2t) = 2 Q + S² - kappa Q², which are stable at the limits that a damped motion has. Nothing of it is left to the platform's functions, there is no case to
-/// tell apart (under-damped, critical, over-damped, none), and what decays goes to zero however long t is.</para>
-/// <para>Lambda is complex: its imaginary part turns velocities, as a magnetic field does. Error: E, S and Q of an undamped motion are good to 4 + 8 (|lambda|
-/// + sqrt(kappa)) t units in the last place of their largest values, 1, 1 / sqrt(kappa) and 1 / kappa; of drag alone E is good to 4 + 4 lambda t units and S to
-/// 8, however large lambda t is (tests).</para>
+/// <para>S is the response to a kick, E = S' and Q is the integral of S; exponentials, sines and cosines of lambda and kappa all in one.
+/// They are summed as power series over a part of t so short that every term is far smaller than the one before, and doubled from there by
+/// S(2t) = S (E + 1 - kappa Q), E(2t) = E² - kappa S², Q(2t) = 2 Q + S² - kappa Q², which are stable at the limits that a damped motion
+/// has. No platform function is used, there are no separate cases (under-damped, critical, over-damped, none), and decaying terms go to
+/// zero however long t is.</para>
+/// <para>Lambda is complex: its imaginary part turns velocities, as a magnetic field does. Error: E, S and Q of an undamped motion are good
+/// to 4 + 8 (|lambda| + sqrt(kappa)) t units in the last place of their largest values, 1, 1 / sqrt(kappa) and 1 / kappa; of drag alone E
+/// is good to 4 + 4 lambda t units and S to 8, however large lambda t is (tests).</para>
 /// </remarks>
 internal readonly struct LinearResponse
 {
@@ -31,7 +32,7 @@ internal readonly struct LinearResponse
     /// <summary>The position that a velocity of 1 leads to, in s.</summary>
     internal Rotor S { get; }
 
-    /// <summary>What is left of a velocity of 1.</summary>
+    /// <summary>The remainder of a velocity of 1.</summary>
     internal Rotor E { get; }
 
     /// <summary>The position that an acceleration of 1 leads to, in s².</summary>
@@ -62,8 +63,8 @@ internal readonly struct LinearResponse
     }
 
     /// <summary>
-    /// The terms of Q by (n + 2)(n + 1) q[n + 2] = -lambda (n + 1) q[n + 1] - kappa q[n] from q[2] = 1/2 on; S and E are its derivatives. From the fifteenth on
-    /// a term is below 0.25^13 / 15!, which is nothing.
+    /// The terms of Q by (n + 2)(n + 1) q[n + 2] = -lambda (n + 1) q[n + 1] - kappa q[n] from q[2] = 1/2 on; S and E are its derivatives.
+    /// From the fifteenth on a term is below 0.25^13 / 15!, which is nothing.
     /// </summary>
     private static LinearResponse Series(in Rotor lambda, double kappa, double t)
     {

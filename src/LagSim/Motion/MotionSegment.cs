@@ -3,7 +3,10 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>One immutable piece of a body's path: a law, its epoch and state there, and how long its formula holds. Only a successor ends it earlier.</summary>
+/// <summary>
+/// One immutable piece of a body's path: a law, its epoch and state there, and how long its formula holds. Only a successor ends it
+/// earlier.
+/// </summary>
 internal readonly struct MotionSegment
 {
     internal MotionSegment(
@@ -28,7 +31,8 @@ internal readonly struct MotionSegment
     internal SimTime Epoch { get; }
 
     /// <summary>
-    /// The last instant for which the formula was made: the step's or law's own end, whatever cuts it short. <see cref="SimTime.MaxValue"/>: none.
+    /// The last instant for which the formula was made: the step's or law's own end, whatever cuts it short.
+    /// <see cref="SimTime.MaxValue"/>: none.
     /// </summary>
     internal SimTime End { get; }
 
@@ -52,7 +56,8 @@ internal readonly struct MotionSegment
         (1 << (int)MotionLaw.RungeKutta4) | (1 << (int)MotionLaw.Held) | (1 << (int)MotionLaw.ClosedForm) | (1 << (int)MotionLaw.DormandPrince54);
 
     /// <summary>
-    /// Whether the body is one of an island: it is in persistent contact with others, or with what no closed form carries it on, and moves or rests there.
+    /// Whether the body is one of an island: it is in persistent contact with others, or with what no closed form carries it on, and moves
+    /// or rests there.
     /// </summary>
     internal bool IsOfIsland => Law == MotionLaw.Constrained || (Law == MotionLaw.Resting && Supports.Count == 0);
 

@@ -4,18 +4,21 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>One step of the classical fourth-order Runge-Kutta method on position and velocity, with dense output between its ends.</summary>
+/// <summary>
+/// One step of the classical fourth-order Runge-Kutta method on position and velocity, with dense output between its ends.
+/// </summary>
 /// <remarks>
 /// <para>Dense output is the quintic Hermite polynomial through position, velocity and acceleration at both ends. Its error, O(h^6) in the
 /// position and O(h^5) in the velocity, stays below the method's own, so a contact found inside a step keeps the order.</para>
-/// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving Ordinary Differential
-/// Equations II, IV.2), and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own forces it is known, of a program's it is
-/// estimated from two stages and one more evaluation.</para>
+/// <para>The method multiplies what decays at a rate lambda by more than one once lambda h is above 2.785 (Hairer and Wanner, Solving
+/// Ordinary Differential Equations II, IV.2), and blows up. So a step is halved until the rate of the forces lets it be: of the scene's own
+/// forces it is known, of a program's it is estimated from two stages and one more evaluation.</para>
 /// </remarks>
 internal static class RungeKutta4
 {
     /// <summary>
-    /// The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the imaginary one.
+    /// The largest product of rate and step: the end of the stability interval on the negative real axis, a little below that on the
+    /// imaginary one.
     /// </summary>
     internal const double MaxRateTimesStep = FlightLaws.RateTimesStepOfRungeKutta4;
 

@@ -2,7 +2,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Motion;
 
-/// <summary>How a body turns on a piece of its path: as at the epoch, and changing evenly, as friction has it on a plane.</summary>
+/// <summary>The spin of a body on a segment: the value at its epoch, and an even change, such as friction causes on a plane.</summary>
 internal readonly struct Spin
 {
     internal Spin(in Vector3D atEpoch, in Vector3D rate = default)

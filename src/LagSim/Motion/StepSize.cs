@@ -3,13 +3,15 @@ using LagSim.Time;
 
 namespace LagSim.Motion;
 
-/// <summary>How long a step may be whose length follows from an error: its limits, and roots of what gives the same bits everywhere.</summary>
+/// <summary>
+/// How long a step may be whose length follows from an error: its limits, and roots of what gives the same bits everywhere.
+/// </summary>
 internal static class StepSize
 {
     /// <summary>The longest: 1 s.</summary>
     internal static readonly SimDuration Longest = SimDuration.FromTicks(SimDuration.TicksPerSecond);
 
-    /// <summary>The shortest: 16 ticks, 1.5e-11 s. What needs shorter ones is a singularity.</summary>
+    /// <summary>The shortest step: 16 ticks, 1.5e-11 s. A path that needs shorter ones is at a singularity.</summary>
     internal static readonly SimDuration Shortest = SimDuration.FromTicks(16);
 
     /// <summary>A step made so many times as long, within the limits.</summary>
@@ -20,8 +22,8 @@ internal static class StepSize
     }
 
     /// <summary>
-    /// A root of a positive number, to about 1e-5, as good as the size of a step needs to be. Newton's method from above, where it falls monotonically; made of
-    /// nothing but multiplication and division.
+    /// A root of a positive number, to about 1e-5, as good as the size of a step needs to be. Newton's method from above, where it falls
+    /// monotonically; made of nothing but multiplication and division.
     /// </summary>
     /// <param name="number">Above zero, 1e-30 to 1e30.</param>
     /// <param name="degree">2 or more.</param>

@@ -6,15 +6,18 @@ namespace LagSim.Motion;
 /// <summary>How fast forces of which nothing is known change a deviation, seen from stages of a step that are of one time.</summary>
 internal static class Stiffness
 {
-    /// <summary>What changes an acceleration by less than this part of it is rounding, and says nothing.</summary>
+    /// <summary>A change of an acceleration by less than this part of it is rounding, and is ignored.</summary>
     private const double Significant = 1e-10;
 
-    /// <summary>How much further a fixed step of the classical method reaches on the imaginary axis, 2 sqrt(2), than on the negative real one, 2.785.</summary>
+    /// <summary>
+    /// How much further a fixed step of the classical method reaches on the imaginary axis, 2 sqrt(2), than on the negative real one,
+    /// 2.785.
+    /// </summary>
     private const double Oscillation = 2.785 / 2.8284271247461903;
 
     /// <summary>
-    /// The rate in 1/s: that of a damper, |a(x, v) - a(x, v')| / |v - v'|, or that of an oscillator, the root of |a(x, v') - a(x', v')| / |x - x'|, whichever
-    /// is more.
+    /// The rate in 1/s: that of a damper, |a(x, v) - a(x, v')| / |v - v'|, or that of an oscillator, the root of |a(x, v') - a(x', v')| /
+    /// |x - x'|, whichever is more.
     /// </summary>
     /// <param name="x">A position.</param>
     /// <param name="otherX">Another.</param>

@@ -1,6 +1,8 @@
 namespace LagSim.Motion;
 
-/// <summary>The static planes, up to three, that carry a sliding or resting body, by their index in the scene, in ascending order.</summary>
+/// <summary>
+/// The static planes, up to three, that carry a sliding or resting body, by their index in the scene, in ascending order.
+/// </summary>
 internal readonly struct SupportSet
 {
     internal const int Most = 3;

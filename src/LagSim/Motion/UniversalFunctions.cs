@@ -1,11 +1,12 @@
 namespace LagSim.Motion;
 
 /// <summary>
-/// The functions G0 to G3 of beta and s that solve Kepler's problem for every eccentricity: Gn = sum over k of (-beta)^k s^(n + 2k) / (n + 2k)!.
+/// The functions G0 to G3 of beta and s that solve Kepler's problem for every eccentricity: Gn = sum over k of (-beta)^k s^(n + 2k) / (n +
+/// 2k)!.
 /// </summary>
 /// <remarks>
-/// For |beta| s² up to 0.1, where ten terms are more than enough: the next is below 0.1^10 / 22!. Error: 2 units in the last place (tests). G0 = 1 - beta G2
-/// and G1 = s - beta G3 are made of the other two.
+/// For |beta| s² up to 0.1, where ten terms are more than enough: the next is below 0.1^10 / 22!. Error: 2 units in the last place (tests).
+/// G0 = 1 - beta G2 and G1 = s - beta G3 are made of the other two.
 /// </remarks>
 internal readonly struct UniversalFunctions
 {

@@ -10,8 +10,8 @@ namespace LagSim.Response;
 
 /// <summary>
 /// Inelastic collapse: below a threshold of restitution infinitely many impacts come in a finite time. A contact that closes again in the
-/// instant in which it was struck has not parted, for the clock cannot tell the two apart; so it bounces no second time (docs/CONTACT.md,
-/// rule 14).
+/// instant in which it was struck has not parted, because the clock cannot distinguish the two. So it does not bounce a second time
+/// (docs/CONTACT.md, rule 14).
 /// </summary>
 internal class CollapseRule(
     Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes)
@@ -21,8 +21,8 @@ internal class CollapseRule(
     private readonly InelasticCollapse collapse = new();
 
     /// <summary>
-    /// Whether something there can take energy, or could once: an inelastic body or surface, or a hand. Where nothing can there is no
-    /// collapse to look for, which costs more than the impacts do.
+    /// Whether something can take energy, or could once: an inelastic body or surface, or a hand. If nothing can, there is no search for a
+    /// collapse, which costs more than the impacts do.
     /// </summary>
     internal bool HasLosses { get; set; } = scene.Surfaces.TakesEnergy();
 
@@ -30,9 +30,9 @@ internal class CollapseRule(
     internal static bool MayBeStruckAgain(in EventKey key) => key.Round >= CollisionPredictor.CollapseRound;
 
     /// <summary>
-    /// Whether the impact at hand strikes a contact that can lose energy, and that was struck in this instant already, and infinitely many
-    /// impacts may follow. Where a member of an island takes part they always may: what holds it gives way to no push, however light it is
-    /// itself.
+    /// Whether the current impact strikes a contact that can lose energy and that was struck in this instant already, and infinitely many
+    /// impacts may follow. Where a member of an island takes part they always may: the bodies that hold it give way to no push, however
+    /// light they are themselves.
     /// </summary>
     internal virtual bool Collapses(SimTime time)
     {
@@ -87,11 +87,9 @@ internal class CollapseRule(
     }
 
     /// <summary>
-    /// What is squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) goes on together: with
-    /// the
-    /// velocity of its centre of mass, with that of the first hand that takes part, or at rest where something static does. Nothing
-    /// closes then, but for what
-    /// a hand presses, which is left alone; so the tick ends.
+    /// Bodies that are squeezed so that even plastic impacts do not end it (a mass ratio beyond what the solver resolves) continue
+    /// together: with the velocity of their centre of mass, with that of the first hand that takes part, or at rest where something static
+    /// does. Nothing closes then, except what a hand presses, which is left alone. So the tick ends.
     /// </summary>
     internal void GoOnTogether()
     {
@@ -136,7 +134,10 @@ internal class CollapseRule(
     /// <summary>Whether what touches is part of a collapse, by how often it was struck in this instant.</summary>
     private protected virtual bool TakesIn(int strikeCount) => strikeCount > 0;
 
-    /// <summary>The distance between two bodies' surfaces at a tick, on these pieces of their paths; the same bits whoever asks.</summary>
+    /// <summary>
+    /// The distance between two bodies' surfaces at a tick, on these segments; the same bits in whichever order the bodies
+    /// come.
+    /// </summary>
     private double Gap(int slot, int piece, int other, int otherPiece, SimTime time) =>
         scene.Box.Nearest(paths.PositionAt(piece, time) - paths.PositionAt(otherPiece, time)).Length - (bodies.Spec(slot).Radius + bodies.Spec(other).Radius);
 }

@@ -9,7 +9,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Response;
 
-/// <summary>Builds the contact graph of an impact: all contacts of its tick and round that share bodies, and the bodies as they meet.</summary>
+/// <summary>
+/// Builds the contact graph of an impact: all contacts of its tick and round that share bodies, and the bodies as they meet.
+/// </summary>
 internal class ImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
     FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph)
@@ -19,7 +21,7 @@ internal class ImpactGraphBuilder(
 
     /// <summary>
     /// Builds the graph, in canonical order. Contacts that were struck in this instant already are among them if one of those is struck
-    /// again. False if somebody who takes part is ahead and has to be rewound first.
+    /// again. False if a body that takes part is ahead and has to be rewound first.
     /// </summary>
     /// <param name="slot">A body of the impact.</param>
     /// <param name="key">The impact.</param>
@@ -54,7 +56,7 @@ internal class ImpactGraphBuilder(
     /// <summary>
     /// Finds contacts from body to body: those that are struck and, if asked to, those that were struck earlier in this instant and still
     /// touch. It finds the same contacts whichever of the bodies it begins at, so two impacts of one round have no body in common. Bodies
-    /// that merely touch are left out, because a rollback would not know that they were looked at.
+    /// that merely touch are left out, because a rollback would not know that they were tested.
     /// </summary>
     private void Follow(int slot, in EventKey key, bool withStruckBefore)
     {

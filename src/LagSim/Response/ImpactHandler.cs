@@ -7,18 +7,18 @@ using LagSim.Timelines;
 
 namespace LagSim.Response;
 
-/// <summary>Impacts: who takes part, and what comes of it.</summary>
+/// <summary>Handles impacts: finds the bodies that take part, solves the impact and opens the segments that follow.</summary>
 internal sealed class ImpactHandler(
     Scene scene, BodyTable bodies, ContactGraph graph, Partners partners, IsolatedImpact isolated, ImpactGraphBuilder builder,
     ImpactResolver resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentLinker linker)
 {
     /// <summary>
-    /// So many rounds of impacts in one instant are endless: elastic ones, for all others collapse. The longest that end, 3,141,592 impacts
-    /// of two balls and a wall, have a few in each.
+    /// The number of rounds of impacts beyond which an instant counts as endless. Only elastic impacts get there, because all others
+    /// collapse. The longest series that end, 3,141,592 impacts of two balls and a wall, have a few in each instant.
     /// </summary>
     private const uint MostRounds = 1 << 16;
 
-    /// <summary>Opens the segments after an impact; the graph has whose they are. False if somebody has to be rewound first.</summary>
+    /// <summary>Opens the segments after an impact; the graph then has their bodies. False if a body has to be rewound first.</summary>
     /// <exception cref="EndlessInstantException">The instant does not end.</exception>
     internal bool TryHandle(int slot, in EventKey key)
     {

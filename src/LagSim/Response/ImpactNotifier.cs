@@ -5,10 +5,10 @@ using LagSim.Timelines;
 
 namespace LagSim.Response;
 
-/// <summary>Tells whoever wants to hear of them of the contacts of an impact.</summary>
+/// <summary>Reports the contacts of an impact to the observers.</summary>
 internal sealed class ImpactNotifier(BodyTable bodies, TimelineStore timelines, ContactGraph graph)
 {
-    /// <summary>Tells of the contacts of the graph that close, as they are before the impact is solved.</summary>
+    /// <summary>Reports the contacts of the graph that close, as they are before the impact is solved.</summary>
     internal void Tell(in EventKey key)
     {
         if (timelines.Observer is not IImpactObserver observer)

@@ -17,7 +17,7 @@ internal sealed class ImpactResolver(
     private readonly ImpactFriction friction = new();
     private double[] coefficients = Array.Empty<double>();
 
-    /// <summary>What each contact of the graph is to rebound with, and whether it lasts from here on.</summary>
+    /// <summary>Sets the rebound of each contact of the graph, and whether it persists from here on.</summary>
     internal void SetTargets(bool collapses, SimTime time)
     {
         for (int i = 0; i < graph.ContactCount; i++)
@@ -61,9 +61,8 @@ internal sealed class ImpactResolver(
     }
 
     /// <summary>
-    /// What an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in its direction: a rule of
-    /// the world, the same bits
-    /// on every peer. What is not finite stays as it is, and ends the simulation.
+    /// A body that an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in the same direction: a
+    /// rule of the world, the same bits on every peer. A velocity that is not finite stays as it is, and ends the simulation.
     /// </summary>
     internal void LimitSpeeds()
     {
@@ -79,7 +78,7 @@ internal sealed class ImpactResolver(
         }
     }
 
-    /// <summary>Friction in the impact at hand, if any of its parties has some.</summary>
+    /// <summary>Applies friction in the current impact, if any of its bodies has some.</summary>
     private void SolveFriction()
     {
         bool rubs = false;

@@ -12,15 +12,17 @@ using LagSim.Trajectories;
 
 namespace LagSim.Response;
 
-/// <summary>Impacts that reach islands, or begin them: an impulse spreads over persistent contacts as far as it changes velocities.</summary>
+/// <summary>
+/// Impacts that reach islands, or begin them: an impulse spreads over persistent contacts as far as it changes velocities.
+/// </summary>
 internal sealed class IslandImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
     IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
     ImpactNotifier notifier, IslandImpactSegments segments)
 {
     /// <summary>
-    /// One sweep to and one fro, while an impact is still found to reach more: how far it goes shows in its first sweeps, and it is solved
-    /// to the end once it reaches nobody else.
+    /// One sweep to and one fro, while an impact still reaches more bodies: how far it goes shows in its first sweeps, and it is solved to
+    /// the end once it reaches no other body.
     /// </summary>
     private const int GrowingSweeps = 2;
 
@@ -49,7 +51,7 @@ internal sealed class IslandImpact(
     /// <param name="residual">Seconds from the tick to the impact.</param>
     /// <param name="presses">
     /// Whether to press what a hand strikes against the static surfaces that are within the contact tolerance on its way: bounces with less
-    /// room than that are none.
+    /// room than that are left out.
     /// </param>
     internal ImpactOutcome Handle(in EventKey popped, double residual, bool presses)
     {
@@ -80,7 +82,7 @@ internal sealed class IslandImpact(
         return ImpactOutcome.Done;
     }
 
-    /// <summary>What is struck, and what carries it, are where the impulse begins.</summary>
+    /// <summary>The impulse begins at the bodies struck and at those that carry them.</summary>
     private void Begin()
     {
         impact.Clear();
@@ -100,7 +102,9 @@ internal sealed class IslandImpact(
         AddSupports();
     }
 
-    /// <summary>Solves again and again, as long as the impulse reaches more; whether it presses a body against a surface that is near.</summary>
+    /// <summary>
+    /// Solves again and again, as long as the impulse reaches more; whether it presses a body against a surface that is near.
+    /// </summary>
     private bool Spread(in EventKey key, double residual, bool presses)
     {
         double tolerance = scale.SweepSpeed;
@@ -158,7 +162,7 @@ internal sealed class IslandImpact(
         return isJammed;
     }
 
-    /// <summary>What a hand presses against something lasts, and what it presses it against too.</summary>
+    /// <summary>Contacts that a hand presses with all it may give persist, and so do those that they are pressed against.</summary>
     private void KeepPressed(bool presses)
     {
         for (int i = 0; i < graph.ContactCount; i++)
@@ -204,7 +208,9 @@ internal sealed class IslandImpact(
         return any;
     }
 
-    /// <summary>Adds the persistent contacts of a body whose velocity the impact has changed, and the bodies on their other sides.</summary>
+    /// <summary>
+    /// Adds the persistent contacts of a body whose velocity the impact has changed, and the bodies on their other sides.
+    /// </summary>
     private bool TryReachOn(int body, in EventKey key, double residual, bool presses)
     {
         int slot = graph.Slots[body];
@@ -223,7 +229,7 @@ internal sealed class IslandImpact(
             PersistentContact contact = timelines.Carried.At(at);
             if (!contact.Holds || (!presses && memberContacts.IsElastic(slot, contact)))
             {
-                continue; // that there is room to close in is not used up yet, or an impact tells when
+                continue; // the room to close in is not used up yet, or an impact will come at the right time
             }
 
             any |= contact.Surface != PersistentContact.NoSurface
@@ -273,7 +279,7 @@ internal sealed class IslandImpact(
 
     private void AddBody(int body) => impact.AddBody(graph.Masses[body], graph.Radii[body], graph.Velocities[body], graph.Spins[body]);
 
-    /// <summary>What carries a body by a closed form holds it up while it is struck.</summary>
+    /// <summary>The surfaces that carry a body by a closed form hold it up while it is struck.</summary>
     private void AddSupports()
     {
         for (int i = 0; i < graph.BodyCount; i++)

@@ -9,7 +9,9 @@ using LagSim.Trajectories;
 
 namespace LagSim.Response;
 
-/// <summary>Opens the segments on which bodies leave an impact that has reached an island, with the contacts that last from there on.</summary>
+/// <summary>
+/// Opens the segments on which bodies leave an impact that has reached an island, with the contacts that last from there on.
+/// </summary>
 internal sealed class IslandImpactSegments(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, IslandImpactProblem impact, MemberFactory members,
     TrajectoryFactory trajectories, ImpactResolver resolver, ImpactSegments alone)
@@ -86,7 +88,10 @@ internal sealed class IslandImpactSegments(
         return has;
     }
 
-    /// <summary>A member's new segment carries the contacts of the impact that last from here on; those that bounced off without a loss hold no more.</summary>
+    /// <summary>
+    /// A member's new segment carries the contacts of the impact that last from here on; those that bounced off without a loss hold no
+    /// more.
+    /// </summary>
     private void AddPersistent(int body, int piece)
     {
         for (int i = 0; i < graph.ContactCount; i++)

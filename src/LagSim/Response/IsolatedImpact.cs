@@ -9,8 +9,8 @@ using LagSim.Timelines;
 namespace LagSim.Response;
 
 /// <summary>
-/// The impact of two bodies in free flight with nobody near, or of one with a surface: what nearly all impacts of a gas are, and of a ball
-/// that bounces. No contact graph has to be searched for it.
+/// The impact of two bodies in free flight with no other body near, or of one with a surface: nearly all impacts of a gas, and of a
+/// bouncing ball, are of this kind. No contact graph has to be searched for it.
 /// </summary>
 internal class IsolatedImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
@@ -25,8 +25,8 @@ internal class IsolatedImpact(
     internal long PairCount { get; private set; }
 
     /// <summary>
-    /// What the general way makes of such an impact, to the bit, by the same rules. False, and nothing is done, if it is of others too, or
-    /// if the two part so slowly that persistent contact may come of it: then who else is in touch counts.
+    /// Solves such an impact by the same rules as the general way, with the same bits. False, and nothing is done, if others take part too,
+    /// or if the two part so slowly that persistent contact may follow: then other bodies in touch count.
     /// </summary>
     internal virtual bool TryHandle(int slot, in EventKey key)
     {
@@ -57,10 +57,10 @@ internal class IsolatedImpact(
     }
 
     /// <summary>
-    /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Whoever else is struck at that tick has an
-    /// event pending then, for nobody's pending event is later than its next contact; or it, or another surface, was seen when one of the
-    /// two was predicted, which then is tied. So if there is none and neither is tied, nobody is, but by a surface the one of two that did
-    /// not find the other, which has none pending.
+    /// Whether the impact is surely of two bodies, or of one and a surface, and nothing else. Another body that is struck at that tick has
+    /// an event pending then, because no pending event is later than its body's next contact. Or that body, or another surface, was seen
+    /// when one of the two was predicted, which then is tied. So if there is no such event and neither is tied, nothing else is struck,
+    /// with one exception: of two bodies the one that did not find the other, and so has no event pending, may strike a surface.
     /// </summary>
     private bool IsIsolated(int slot, in EventKey key)
     {

@@ -9,12 +9,15 @@ using LagSim.Timelines;
 namespace LagSim.Rollback;
 
 /// <summary>
-/// What the heal at hand has cut off of the paths that stood before it, kept as long as it is little: where the new paths meet it, it is put back.
+/// The segments that the current heal has cut from earlier paths, kept as long as they are few. Where the new paths reconverge with them,
+/// they are put back.
 /// </summary>
-/// <remarks>Copies, since the store gives the room of what it cuts to what comes next. It allocates only until it has held as much as it ever does.</remarks>
+/// <remarks>
+/// These are copies, since the store reuses the room of cut segments. It allocates only until it has held as much as it ever does.
+/// </remarks>
 internal class CutPaths
 {
-    /// <summary>A heal that has cut more, or that has touched more bodies, goes on to its end: it would hardly meet what was.</summary>
+    /// <summary>A heal that has cut more, or that has touched more bodies, runs to its end: it would hardly reconverge.</summary>
     internal const int Most = 256;
 
     private const int None = -1;
@@ -25,7 +28,7 @@ internal class CutPaths
     private readonly List<(int Slot, int Earliest)> bodies = new();
     private Comparison<int>? byKey; // made when something is put back
     private int[] joined = Array.Empty<int>();
-    private int differing; // a body that was not on its old path when last looked at
+    private int differing; // a body that was not on its old path at the last test
 
     /// <summary>Whether everything that the heal has cut is here.</summary>
     internal bool IsWhole { get; private set; }
@@ -44,7 +47,7 @@ internal class CutPaths
         LastSerial = lastSerial;
     }
 
-    /// <summary>The heal goes on to its end.</summary>
+    /// <summary>The heal runs to its end.</summary>
     internal void GiveUp()
     {
         IsWhole = false;
@@ -57,7 +60,7 @@ internal class CutPaths
     /// <summary>The slot of the n-th body that was touched.</summary>
     internal int SlotAt(int n) => bodies[n].Slot;
 
-    /// <summary>The heal takes back a body that it had not touched.</summary>
+    /// <summary>The heal rewinds a body that it had not touched.</summary>
     internal void Touch(int slot)
     {
         if (IsWhole)
@@ -107,7 +110,8 @@ internal class CutPaths
     }
 
     /// <summary>
-    /// Whether after everything up to and including <paramref name="time"/> each body that was touched is on the very piece of path that it was on before.
+    /// Whether after everything up to and including <paramref name="time"/> each body that was touched is on the very piece of path that it
+    /// was on before.
     /// </summary>
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>
@@ -127,7 +131,7 @@ internal class CutPaths
         return true;
     }
 
-    /// <summary>Puts back what was cut after <paramref name="time"/>; each body goes on from where it is now.</summary>
+    /// <summary>Puts back the segments cut after <paramref name="time"/>; each body continues from where it is now.</summary>
     internal void PutBack(TimelineStore timelines, SimTime time, BodyTable table)
     {
         order.Clear();
@@ -188,7 +192,7 @@ internal class CutPaths
         return IsSamePath(timelines, last, pieces[old]) && CarriesTheSame(timelines, last, pieces[old]);
     }
 
-    /// <summary>Whether a segment is a piece of path, but for what it carries.</summary>
+    /// <summary>Whether a segment equals a copied path, apart from what it carries.</summary>
     private protected virtual bool IsSamePath(TimelineStore timelines, int segment, in Piece piece) => timelines.Key(segment) == piece.Key
         && timelines.Segment(segment).IsSameAs(piece.Segment)
         && (!timelines.Segment(segment).IsDense || timelines.Dense(segment).IsSameAs(piece.Dense))

@@ -5,13 +5,13 @@ using LagSim.Timelines;
 
 namespace LagSim.Rollback;
 
-/// <summary>Keeps back what a heal does to impacts while some of it may turn out not to have happened, and tells it afterwards.</summary>
+/// <summary>Holds back the changes of impacts by a heal while some of them may still be undone, and reports them afterwards.</summary>
 internal sealed class HeldBackImpacts : IImpactObserver
 {
     private readonly List<(EventKey Impact, bool IsCut, ImpactContact Contact)> waiting = new();
     private bool holds;
 
-    /// <summary>Who is told; null for nobody.</summary>
+    /// <summary>The observer that is notified; null for none.</summary>
     internal IImpactObserver? Listener { get; set; }
 
     public void OnContact(in EventKey impact, in ImpactContact contact)
@@ -38,11 +38,12 @@ internal sealed class HeldBackImpacts : IImpactObserver
         }
     }
 
-    /// <summary>From now on nothing is told.</summary>
+    /// <summary>From now on nothing is reported.</summary>
     internal void Hold() => holds = true;
 
     /// <summary>
-    /// Tells what was kept back of impacts up to and including <paramref name="last"/>, in the order in which it came; the rest was as nothing.
+    /// Reports the held-back changes of impacts up to and including <paramref name="last"/>, in the order in which they came; the rest is
+    /// dropped.
     /// </summary>
     internal void Release(SimTime last)
     {

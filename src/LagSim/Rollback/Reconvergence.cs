@@ -15,7 +15,7 @@ internal sealed class Reconvergence(
 {
     private readonly HeldBackImpacts heldBack = new();
 
-    /// <summary>Who is told of impacts made and cut; null, the default, for nobody.</summary>
+    /// <summary>The observer of impacts made and cut; null, the default, for none.</summary>
     internal IImpactObserver? Observer
     {
         get => heldBack.Listener;
@@ -39,16 +39,19 @@ internal sealed class Reconvergence(
     /// <summary>Of a body that was touched the newest segment is about to be cut.</summary>
     internal void Keep(int slot, int segment) => cut.Keep(timelines, slot, segment);
 
-    /// <summary>Nothing will be put back of what the rollback at hand cuts.</summary>
+    /// <summary>Nothing that the current rollback cuts will be put back.</summary>
     internal void GiveUp()
     {
         cut.GiveUp();
         heldBack.Release(SimTime.MaxValue);
     }
 
-    /// <summary>Whether at an instant, of which the rollback has done all, each body that it has touched is on the path that it was on before.</summary>
+    /// <summary>
+    /// Whether at an instant, of which the rollback has done all, each body that it has touched is on the path that it was on before.
+    /// </summary>
     /// <param name="at">The instant.</param>
-    /// <param name="until">How far the world is to be advanced: less than the rollback horizon means that it may not jump there yet.</param>
+    /// <param name="until">How far the world is to be advanced: less than the rollback horizon means that it may not jump there
+    /// yet.</param>
     internal bool IsReached(SimTime at, SimTime until)
     {
         bool mayBe = rollback.IsActive && at < rollback.Horizon && at >= rollback.Cursor.Time && until >= rollback.Horizon;
@@ -61,7 +64,9 @@ internal sealed class Reconvergence(
         return mayBe && cut.AreMet(timelines, at);
     }
 
-    /// <summary>Puts back what was cut after an instant at which it is reached: the world is simulated to the rollback horizon again.</summary>
+    /// <summary>
+    /// Puts back what was cut after an instant at which it is reached: the world is simulated to the rollback horizon again.
+    /// </summary>
     internal void PutBack(SimTime at)
     {
         SimTime to = rollback.Horizon;
@@ -79,7 +84,7 @@ internal sealed class Reconvergence(
         }
 
         progress.SimulatedTo = to;
-        rollback.End(); // nobody is ahead of anybody
+        rollback.End(); // no body is ahead of another
         rollback.Cursor = EventKey.Before(next);
         for (int n = 0; n < cut.BodyCount; n++)
         {

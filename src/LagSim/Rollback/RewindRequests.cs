@@ -3,12 +3,14 @@ using LagSim.Events;
 
 namespace LagSim.Rollback;
 
-/// <summary>Who has to be rewound, and to which key, before the event at hand can be processed: its path is known beyond it.</summary>
+/// <summary>
+/// The bodies that have to be rewound, and to which key, before the current event can be processed: their paths are known beyond it.
+/// </summary>
 internal sealed class RewindRequests
 {
     private readonly List<(int Slot, EventKey Key)> requests = new();
 
-    /// <summary>Whether nobody has to be.</summary>
+    /// <summary>Whether no body has to be rewound.</summary>
     internal bool AreNone => requests.Count == 0;
 
     /// <summary>Asks for a body to be rewound.</summary>

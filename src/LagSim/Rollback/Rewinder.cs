@@ -8,9 +8,11 @@ using LagSim.Timelines;
 namespace LagSim.Rollback;
 
 /// <summary>
-/// Cuts the paths that a late event can have touched, as it comes to light whose they are, so that the event loop simulates them again.
+/// Cuts the paths that a late event can have touched, as they become known, so that the event loop simulates them again.
 /// </summary>
-/// <remarks>It simulates nothing itself: it cuts, has who was cut predicted anew, and moves back how far the world is simulated.</remarks>
+/// <remarks>
+/// It simulates nothing itself: it cuts, has the cut bodies predicted again, and moves back how far the world is simulated.
+/// </remarks>
 internal class Rewinder : IOpeningObserver
 {
     /// <summary>
@@ -29,8 +31,8 @@ internal class Rewinder : IOpeningObserver
     private readonly EventPredictor predictor;
     private readonly HealingMode mode;
     private readonly Stack<(int Slot, EventKey Key)> cuts = new();
-    private readonly List<int> cut = new(); // who was cut since anything was predicted anew
-    private HealReport report; // what the rollback at hand began with
+    private readonly List<int> cut = new(); // the bodies cut since the last prediction
+    private HealReport report; // what the current rollback began with
 
     internal Rewinder(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
@@ -60,17 +62,17 @@ internal class Rewinder : IOpeningObserver
     internal SimTime KnownTo => mode == HealingMode.FullRollback ? progress.SimulatedTo : SimTime.Max(progress.SimulatedTo, rollback.Horizon);
 
     /// <summary>
-    /// Whether what bodies do at a key is known of some. Of the instant to which a full rollback has gone back, what lies before the key of
-    /// the late event still stands.
+    /// Whether the events at a key are known for some bodies. Of the instant that a full rollback has rewound to, events before the key of
+    /// the late event stay valid.
     /// </summary>
     internal bool IsKnown(in EventKey key) =>
         key.Time <= KnownTo || (mode == HealingMode.FullRollback && EventKey.Compare(key, rollback.Cursor) < 0);
 
     void IOpeningObserver.OnOpened(int slot, in EventKey key)
     {
-        if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not of whom nobody has heard yet
+        if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not a body that is not known yet
         {
-            Touch(slot); // also who had nothing to be cut, because what struck it now comes after all it did
+            Touch(slot); // also a body with nothing to cut, because what strikes it now comes after all its segments
         }
     }
 
@@ -103,8 +105,8 @@ internal class Rewinder : IOpeningObserver
     }
 
     /// <summary>
-    /// Cuts a body at the key; whoever shared an event that is gone is cut there too. All of them are predicted anew. If the rollback has
-    /// grown to so many bodies that it will grow to nearly all, all are rewound to the event at hand.
+    /// Cuts a body at the key; all bodies that shared a removed event are cut there too. All of them are predicted again. If the rollback
+    /// has grown to so many bodies that it will grow to nearly all, all are rewound to the current event.
     /// </summary>
     internal void Rewind(int slot, in EventKey key)
     {
@@ -169,7 +171,7 @@ internal class Rewinder : IOpeningObserver
         }
         else
         {
-            reconvergence.GiveUp(); // what stood before is no longer to be told from what the rollback has made
+            reconvergence.GiveUp(); // earlier segments can no longer be distinguished from those that the rollback has made
             report = new HealReport(SimTime.Min(report.From, time), report.To, report.LateEvents + 1, 0, report.SegmentsCut, report.Events);
         }
     }
@@ -234,15 +236,17 @@ internal class Rewinder : IOpeningObserver
     /// <summary>Has the external events of a body that was cut applied again.</summary>
     private protected virtual void Redo(int slot, in EventKey from) => log.AddDueFrom(slot, from);
 
-    /// <summary>Whether to simulate everybody again costs less than to ask at every step who is ahead, and what it did there.</summary>
+    /// <summary>
+    /// Whether simulating all bodies again costs less than finding out at every step which bodies are ahead, and what they did there.
+    /// </summary>
     private bool IsNearlyFull() =>
         rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MostConesApart));
 
-    /// <summary>Cuts every timeline at the key and has everybody predicted again.</summary>
+    /// <summary>Cuts every timeline at the key and has all bodies predicted again.</summary>
     private void RewindAll(in EventKey key)
     {
         rollback.Cursor = key;
-        rollback.LastOld = -1; // nobody is ahead of anybody
+        rollback.LastOld = -1; // no body is ahead of another
         EventKey from = CutsAllFrom(key);
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {

@@ -1,6 +1,8 @@
 namespace LagSim.Scenes;
 
-/// <summary>Those of a scene's forces that a set names, in the scene's order: what <c>foreach</c> goes through, without an allocation.</summary>
+/// <summary>
+/// Those of a scene's forces that a set names, in the scene's order: what <c>foreach</c> goes through, without an allocation.
+/// </summary>
 internal struct ActingForces
 {
     private readonly Force[] forces;
@@ -14,7 +16,7 @@ internal struct ActingForces
         next = 0;
     }
 
-    /// <summary>The force at hand.</summary>
+    /// <summary>The current force.</summary>
     public readonly Force Current => forces[next - 1];
 
     /// <summary>Itself.</summary>

@@ -3,7 +3,10 @@ using System.Globalization;
 
 namespace LagSim.Scenes;
 
-/// <summary>Who a body is, on every peer: (peer, sequence) of the event that spawned it and its index in that event; (0, 0, index) for a scene's own.</summary>
+/// <summary>
+/// The identity of a body, the same on every peer: (peer, sequence) of the event that spawned it and its index in that event; (0, 0, index)
+/// for a scene's own.
+/// </summary>
 /// <remarks>
 /// <para>Order is by peer, then sequence, then index. It decides operand order and ties, so an array slot never does.</para>
 /// <para>Ranges: peer 0 to 255, sequence 0 to 4,294,967,295, index 0 to 16,777,215; packed into one 64-bit value.</para>

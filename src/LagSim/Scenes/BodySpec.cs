@@ -2,8 +2,10 @@ using LagSim.Time;
 
 namespace LagSim.Scenes;
 
-/// <summary>What a body is, apart from where it is: size, mass, material and how it flies.</summary>
-/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>: a radius and a mass are above zero. A scene and a simulation check it.</remarks>
+/// <summary>The properties of a body, apart from its state: size, mass, material and how it flies.</summary>
+/// <remarks>
+/// Immutable, safe on any thread. Not valid as <c>default</c>: a radius and a mass are above zero. A scene and a simulation check it.
+/// </remarks>
 /// <example>
 /// A football, in metres and kilograms:
 /// <code>
@@ -22,23 +24,25 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <param name="radius">Metres, 1e-9 to 1e9.</param>
     /// <param name="mass">Kilograms, 1e-30 to 1e30.</param>
     /// <param name="restitution">0 (stays) to 1 (elastic). Of two things that meet, the lesser counts.</param>
-    /// <param name="flight">The law of free flight; by default <see cref="MotionLaw.Automatic"/>, the cheapest that is exact for the forces.</param>
+    /// <param name="flight">The law of free flight; by default <see cref="MotionLaw.Automatic"/>, the cheapest that is exact for the
+    /// forces.</param>
     /// <param name="step">
-    /// The step of an integrating law, 1 microsecond to 1 s; default <see cref="DefaultStep"/>. Ignored by closed forms and under error control.
+    /// The step of an integrating law, 1 microsecond to 1 s; default <see cref="DefaultStep"/>. Ignored by closed forms and under error
+    /// control.
     /// </param>
     /// <param name="forces">Those of the scene's forces that act on it besides gravity.</param>
     /// <param name="tolerance">
-    /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s for the velocity; 0
-    /// means fixed steps. Of <see cref="MotionLaw.ClosedForm"/> how far in metres the path may be off within a piece, at whose ends it is exact; 0 means to
-    /// rounding. Ignored by the others.
+    /// 0 to 1. Of <see cref="MotionLaw.DormandPrince54"/> the estimated error that a step may have, in metres for the position and in m/s
+    /// for the velocity; 0 means fixed steps. For <see cref="MotionLaw.ClosedForm"/> it is how far, in metres, the path may be off within a
+    /// segment, which is exact at its ends; 0 means to rounding. Ignored by the others.
     /// </param>
     /// <param name="friction">
-    /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid spheres: their moment of
-    /// inertia is 2/5 m r².
+    /// The coefficient of Coulomb friction, 0 (none, the default) to 100. Of two things that meet, the lesser counts. Bodies are solid
+    /// spheres: their moment of inertia is 2/5 m r².
     /// </param>
     /// <param name="rollingResistance">
-    /// The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back, and with as much of a
-    /// moment one that turns on the spot. Counts for no more than the friction, without which nothing rolls.
+    /// The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back, and
+    /// with as much of a moment one that turns on the spot. Counts for no more than the friction, without which nothing rolls.
     /// </param>
     public BodySpec(
         double radius,
@@ -71,24 +75,31 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// <summary>The coefficient of restitution, 0 to 1.</summary>
     public double Restitution { get; }
 
-    /// <summary>The law of free flight; <see cref="MotionLaw.Automatic"/> only with forces, until a scene or a simulation has chosen.</summary>
+    /// <summary>
+    /// The law of free flight; <see cref="MotionLaw.Automatic"/> only with forces, until a scene or a simulation has chosen.
+    /// </summary>
     public MotionLaw Flight { get; }
 
     /// <summary>
-    /// The step of <see cref="MotionLaw.RungeKutta4"/>, and of <see cref="MotionLaw.DormandPrince54"/> with a tolerance of 0; others do not use it.
+    /// The step of <see cref="MotionLaw.RungeKutta4"/>, and of <see cref="MotionLaw.DormandPrince54"/> with a tolerance of 0; others do not
+    /// use it.
     /// </summary>
     public SimDuration Step { get; }
 
     /// <summary>The forces that act on it besides gravity.</summary>
     public ForceSet Forces { get; }
 
-    /// <summary>What an error may be, in metres and m/s; 0 for fixed steps or, of a closed form, for rounding. See the constructor.</summary>
+    /// <summary>
+    /// The tolerance, in metres and m/s; 0 for fixed steps or, with a closed form, for rounding alone. See the constructor.
+    /// </summary>
     public double Tolerance { get; }
 
     /// <summary>The coefficient of Coulomb friction, without a unit; of two things that meet, the lesser counts.</summary>
     public double Friction { get; }
 
-    /// <summary>The coefficient of rolling resistance, without a unit: the body's own, but no more than the friction where it touches.</summary>
+    /// <summary>
+    /// The coefficient of rolling resistance, without a unit: the body's own, but no more than the friction where it touches.
+    /// </summary>
     public double RollingResistance { get; }
 
     /// <summary>The same body on another law of flight.</summary>

@@ -5,14 +5,15 @@ namespace LagSim.Scenes;
 /// <summary>Which laws of flight are exact for a body's forces, and which of them is the cheapest.</summary>
 internal static class FlightLaws
 {
-    /// <summary>The largest product of rate and step that the method of this name follows, which tells where it is from.</summary>
+    /// <summary>The largest product of rate and step that the method of this name follows; see there for its origin.</summary>
     internal const double RateTimesStepOfRungeKutta4 = 2.785;
 
     /// <inheritdoc cref="RateTimesStepOfRungeKutta4"/>
     internal const double RateTimesStepOfDormandPrince54 = 1;
 
     /// <summary>
-    /// What a body flies by: what it asks for, or the cheapest law that is exact for its forces, or, where none is, the one under error control.
+    /// The flight law of a body: the one it asks for, or the cheapest that is exact for its forces, or, if none is, the one under error
+    /// control.
     /// </summary>
     internal static MotionLaw Chosen(in BodySpec spec, in Vector3D gravity, Force[] forces) =>
         spec.Flight != MotionLaw.Automatic ? spec.Flight
@@ -20,7 +21,9 @@ internal static class FlightLaws
         : HasClosedForm(spec, gravity, forces) ? MotionLaw.ClosedForm
         : MotionLaw.DormandPrince54;
 
-    /// <summary>Whether a body's forces have a closed form together: all linear in position and velocity, or one inverse-square pull alone.</summary>
+    /// <summary>
+    /// Whether a body's forces have a closed form together: all linear in position and velocity, or one inverse-square pull alone.
+    /// </summary>
     internal static bool HasClosedForm(in BodySpec spec, in Vector3D gravity, Force[] forces) =>
         AreLinear(spec, forces) || IsKepler(spec, gravity, forces);
 

@@ -4,8 +4,8 @@ namespace LagSim.Scenes;
 
 /// <summary>A force that a scene has besides uniform gravity; bodies name the forces that act on them.</summary>
 /// <remarks>
-/// Immutable, safe on any thread. Values are checked by <see cref="SceneBuilder.Build"/>. The formulas use only <c>+ - * /</c> and square roots, so every peer
-/// gets the same bits.
+/// Immutable, safe on any thread. Values are checked by <see cref="SceneBuilder.Build"/>. The formulas use only <c>+ - * /</c> and square
+/// roots, so every peer gets the same bits.
 /// </remarks>
 public sealed class Force
 {
@@ -14,27 +14,29 @@ public sealed class Force
     /// <summary>Which formula it has.</summary>
     public ForceKind Kind { get; }
 
-    /// <summary>What it is called in the scene; 1 to 64 characters.</summary>
+    /// <summary>The name of the force in the scene; 1 to 64 characters.</summary>
     public string Name { get; }
 
     /// <summary>
-    /// How strong: of linear drag c in kg/s; of quadratic drag k in kg/m, half of density times drag coefficient times cross-section; of a spring its stiffness
-    /// in N/m; of a magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre; of a Magnus force s in kg.
+    /// How strong: of linear drag c in kg/s; of quadratic drag k in kg/m, half of density times drag coefficient times cross-section; of a
+    /// spring its stiffness in N/m; of a magnetic field the body's charge in C; of a central pull s, in m/s² at 1 m from the centre; of a
+    /// Magnus force s in kg.
     /// </summary>
     public double Strength { get; private set; }
 
-    /// <summary>Of a spring the damper's coefficient in kg/s; else 0.</summary>
+    /// <summary>For a spring, the damper's coefficient in kg/s; 0 for any other force.</summary>
     public double Damping { get; private set; }
 
     /// <summary>
-    /// Of drag the medium's velocity in m/s; of a spring its anchor, of a central pull its centre, in m; of a magnetic field its flux density in T.
+    /// Of drag the medium's velocity in m/s; of a spring its anchor, of a central pull its centre, in m; of a magnetic field its flux
+    /// density in T.
     /// </summary>
     public Vector3D Vector { get; private set; }
 
-    /// <summary>Of a central pull the power of the distance: -2 for gravity and electrostatics; else 0.</summary>
+    /// <summary>For a central pull, the power of the distance: -2 for gravity and electrostatics; 0 for any other force.</summary>
     public int Power { get; private set; }
 
-    /// <summary>What a program supplies; null for all other kinds.</summary>
+    /// <summary>The acceleration that a program supplies; null for all other kinds.</summary>
     public IAcceleration? Acceleration { get; private set; }
 
     /// <summary>Stokes drag, F = -c (v - w): slow motion in what is viscous.</summary>
@@ -59,7 +61,7 @@ public sealed class Force
     public static Force Spring(string name, Vector3D anchor, double stiffness, double damping = 0) =>
         new(ForceKind.Spring, name) { Strength = stiffness, Damping = damping, Vector = anchor.WithoutNegativeZero() };
 
-    /// <summary>What a uniform magnetic field does to a charge, F = q v x B: it turns the velocity and leaves the speed.</summary>
+    /// <summary>The force of a uniform magnetic field on a charge, F = q v x B: it turns the velocity and keeps the speed.</summary>
     /// <param name="name">1 to 64 characters.</param>
     /// <param name="field">B in T, each component within 1e12.</param>
     /// <param name="charge">q in C, within 1e30.</param>
@@ -67,10 +69,12 @@ public sealed class Force
         new(ForceKind.Magnetic, name) { Strength = charge, Vector = field.WithoutNegativeZero() };
 
     /// <summary>
-    /// A pull towards a centre that gives every mass the same acceleration, s |r|^p, and none at the centre itself: gravity of a fixed body with p = -2.
+    /// A pull towards a centre that gives every mass the same acceleration, s |r|^p, and none at the centre itself: gravity of a fixed body
+    /// with p = -2.
     /// </summary>
     /// <param name="name">1 to 64 characters.</param>
-    /// <param name="centre">In m, each component within 1e12. With a power below 0 no body may start at it, and none gets through it.</param>
+    /// <param name="centre">In m, each component within 1e12. With a power below 0 no body may start at it, and none gets through
+    /// it.</param>
     /// <param name="strength">
     /// s, within 1e30: the acceleration at 1 m in m/s²; below zero it pushes. With p = -2 it is the gravitational parameter in m³/s².
     /// </param>
@@ -86,15 +90,15 @@ public sealed class Force
     public static Force Magnus(string name, double coefficient) => new(ForceKind.Magnus, name) { Strength = coefficient };
 
     /// <summary>
-    /// An acceleration in C#, a program's own. It travels by name and author's version, never as code: a client that does not have it among
-    /// <c>ClientOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are <see cref="MotionLaw.DormandPrince54"/>'s or
-    /// fixed.
+    /// An acceleration in C#, a program's own. It is sent by name and author's version, never as code: a client that does not have it among
+    /// <c>ClientOptions.Accelerations</c> does not get in. A body under it never comes to rest, and its steps are
+    /// <see cref="MotionLaw.DormandPrince54"/>'s or fixed.
     /// </summary>
     /// <exception cref="ArgumentNullException">There is none.</exception>
     public static Force Supplied(IAcceleration acceleration) =>
         new(ForceKind.Supplied, (acceleration ?? throw new ArgumentNullException(nameof(acceleration))).Name) { Acceleration = acceleration };
 
-    /// <summary>What it adds to the acceleration of a body, in m/s².</summary>
+    /// <summary>The acceleration that it gives a body, in m/s².</summary>
     internal Vector3D At(double mass, double seconds, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         switch (Kind)
@@ -119,8 +123,8 @@ public sealed class Force
     }
 
     /// <summary>
-    /// How fast, in 1/s, a deviation changes under the force at a state: the size of the largest eigenvalue that it adds to the equations of motion. Zero of
-    /// what a program supplies, of which it is not known.
+    /// How fast, in 1/s, a deviation changes under the force at a state: the size of the largest eigenvalue that it adds to the equations
+    /// of motion. Zero of what a program supplies, of which it is not known.
     /// </summary>
     internal double RateAt(double mass, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
@@ -145,8 +149,8 @@ public sealed class Force
     }
 
     /// <summary>
-    /// How fast, in 1/s, the force itself changes because the body moves past a centre where it has no bound: (1 - p) |v| / |r|. What is integrated by steps
-    /// that know no error could else step over such a centre, and leave it with any speed. Zero of all other forces.
+    /// How fast, in 1/s, the force itself changes because the body moves past a centre where it has no bound: (1 - p) |v| / |r|.
+    /// Integration by fixed steps could otherwise step over such a centre, and leave it with any speed. Zero for all other forces.
     /// </summary>
     internal double PassingRateAt(in Vector3D position, in Vector3D velocity) =>
         Kind == ForceKind.Central && Power < 0 && Strength != 0 ? (1 - Power) * velocity.Length / (position - Vector).Length : 0;

@@ -1,6 +1,6 @@
 namespace LagSim.Scenes;
 
-/// <summary>What a <see cref="Force"/> is. The numbers stand in wire and hashes: never renumber.</summary>
+/// <summary>The kind of a <see cref="Force"/>. The numbers are part of wire and hashes: never renumber.</summary>
 public enum ForceKind : byte
 {
     /// <summary>An <see cref="IAcceleration"/> that a program supplies.</summary>
@@ -21,6 +21,6 @@ public enum ForceKind : byte
     /// <summary>A pull to a centre, the same acceleration for every mass: a = -s |r|^p r / |r|, r = x - c.</summary>
     Central = 5,
 
-    /// <summary>What a medium does to a body that turns: F = s w x v, w the spin.</summary>
+    /// <summary>The force of a medium on a body that turns: F = s w x v, w the spin.</summary>
     Magnus = 6,
 }

@@ -5,7 +5,9 @@ using System.Text;
 namespace LagSim.Scenes;
 
 /// <summary>Which of a scene's forces act on a body besides gravity; none by default.</summary>
-/// <remarks>Immutable, safe on any thread. <see cref="SceneBuilder.AddForce(Force, out ForceSet)"/> makes the set of one; <c>|</c> joins two.</remarks>
+/// <remarks>
+/// Immutable, safe on any thread. <see cref="SceneBuilder.AddForce(Force, out ForceSet)"/> makes the set of one; <c>|</c> joins two.
+/// </remarks>
 public readonly struct ForceSet : IEquatable<ForceSet>
 {
     /// <summary>The most forces a scene has.</summary>

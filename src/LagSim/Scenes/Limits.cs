@@ -4,8 +4,8 @@ using LagSim.Time;
 
 namespace LagSim.Scenes;
 
-/// <summary>The ranges of every value that enters the world, each checked in one place with a sentence that names the value.</summary>
-/// <remarks>Whose value it is comes as anything that has a text, which is asked for only where there is something to say.</remarks>
+/// <summary>The ranges of every value that enters the world, each checked in one place with a message that names the value.</summary>
+/// <remarks>The owner of a value comes as any object that has a text, which is made only if there is an error.</remarks>
 internal static class Limits
 {
     internal const double MaxCoordinate = 1e12;
@@ -14,10 +14,12 @@ internal static class Limits
     internal const double MinMass = 1e-30;
     internal const double MaxMass = 1e30;
 
-    /// <summary>The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.</summary>
+    /// <summary>
+    /// The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.
+    /// </summary>
     internal const double MaxRate = 1e6;
 
-    /// <summary>The largest coefficient of friction, which leaves it to whatever touches.</summary>
+    /// <summary>The largest coefficient of friction, which leaves friction to the other side of a contact.</summary>
     internal const double MaxFriction = 100;
 
     private const double MaxStrength = 1e30;
@@ -71,7 +73,8 @@ internal static class Limits
     }
 
     /// <summary>
-    /// No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be followed.
+    /// No point of a body's surface turns faster than a body may be given to move, nor does a Magnus force turn its path faster than may be
+    /// followed.
     /// </summary>
     internal static void CheckSpin<T>(in Vector3D spin, in BodySpec spec, double smallestRadius, T whose, Force[] forces)
     {
@@ -120,8 +123,8 @@ internal static class Limits
     }
 
     /// <summary>
-    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that gravity keeps up; and what
-    /// is moved by fixed steps has no more of them together than those follow.
+    /// Forces whose rate does not depend on where the body is are not too stiff for its mass, nor is quadratic drag at the speed that
+    /// gravity keeps up; and what is moved by fixed steps has no more of them together than those follow.
     /// </summary>
     private static void CheckRate<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {
@@ -154,7 +157,9 @@ internal static class Limits
         }
     }
 
-    /// <summary>A body is not at the very centre of a pull that grows without bound towards it: there is no direction in which it would be drawn.</summary>
+    /// <summary>
+    /// A body is not at the very centre of a pull that grows without bound towards it: there is no direction in which it would be drawn.
+    /// </summary>
     internal static void CheckCentres<T>(in Vector3D position, in BodySpec spec, T whose, Force[] forces)
     {
         foreach (Force force in spec.Forces.Among(forces))
@@ -171,12 +176,15 @@ internal static class Limits
     /// <summary>The highest speed that a scene or a player may give a body: a tenth of the smallest radius in a tick.</summary>
     internal static double MaxGivenSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
 
-    /// <summary>The highest speed that a body may reach by impacts and forces: twice that, so that gravity does not end what a player just began.</summary>
+    /// <summary>
+    /// The highest speed that a body may reach by impacts and forces: twice that, so that gravity does not end what a player just began.
+    /// </summary>
     internal static double MaxSpeed(double smallestRadius) => 2 * MaxGivenSpeed(smallestRadius);
 
     /// <summary>
-    /// The highest speed that an impact leaves: a light body that meets a heavy one would otherwise leave the range in which its state means something, and
-    /// so whoever may spawn two bodies could end a world. Halfway between the two above, so that gravity does not end at once what an impact begins.
+    /// The highest speed that an impact leaves: a light body that meets a heavy one would otherwise leave the range in which its state
+    /// means something, so any player that may spawn two bodies could end a world. Halfway between the two above, so that gravity does not
+    /// end at once what an impact begins.
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
 
@@ -198,7 +206,7 @@ internal static class Limits
         }
     }
 
-    /// <summary>What is put into a box is small enough for it, flies as it must there, and lies in it.</summary>
+    /// <summary>Checks that everything put into a box is small enough for it, flies as it must there, and lies in it.</summary>
     internal static void CheckInBox<T>(in BodySpec spec, in Vector3D position, in PeriodicBox box, T whose)
     {
         if (spec.Flight != MotionLaw.Ballistic)
@@ -261,17 +269,17 @@ internal static class Limits
 
     internal static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
 
-    /// <summary>What was computed, not given: six digits say all that there is to say.</summary>
+    /// <summary>The text of a computed value: six digits are enough.</summary>
     internal static string Short(double value) =>
         Text(double.Parse(value.ToString("G6", CultureInfo.InvariantCulture), NumberStyles.Float, CultureInfo.InvariantCulture));
 
     internal static string Short(in Vector3D v) => $"({Short(v.X)}, {Short(v.Y)}, {Short(v.Z)})";
 
-    /// <summary>So many of a thing: "1 plane", "2 planes".</summary>
+    /// <summary>A number of things: "1 plane", "2 planes".</summary>
     internal static string Count(int count, string one, string? many = null) =>
         $"{count.ToString(CultureInfo.InvariantCulture)} {(count == 1 ? one : many ?? one + "s")}";
 
-    /// <summary>What is above a limit, so that nobody reads the limit itself.</summary>
+    /// <summary>The text of a value above a limit, so that it is not read as the limit itself.</summary>
     private static string Above(double value, double limit) => Short(value) == Short(limit) ? $"just above {Short(limit)}" : Short(value);
 
     private static string Forces(int count) => count == 0 ? "none" : count == 1 ? "1, number 0" : $"{count}, numbers 0 to {count - 1}";

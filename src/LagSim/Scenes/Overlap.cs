@@ -1,6 +1,8 @@
 namespace LagSim.Scenes;
 
-/// <summary>Two bodies that overlap, by their places in the scene, the one that was added first as the first; and how deep in metres.</summary>
+/// <summary>
+/// Two bodies that overlap, by their places in the scene, the one that was added first as the first; and how deep in metres.
+/// </summary>
 internal readonly struct Overlap
 {
     internal Overlap(int first, int second, double depth)

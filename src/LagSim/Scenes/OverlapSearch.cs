@@ -3,11 +3,13 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>Which two of many balls overlap: space is halved until few are left together, and who lies on both sides of a cut is looked at on both.</summary>
+/// <summary>
+/// Finds which two of many balls overlap. Space is halved until few are left together, and balls on both sides of a cut are tested on both.
+/// </summary>
 /// <remarks>
-/// Cost: n log n for balls that fill space; where cuts part nothing, as among balls of all sizes in one place, what sort and sweep costs. The two sides of a
-/// cut have nothing to do with each other, so another thread may have one; of what both find the lower side's counts, which is what one thread would have
-/// found.
+/// Cost: n log n for balls that fill space. Where cuts separate nothing, as among balls of all sizes in one place, that of sort and sweep.
+/// The two sides of a cut are independent, so another thread may have one. If both find an overlap the lower side's counts, which is what
+/// one thread would have found.
 /// </remarks>
 internal sealed class OverlapSearch
 {
@@ -52,7 +54,9 @@ internal sealed class OverlapSearch
         return Find(all, 0, ballCount, threads);
     }
 
-    /// <summary>In a periodic box who reaches as far as another may over a side is there a second time, a side further; so along each axis.</summary>
+    /// <summary>
+    /// In a periodic box a ball that reaches as far over a side as another may is listed a second time, a side further; so along each axis.
+    /// </summary>
     private void AddImage(in Vector3D place, double radius, int body, int image, double widest)
     {
         Vector3D at = place;
@@ -135,7 +139,7 @@ internal sealed class OverlapSearch
         }
     }
 
-    /// <summary>Sort and sweep: only those whose extents along the axis overlap are compared.</summary>
+    /// <summary>Sort and sweep: only balls with overlapping extents along the axis are compared.</summary>
     private Overlap? Sweep(List<int> items, int from, int to, int axis)
     {
         double[] lows = new double[to - from];

@@ -2,12 +2,12 @@ using System.Text;
 
 namespace LagSim.Scenes;
 
-/// <summary>What a scene, or a part of one, may be named: checked before a name gets into a table, a file or a terminal.</summary>
+/// <summary>The names that a scene, or a part of one, may have: checked before a name gets into a table, a file or a terminal.</summary>
 internal static class PartName
 {
     internal const int MaxLength = 64;
 
-    /// <summary>What is wrong with a name, or null.</summary>
+    /// <summary>The error in a name, or null.</summary>
     internal static string? Problem(string? name)
     {
         if (name is null || name.Length is 0 or > MaxLength)

@@ -4,7 +4,7 @@ using System.Globalization;
 
 namespace LagSim.Scenes;
 
-/// <summary>Some of a session's peers, by number; the host is 0. What a scene grants rights to.</summary>
+/// <summary>A set of a session's peers, by number; the host is 0. A scene grants rights to such sets.</summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is <see cref="Everyone"/>.</remarks>
 public readonly struct PeerSet : IEquatable<PeerSet>
 {
@@ -42,7 +42,7 @@ public readonly struct PeerSet : IEquatable<PeerSet>
         return new PeerSet((ushort)others);
     }
 
-    /// <summary>The set whose mask has bit n for peer n, as <see cref="Mask"/> gives it.</summary>
+    /// <summary>The set with bit n of the mask for peer n, as <see cref="Mask"/> gives it.</summary>
     public static PeerSet FromMask(ushort mask) => new((ushort)(All & ~mask));
 
     /// <summary>Bit n: peer n is among them.</summary>

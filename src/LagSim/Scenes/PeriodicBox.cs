@@ -2,14 +2,14 @@ using System;
 
 namespace LagSim.Scenes;
 
-/// <summary>A box without walls: what leaves it on one side comes in on the opposite one. <c>default</c> is none.</summary>
+/// <summary>A box without walls: a body that leaves it on one side comes in on the opposite one. <c>default</c> is no box.</summary>
 /// <remarks>Immutable. For statistics and measurements of a world that has the same density everywhere and no edge.</remarks>
 public readonly struct PeriodicBox : IEquatable<PeriodicBox>
 {
     /// <summary>How many of the largest diameters each side has at least, so that no body meets two images of another at once.</summary>
     public const double LeastSides = 5;
 
-    /// <summary>What part of the least side a body flies before its path is opened anew.</summary>
+    /// <summary>The part of the least side that a body flies before its path is opened again.</summary>
     internal const double FlightPart = 0.125;
 
     /// <summary>The box from the origin to <paramref name="size"/>, in metres.</summary>
@@ -52,7 +52,7 @@ public readonly struct PeriodicBox : IEquatable<PeriodicBox>
 
     private static double Wrap(double at, double side)
     {
-        // Paths are opened anew long before they are a side away, so that a step or two do.
+        // Paths are opened again long before they are a side away, so that a step or two do.
         while (at < 0)
         {
             at += side;

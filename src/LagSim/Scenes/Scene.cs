@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>What exists at the start: bodies, static geometry, gravity and other forces. Made by <see cref="SceneBuilder"/>.</summary>
+/// <summary>The start of a world: bodies, static geometry, gravity and other forces. Made by <see cref="SceneBuilder"/>.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 /// <example>
 /// A ball above a floor, with friction:
@@ -44,18 +44,20 @@ public sealed class Scene
         Hash = ComputeHash();
     }
 
-    /// <summary>What the scene is called.</summary>
+    /// <summary>The name of the scene.</summary>
     public string Name { get; }
 
     /// <summary>The uniform acceleration of free bodies in m/s^2; usually (0, -9.81, 0).</summary>
     public Vector3D Gravity { get; }
 
-    /// <summary>The length in metres below which a bounce on a plane is not followed hop by hop; 1 nm unless the scene says otherwise.</summary>
+    /// <summary>
+    /// The restitution threshold: the length in metres below which bounces on a plane are not followed one by one; default 1 nm.
+    /// </summary>
     public double Resolution { get; }
 
     /// <summary>
-    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one knob between speed and error in heaps. A millimetre,
-    /// or a hundredth of <see cref="SmallestRadius"/> if that is less, unless the scene says otherwise.
+    /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one trade-off between speed
+    /// and error in heaps. Default a millimetre, or a hundredth of <see cref="SmallestRadius"/> if that is less.
     /// </summary>
     public double ContactTolerance { get; }
 
@@ -71,13 +73,15 @@ public sealed class Scene
     /// <summary>The forces besides gravity, in the order in which they were added; see <see cref="ForceSet"/>.</summary>
     public IReadOnlyList<Force> Forces => ForceArray;
 
-    /// <summary>The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.</summary>
+    /// <summary>
+    /// The least radius of a body in metres, of those at the start and those that may be spawned; it bounds the permitted speed.
+    /// </summary>
     public double SmallestRadius { get; }
 
     /// <summary>Which peers may spawn bodies, in a session.</summary>
     public PeerSet Spawners { get; }
 
-    /// <summary>The box without walls that everything is in; none unless the scene says so.</summary>
+    /// <summary>The periodic box that everything is in; none by default.</summary>
     public PeriodicBox Box { get; }
 
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
@@ -212,7 +216,7 @@ public sealed class Scene
         return hash.Value;
     }
 
-    // Only where the scene says something of it, so that any other has the hash it always had.
+    // Only where the scene sets it, so that any other scene has the hash it always had.
     private void AddFriction(ref StableHash hash)
     {
         for (int i = 0; i < PlaneArray.Length; i++)
@@ -244,7 +248,7 @@ public sealed class Scene
         }
     }
 
-    // Only where somebody is kept from something, so that a scene in which all may do all has the hash it always had.
+    // Only where some peer lacks a right, so that a scene in which all peers may do everything has the hash it always had.
     private void AddRights(ref StableHash hash)
     {
         if (Spawners != PeerSet.Everyone)

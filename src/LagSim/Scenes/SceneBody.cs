@@ -17,7 +17,7 @@ public readonly struct SceneBody
     /// <summary>The same place, name and rights with another law of flight.</summary>
     internal SceneBody With(MotionLaw flight) => Spec.Flight == flight ? this : new(Name, Spec.With(flight), Position, Velocity, Players, Spin);
 
-    /// <summary>What it is called in the scene.</summary>
+    /// <summary>The name of the body in the scene.</summary>
     public string Name { get; }
 
     /// <summary>Size, mass, material and flight.</summary>

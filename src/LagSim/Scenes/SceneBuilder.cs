@@ -41,24 +41,26 @@ public sealed class SceneBuilder
     private double? smallestSpawn;
     private int? threads;
 
-    /// <summary>Starts a scene of that name with default gravity and nothing in it. The name is for people, no part of <see cref="Scene.Hash"/>.</summary>
+    /// <summary>Starts a scene of that name with default gravity and nothing in it. The name is for people, no part of
+    /// <see cref="Scene.Hash"/>.</summary>
     /// <param name="name">1 to 64 characters, no control characters and no half of a surrogate pair.</param>
     /// <exception cref="ArgumentNullException">There is no name.</exception>
     public SceneBuilder(string name) => this.name = name ?? throw new ArgumentNullException(nameof(name));
 
-    /// <summary>
-    /// Sets the uniform acceleration of free bodies, in m/s^2, each component within 1e6; default <see cref="DefaultGravity"/>, <see cref="Vector3D.Zero"/> for
-    /// none. y points up.
-    /// </summary>
+    /// <summary>Sets the uniform acceleration of free bodies, in m/s^2, each component within 1e6; default <see cref="DefaultGravity"/>,
+    /// <see cref="Vector3D.Zero"/> for none. y points up.</summary>
     public SceneBuilder WithGravity(Vector3D acceleration)
     {
         gravity = acceleration;
         return this;
     }
 
-    /// <summary>Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed hop by hop; default 1e-9.</summary>
+    /// <summary>
+    /// Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed one by one; default 1e-9.
+    /// </summary>
     /// <remarks>
-    /// On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts is in contact.
+    /// On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts
+    /// is in contact.
     /// </remarks>
     public SceneBuilder WithResolution(double metres)
     {
@@ -66,14 +68,12 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>
-    /// Sets how far, in metres, bodies in persistent contact may be from where an exact calculation has them, 1e-9 to 0.1. Default 1e-3, or a hundredth of the smallest
-    /// radius if that is less: nobody sees it, and a heap of a game is far faster than real time.
-    /// </summary>
-    /// <remarks>
-    /// It is the one knob between speed and error where bodies crowd, rest and roll on each other: how long a contact step is, when a rebound is the last, how well
-    /// the steps are solved and when a heap sleeps follow from it. What flies, and what rests, slides or rolls alone on a plane, is exact whatever it is.
-    /// </remarks>
+    /// <summary>Sets how far, in metres, bodies in persistent contact may be from where an exact calculation has them, 1e-9 to 0.1. Default
+    /// 1e-3, or a hundredth of the smallest radius if that is less: too small to see, and a game's heap is far faster than real
+    /// time.</summary>
+    /// <remarks>It is the one trade-off between speed and error where bodies crowd, rest and roll on each other. It decides how long a
+    /// contact step is, when a rebound is the last, how well the steps are solved and when a heap sleeps. Bodies in flight, and those that
+    /// rest, slide or roll alone on a plane, are exact whatever the tolerance.</remarks>
     public SceneBuilder WithContactTolerance(double metres)
     {
         contactTolerance = metres;
@@ -84,21 +84,19 @@ public sealed class SceneBuilder
     internal static double DefaultContactTolerance(double smallestRadius) =>
         Math.Max(MinContactTolerance, Math.Min(MaxDefaultContactTolerance, smallestRadius / 100));
 
-    /// <summary>
-    /// Promises that no body smaller than this, in metres, 1e-9 to 1e9, is in the scene or is spawned; what is smaller is refused, by <see cref="Build"/> or when it
-    /// is to be spawned. Default: the smallest body of the scene. It bounds the speed that may be given: a tenth of it in a tick, 1.1e11 m/s times that radius in metres.
-    /// </summary>
+    /// <summary>Promises that no body smaller than this, in metres, 1e-9 to 1e9, is in the scene or is spawned; what is smaller is refused,
+    /// by <see cref="Build"/> or when it is to be spawned. Default: the smallest body of the scene. It bounds the speed that may be given:
+    /// a tenth of it in a tick, 1.1e11 m/s times that radius in metres.</summary>
     public SceneBuilder WithSmallestRadius(double metres)
     {
         smallestSpawn = metres;
         return this;
     }
 
-    /// <summary>
-    /// On how many threads <see cref="Build"/> checks a large scene at most, 1 to <see cref="MaxThreads"/>; default as many as there are processors.
-    /// </summary>
-    /// <remarks>It has no influence on the scene, to the bit, nor on which error is told. Less than 16,384 bodies are checked on the caller's thread alone, and
-    /// so is everything where there is one processor.</remarks>
+    /// <summary>Sets the largest number of threads on which <see cref="Build"/> checks a large scene, 1 to <see cref="MaxThreads"/>;
+    /// default as many as there are processors.</summary>
+    /// <remarks>It has no influence on the scene, to the bit, nor on which error is reported. Fewer than 16,384 bodies are checked on the
+    /// caller's thread alone, and so is everything where there is one processor.</remarks>
     public SceneBuilder WithThreads(int most)
     {
         threads = most;
@@ -109,7 +107,8 @@ public sealed class SceneBuilder
     /// <param name="planeName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
     /// <param name="point">Any point of the plane, in metres.</param>
-    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the
+    /// body.</param>
     /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
     /// <exception cref="SceneException">The point is not finite, or the normal has no length.</exception>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1, double friction = Limits.MaxFriction)
@@ -122,11 +121,13 @@ public sealed class SceneBuilder
         return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction);
     }
 
-    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the bodies.</summary>
+    /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the
+    /// bodies.</summary>
     /// <param name="planeName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="normal">Points to the side where bodies are; of any length between 1e-150 and 1e150.</param>
     /// <param name="offset">The signed distance of the plane from the origin along the normal, in metres, within 1e12.</param>
-    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the
+    /// body.</param>
     /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
     /// <exception cref="SceneException">The normal is not finite, or has no length.</exception>
     public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction)
@@ -139,7 +140,8 @@ public sealed class SceneBuilder
     /// <param name="sphereName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="centre">In metres, each component within 1e12.</param>
     /// <param name="radius">In metres, 1e-9 to 1e9.</param>
-    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the body.</param>
+    /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the
+    /// body.</param>
     /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
     public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1, double friction = Limits.MaxFriction)
     {
@@ -150,12 +152,13 @@ public sealed class SceneBuilder
     /// <summary>Adds a body; the n-th added, counted from 0, has the identity (0, 0, n).</summary>
     /// <param name="bodyName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="spec">Size, mass, material and flight.</param>
-    /// <param name="position">Where its centre starts, in metres, each component within 1e12. Bodies start apart or touching, not inside of anything.</param>
-    /// <param name="velocity">In m/s; default none. At most a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in metres.</param>
+    /// <param name="position">Where its centre starts, in metres, each component within 1e12. Bodies start apart or touching, not inside of
+    /// anything.</param>
+    /// <param name="velocity">In m/s; default none. At most a tenth of the smallest radius in a tick, 1.1e11 m/s times that radius in
+    /// metres.</param>
     /// <param name="players">Which peers may do something to it, in a session; default everyone.</param>
-    /// <param name="spin">
-    /// How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a Magnus force.
-    /// </param>
+    /// <param name="spin">How it turns, in rad/s about the vector; default not at all. It matters where something has friction, or under a
+    /// Magnus force.</param>
     public SceneBuilder AddBody(
         string bodyName, BodySpec spec, Vector3D position, Vector3D velocity = default, PeerSet players = default, Vector3D spin = default)
     {
@@ -163,21 +166,18 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Which peers may spawn bodies, in a session; default everyone. What was spawned everyone may touch.</summary>
+    /// <summary>Sets which peers may spawn bodies in a session; default everyone. Everyone may touch spawned bodies.</summary>
     public SceneBuilder WithSpawners(PeerSet peers)
     {
         spawners = peers;
         return this;
     }
 
-    /// <summary>
-    /// Puts everything in a box from the origin to <paramref name="size"/> whose opposite sides meet: what leaves it on one side comes in on the other.
-    /// </summary>
-    /// <remarks>
-    /// It goes with free flight alone: no gravity, planes, static spheres or other forces, and bodies that fly by Ballistic. Each side is at least
-    /// five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened anew after an eighth of the least side, so
-    /// that no body meets two images of another at once.
-    /// </remarks>
+    /// <summary>Puts everything in a periodic box from the origin to <paramref name="size"/>: a body that leaves it on one side comes in on
+    /// the opposite side.</summary>
+    /// <remarks>It allows free flight alone: no gravity, planes, static spheres or other forces, and only bodies that fly by Ballistic.
+    /// Each side is at least five times the largest diameter; bodies start, and are spawned or put, inside. Their paths are opened again
+    /// after an eighth of the least side, so that no body meets two images of another at once.</remarks>
     public SceneBuilder WithPeriodicBox(Vector3D size)
     {
         box = new PeriodicBox(size);
@@ -185,7 +185,7 @@ public sealed class SceneBuilder
     }
 
     /// <summary>Adds a force; it acts on the bodies that name it.</summary>
-    /// <param name="force">The force; its name is no other part's.</param>
+    /// <param name="force">The force; its name must not be another part's.</param>
     /// <param name="itself">The set of this force alone, for a <see cref="BodySpec"/>.</param>
     public SceneBuilder AddForce(Force force, out ForceSet itself)
     {
@@ -193,10 +193,8 @@ public sealed class SceneBuilder
         return AddForce(force);
     }
 
-    /// <summary>
-    /// Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies whose <see cref="BodySpec.Forces"/> have it, at most
-    /// <see cref="ForceSet.Most"/> there are.
-    /// </summary>
+    /// <summary>Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies that have it in
+    /// <see cref="BodySpec.Forces"/>, at most <see cref="ForceSet.Most"/> there are.</summary>
     /// <exception cref="ArgumentNullException">There is no force.</exception>
     public SceneBuilder AddForce(Force force)
     {
@@ -204,9 +202,8 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>
-    /// Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many (<see cref="WithThreads"/>).
-    /// </summary>
+    /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many
+    /// (<see cref="WithThreads"/>).</summary>
     /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
     public Scene Build()
     {
@@ -267,7 +264,8 @@ public sealed class SceneBuilder
         return smallestSpawn ?? (smallest == double.MaxValue ? Limits.MaxRadius : smallest);
     }
 
-    /// <summary>The normal at unit length. One that has it but for rounding stays as it is, so that a plane read back has the same bits.</summary>
+    /// <summary>The normal at unit length. One that has it, apart from rounding, stays as it is, so that a plane read back has the same
+    /// bits.</summary>
     private static Vector3D Unit(string planeName, in Vector3D normal)
     {
         const double rounding = 2e-15;
@@ -391,7 +389,7 @@ public sealed class SceneBuilder
         }
     }
 
-    /// <summary>Whose value is wrong, in words: made only where there is something to say.</summary>
+    /// <summary>The owner of a wrong value, in words: made only if there is an error.</summary>
     internal readonly struct BodyText
     {
         private readonly string name;

@@ -4,7 +4,9 @@ using LagSim.Time;
 namespace LagSim.Scenes;
 
 /// <summary>A 64-bit hash of exact bits that is the same in every process, runtime and processor.</summary>
-/// <remarks>Not cryptographic: it finds differences, it does not resist an author of differences. Each word passes the 64-bit finaliser of SplitMix.</remarks>
+/// <remarks>
+/// Not cryptographic: it finds differences, it does not resist an author of differences. Each word passes the 64-bit finaliser of SplitMix.
+/// </remarks>
 internal struct StableHash
 {
     private ulong state;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>Refuses a scene whose bodies start inside one another, a plane or a static sphere.</summary>
+/// <summary>Refuses a scene in which bodies start inside one another, a plane or a static sphere.</summary>
 internal static class StartOverlap
 {
     internal static void Check(SceneBody[] bodies, List<StaticPlane> planes, List<StaticSphere> spheres, PeriodicBox box, double tolerance, int threads)

@@ -13,7 +13,7 @@ public readonly struct StaticPlane
         Friction = friction;
     }
 
-    /// <summary>What it is called in a scene.</summary>
+    /// <summary>The name of the plane in a scene.</summary>
     public string Name { get; }
 
     /// <summary>The unit normal, towards the side where bodies are.</summary>
@@ -22,10 +22,10 @@ public readonly struct StaticPlane
     /// <summary>The signed distance of the plane from the origin along the normal, in metres.</summary>
     public double Offset { get; }
 
-    /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two parties' counts.</summary>
+    /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two sides' values counts.</summary>
     public double Restitution { get; }
 
-    /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two parties' counts.</summary>
+    /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two sides' values counts.</summary>
     public double Friction { get; }
 
     /// <summary>The distance in metres between the plane and a sphere; negative where they overlap.</summary>

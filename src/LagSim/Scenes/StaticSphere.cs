@@ -13,7 +13,7 @@ public readonly struct StaticSphere
         Friction = friction;
     }
 
-    /// <summary>What it is called in a scene.</summary>
+    /// <summary>The name of the sphere in a scene.</summary>
     public string Name { get; }
 
     /// <summary>The centre, in metres.</summary>
@@ -22,9 +22,9 @@ public readonly struct StaticSphere
     /// <summary>The radius in metres.</summary>
     public double Radius { get; }
 
-    /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two parties' counts.</summary>
+    /// <summary>The coefficient of restitution, 0 to 1; in a contact the lesser of the two sides' values counts.</summary>
     public double Restitution { get; }
 
-    /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two parties' counts.</summary>
+    /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two sides' values counts.</summary>
     public double Friction { get; }
 }

@@ -10,7 +10,7 @@ internal readonly struct StaticSurfaces(StaticPlane[] planes, StaticSphere[] sph
     /// <summary>How many there are.</summary>
     internal int Count => planes.Length + spheres.Length;
 
-    /// <summary>Whether a surface is a plane; else it is a sphere.</summary>
+    /// <summary>Whether a surface is a plane; otherwise it is a sphere.</summary>
     internal bool IsPlane(int surface) => surface < planes.Length;
 
     internal ref readonly StaticPlane Plane(int surface) => ref planes[surface];

@@ -4,16 +4,16 @@ using System.Threading;
 
 namespace LagSim.Scenes;
 
-/// <summary>Does two things that have nothing to do with each other on two threads, and comes back when both are done.</summary>
+/// <summary>Does two independent things on two threads, and returns when both are done.</summary>
 /// <remarks>
-/// What they do must not depend on which thread they are on, and each writes to places of its own. Errors come as from one after the other: that of the first,
-/// or else that of the second. Where there are no threads, one thing is done after the other.
+/// They must not depend on which thread they are on, and each writes to places of its own. Errors come as if one ran after the other: that
+/// of the first, or else that of the second. Without threads, one thing is done after the other.
 /// </remarks>
 internal static class TwoAtOnce
 {
     /// <summary>
-    /// Fewer bodies than so many are not worth a thread: they are checked in a few milliseconds, and a thread takes some tenth of one to begin, or more where
-    /// others are at work.
+    /// The number of bodies below which a thread is not worth it: they are checked in a few milliseconds, and a thread takes some tenth of
+    /// one to start, or more where others are at work.
     /// </summary>
     internal const int LeastBodies = 16_384;
 
@@ -52,8 +52,8 @@ internal static class TwoAtOnce
     }
 
     /// <summary>
-    /// Goes through a range in as many parts as threads may be used, or fewer if they would be small; in order within each. The error is that of the foremost
-    /// part.
+    /// Goes through a range in as many parts as threads may be used, or fewer if they would be small; in order within each. The error is
+    /// that of the foremost part.
     /// </summary>
     internal static void InParts(int from, int to, int threads, Action<int, int> part)
     {

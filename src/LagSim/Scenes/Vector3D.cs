@@ -46,7 +46,9 @@ public readonly struct Vector3D : IEquatable<Vector3D>
     /// <summary>The length.</summary>
     public double Length => Math.Sqrt(Dot(this, this));
 
-    /// <summary>The unit vector along this one. Of the zero vector it is up: any direction would do, and it is the same everywhere.</summary>
+    /// <summary>
+    /// The unit vector along this one. Of the zero vector it is up: any direction would do, and it is the same everywhere.
+    /// </summary>
     internal Vector3D Direction
     {
         get

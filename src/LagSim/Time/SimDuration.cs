@@ -54,7 +54,8 @@ public readonly struct SimDuration : IEquatable<SimDuration>, IComparable<SimDur
     public override string ToString() => TickText.Format(Ticks);
 
     /// <summary>
-    /// For people: the fewest decimals that stand for no other length, for example <c>0.01s</c>; at most 13. For machines see <see cref="ToString"/>.
+    /// For people: the fewest decimals that stand for no other length, for example <c>0.01s</c>; at most 13. For machines see
+    /// <see cref="ToString"/>.
     /// </summary>
     public string ToShortString() => TickText.Shortest(Ticks);
 

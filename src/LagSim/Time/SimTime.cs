@@ -32,10 +32,14 @@ public readonly struct SimTime : IEquatable<SimTime>, IComparable<SimTime>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="seconds"/> is not finite, or beyond about 97 days.</exception>
     public static SimTime FromSeconds(double seconds) => new(TickConversion.FromSeconds(seconds, nameof(seconds)));
 
-    /// <summary>Seconds from the origin: exact up to 2^13 s, beyond that the nearest <see cref="double"/>. For display, not for motion.</summary>
+    /// <summary>
+    /// Seconds from the origin: exact up to 2^13 s, beyond that the nearest <see cref="double"/>. For display, not for motion.
+    /// </summary>
     public double ToSeconds() => Ticks * TickConversion.SecondsPerTick;
 
-    /// <summary>The seconds from another time to this, rounded once; also where the span exceeds the range of a <see cref="SimDuration"/>.</summary>
+    /// <summary>
+    /// The seconds from another time to this, rounded once; also where the span exceeds the range of a <see cref="SimDuration"/>.
+    /// </summary>
     internal double SecondsSince(SimTime other)
     {
         long span = unchecked(Ticks - other.Ticks);
@@ -51,7 +55,8 @@ public readonly struct SimTime : IEquatable<SimTime>, IComparable<SimTime>
     public override string ToString() => TickText.Format(Ticks);
 
     /// <summary>
-    /// For people: the fewest decimals that stand for no other instant, for example <c>0.01s</c>; at most 13. For machines see <see cref="ToString"/>.
+    /// For people: the fewest decimals that stand for no other instant, for example <c>0.01s</c>; at most 13. For machines see
+    /// <see cref="ToString"/>.
     /// </summary>
     public string ToShortString() => TickText.Shortest(Ticks);
 

@@ -5,7 +5,9 @@ using System.Text;
 
 namespace LagSim.Time;
 
-/// <summary>The exact decimal text of a number of ticks. A multiple of 2^-40 always has a finite decimal form of at most 40 decimals.</summary>
+/// <summary>
+/// The exact decimal text of a number of ticks. A multiple of 2^-40 always has a finite decimal form of at most 40 decimals.
+/// </summary>
 internal static class TickText
 {
     private const int MaxDecimals = 40;
@@ -37,7 +39,9 @@ internal static class TickText
         return text.Append('s').ToString();
     }
 
-    /// <summary>Rounded to the fewest decimals that are nearer to these ticks than to any others: 13 always are, a tick is 9.1e-13 s.</summary>
+    /// <summary>
+    /// Rounded to the fewest decimals that are nearer to these ticks than to any others: 13 always are, a tick is 9.1e-13 s.
+    /// </summary>
     internal static string Shortest(long ticks)
     {
         BigInteger magnitude = BigInteger.Abs(ticks), digits = magnitude >> 40, scale = 1;

@@ -6,8 +6,10 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>One body of a <see cref="WorldSnapshot"/>: what it is, and the piece of path it is on.</summary>
-/// <remarks>Immutable. Any values can be put in; <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> says which make a world.</remarks>
+/// <summary>One body of a <see cref="WorldSnapshot"/>: its spec, and the segment it is on.</summary>
+/// <remarks>
+/// Immutable. It may hold any values; <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> checks them.
+/// </remarks>
 public readonly struct BodySnapshot
 {
     /// <summary>The most planes that carry a body together.</summary>
@@ -92,13 +94,13 @@ public readonly struct BodySnapshot
         ContactArray = contacts;
     }
 
-    /// <summary>Who it is.</summary>
+    /// <summary>The identity of the body.</summary>
     public BodyId Id { get; }
 
-    /// <summary>What it is.</summary>
+    /// <summary>The spec of the body.</summary>
     public BodySpec Spec { get; }
 
-    /// <summary>The event that opened this piece of path.</summary>
+    /// <summary>The event that opened this segment.</summary>
     public EventKey Opened { get; }
 
     /// <summary>How it moves on it.</summary>
@@ -122,36 +124,38 @@ public readonly struct BodySnapshot
     /// <summary>How many planes carry it.</summary>
     public int SupportCount => Segment.Supports.Count;
 
-    /// <summary>Of a body of an island the instant of which its velocity is, the middle of a contact step; else the default.</summary>
+    /// <summary>
+    /// For a member of an island, the instant that its velocity belongs to, the middle of a contact step; the default for any other.
+    /// </summary>
     public SimTime Centre { get; }
 
-    /// <summary>Of a body of an island since when it has not moved; else the default.</summary>
+    /// <summary>For a member of an island, the instant since which it has not moved; the default for any other.</summary>
     public SimTime StillSince { get; }
 
-    /// <summary>Of a body of an island the contacts that it carries from step to step; else none.</summary>
+    /// <summary>For a member of an island, the contacts that it carries from step to step; none for any other.</summary>
     public ReadOnlySpan<PersistentContact> Contacts => ContactArray;
 
     internal PersistentContact[] ContactArray { get; }
 
-    /// <summary>Of an integrated step or a held path the coefficient of t^3, in m/s^3; else zero.</summary>
+    /// <summary>For an integrated step or a held path, the coefficient of t^3, in m/s^3; zero for any other.</summary>
     public Vector3D Cubic => Dense.Cubic;
 
-    /// <summary>Of an integrated step the coefficient of t^4, in m/s^4; else zero.</summary>
+    /// <summary>For an integrated step, the coefficient of t^4, in m/s^4; zero for any other.</summary>
     public Vector3D Quartic => Dense.Quartic;
 
-    /// <summary>Of an integrated step the coefficient of t^5, in m/s^5; else zero.</summary>
+    /// <summary>For an integrated step, the coefficient of t^5, in m/s^5; zero for any other.</summary>
     public Vector3D Quintic => Dense.Quintic;
 
-    /// <summary>Of a step under error control how long the next is to be tried; else zero.</summary>
+    /// <summary>For a step under error control, the proposed length of the next; zero for any other.</summary>
     public SimDuration NextStep => Dense.NextStep;
 
-    /// <summary>Of a body in a hand who holds it; else the default.</summary>
+    /// <summary>The hold on a held body; the default for any other.</summary>
     public Hold Hold { get; }
 
     /// <summary>How the body turns at the epoch, in rad/s.</summary>
     public Vector3D Spin => SpinPath.AtEpoch;
 
-    /// <summary>How its spin changes on this piece of path, in rad/s².</summary>
+    /// <summary>The change of its spin on this segment, in rad/s².</summary>
     public Vector3D SpinRate => SpinPath.Rate;
 
     internal Spin SpinPath { get; }

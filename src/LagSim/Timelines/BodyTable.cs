@@ -4,12 +4,13 @@ using LagSim.Scenes;
 
 namespace LagSim.Timelines;
 
-/// <summary>The bodies that a world knows, absent ones included: which slot each has, what it is, and their canonical order.</summary>
-/// <remarks>A body keeps its slot until it is forgotten; then another may get it. No slot enters an order or a hash. Not
-/// thread-safe.</remarks>
+/// <summary>The bodies that a world knows, including absent ones: the slot and spec of each, and their canonical order.</summary>
+/// <remarks>
+/// A body keeps its slot until it is forgotten; then another may get it. No slot enters an order or a hash. Not thread-safe.
+/// </remarks>
 internal sealed class BodyTable
 {
-    /// <summary>There is room for so many bodies at least: whether a quarter is free tells whether there is to be more.</summary>
+    /// <summary>The least number of bodies that there is room for. The room grows unless a quarter is free.</summary>
     private const int FewestSlots = 4;
 
     private readonly List<int> order; // slots by ascending identity
@@ -29,18 +30,18 @@ internal sealed class BodyTable
     /// <summary>All slots that were ever given are below this.</summary>
     internal int SlotCount { get; private set; }
 
-    /// <summary>For how many bodies there is room without more memory.</summary>
+    /// <summary>The number of bodies that there is room for without more memory.</summary>
     internal int Room => bodies.Length;
 
     /// <summary>Whether another body needs more memory, or one that is forgotten first.</summary>
     internal bool IsFull => free.Count == 0 && SlotCount == bodies.Length;
 
-    /// <summary>A number that changes whenever a body is added or forgotten: who keeps a list of them compares it.</summary>
+    /// <summary>A number that changes whenever a body is added or forgotten: keepers of a list of bodies compare it.</summary>
     internal long Version { get; private set; }
 
     internal BodyId Id(int slot) => bodies[slot].Id;
 
-    /// <summary>What a body is; the default of one of which nothing but its name was heard.</summary>
+    /// <summary>The spec of a body; the default if only its name is known.</summary>
     internal ref readonly BodySpec Spec(int slot) => ref bodies[slot].Spec;
 
     internal void SetSpec(int slot, in BodySpec spec) => bodies[slot].Spec = spec;
@@ -58,7 +59,7 @@ internal sealed class BodyTable
         return at < 0 ? -1 : order[at];
     }
 
-    /// <summary>Adds a body that is not known, and tells its slot.</summary>
+    /// <summary>Adds a body that is not known, and returns its slot.</summary>
     internal int Add(BodyId id, in BodySpec spec)
     {
         if (IsFull)
@@ -74,9 +75,8 @@ internal sealed class BodyTable
     }
 
     /// <summary>
-    /// Forgets all bodies of which that is so, and makes more room where few slots come free: else every other body that is added would
-    /// have
-    /// all of them looked through.
+    /// Forgets all bodies that are gone, and makes more room if few slots become free. Otherwise every other added body would cause a
+    /// search through all of them.
     /// </summary>
     /// <param name="isGone">Asked for each slot, in canonical order, and only once.</param>
     internal void Forget(Predicate<int> isGone)

@@ -4,7 +4,10 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>What the segments of members of islands carry from step to step, besides their paths: persistent contacts, and the instants of their step.</summary>
+/// <summary>
+/// The data that segments of island members carry from step to step, besides their paths: persistent contacts, and the instants of their
+/// step.
+/// </summary>
 /// <remarks>By segment; allocates only once there is an island, and when more is carried than ever before. Not thread-safe.</remarks>
 internal sealed class CarriedContacts
 {
@@ -75,7 +78,7 @@ internal sealed class CarriedContacts
     /// <param name="segment">The segment.</param>
     /// <param name="centre">See <see cref="CentreOf"/>.</param>
     /// <param name="still">See <see cref="StillSince"/>.</param>
-    /// <param name="room">For how many segments there is room.</param>
+    /// <param name="room">The number of segments that there is room for.</param>
     internal void Begin(int segment, SimTime centre, SimTime still, int room)
     {
         if (segment >= members.Length)

@@ -7,8 +7,8 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// The sum of the hashes of events, of which four are made at a time: each is a chain of multiplications, and a processor that waits for one can do three
-/// others.
+/// The sum of the hashes of events, of which four are made at a time: each is a chain of multiplications, and a processor that waits for
+/// one can do three others.
 /// </summary>
 /// <param name="origin">From when events count time.</param>
 /// <remarks>Cost: a copy of an event's words, and every fourth time the hashes; of what waits when the sum is read, one by one.</remarks>
@@ -44,7 +44,7 @@ internal sealed class EventHashSum(SimTime origin)
         }
     }
 
-    /// <summary>Adds the hash of an event that opens a piece of path.</summary>
+    /// <summary>Adds the hash of an event that opens a segment.</summary>
     internal void Add(in EventKey key, in MotionSegment motion, BodyId body)
     {
         Write(key, motion, body, waiting.AsSpan(count), Lanes);
@@ -54,7 +54,7 @@ internal sealed class EventHashSum(SimTime origin)
         }
     }
 
-    /// <summary>The hash of an event that opens a piece of path, to which more may be added.</summary>
+    /// <summary>The hash of an event that opens a segment, to which more may be added.</summary>
     internal StableHash Of(in EventKey key, in MotionSegment motion, BodyId body)
     {
         Span<ulong> words = stackalloc ulong[Words];

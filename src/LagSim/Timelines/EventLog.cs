@@ -77,7 +77,7 @@ internal sealed class EventLog
 
     internal int Next(int entry) => entries[entry].Next;
 
-    /// <summary>Adds an event; false if the body has one of that key, which is then the same event heard again.</summary>
+    /// <summary>Adds an event; false if the body has one of that key, which is then the same event received again.</summary>
     internal bool TryAdd(int slot, in ExternalEvent external, in EventKey key, bool forwarded)
     {
         int before = LastBefore(slot, key);
@@ -107,7 +107,7 @@ internal sealed class EventLog
         return true;
     }
 
-    /// <summary>Takes the event (peer, sequence) of a body out; false if there is none.</summary>
+    /// <summary>Removes the event (peer, sequence) of a body; false if there is none.</summary>
     internal bool TryRemove(int slot, byte peer, uint sequence, out EventKey key)
     {
         for (int at = last[slot]; at != None; at = entries[at].Previous)
@@ -161,7 +161,7 @@ internal sealed class EventLog
         free = at;
     }
 
-    /// <summary>Has one entry of a body follow the other; <see cref="None"/> stands for the ends.</summary>
+    /// <summary>Has one entry of a body follow the other; <see cref="None"/> marks the ends.</summary>
     private void Link(int slot, int before, int after)
     {
         (before == None ? ref first[slot] : ref entries[before].Next) = after;

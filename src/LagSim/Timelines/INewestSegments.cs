@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>Is told of each body's newest segment, as segments are opened and cut.</summary>
+/// <summary>Notified of each body's newest segment, as segments are opened and cut.</summary>
 internal interface INewestSegments
 {
     /// <summary>This is now the newest segment of a body.</summary>

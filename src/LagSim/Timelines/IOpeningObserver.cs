@@ -2,7 +2,7 @@ using LagSim.Events;
 
 namespace LagSim.Timelines;
 
-/// <summary>Is told of segments, as they are opened.</summary>
+/// <summary>Notified of segments, as they are opened.</summary>
 internal interface IOpeningObserver
 {
     /// <summary>A body's next segment is about to be opened at a key.</summary>

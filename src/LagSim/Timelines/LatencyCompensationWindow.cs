@@ -6,16 +6,16 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// The stretch of time around now in which a peer works: it takes events that are up to <see cref="History"/> late, and knows the world <see cref="LookAhead"/>
-/// beyond now. What is older is committed.
+/// The stretch of time around now in which a peer works: it takes events that are up to <see cref="History"/> late, and knows the world
+/// <see cref="LookAhead"/> beyond now. Anything older is committed.
 /// </summary>
 /// <remarks>
-/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is validated once, for all. The look-ahead
-/// and the lags are each peer's own, and no bit of the world depends on the look-ahead.</para>
-/// <para>Memory: the completed events are one segment for each thing that happened to a body, kept for the history: bodies × (segments a second × history + 1)
-/// × 184 bytes, and at most a quarter more. Once any path of the world is of a degree above two (an integrator's, a closed form's
-/// of other forces, an island's, a hand's), every segment takes 80 more; once any body turns, 48 more; once any is held, 40 more; once any two are in an
-/// island, 4 more: 356 at the most.</para>
+/// <para>Immutable, safe on any thread. The history is the session's, and so the host's: whether an event is too late is validated once,
+/// for all. The look-ahead and the lags are each peer's own, and no bit of the world depends on the look-ahead.</para>
+/// <para>Memory: the completed events are one segment for each thing that happened to a body, kept for the history: bodies × (segments a
+/// second × history + 1) × 184 bytes, and at most a quarter more. Once any path of the world is of a degree above two (an integrator's, a
+/// closed form's of other forces, an island's, a hand's), every segment takes 80 more; once any body turns, 48 more; once any is held, 40
+/// more; once any two are in an island, 4 more: 356 at the most.</para>
 /// </remarks>
 public sealed class LatencyCompensationWindow
 {
@@ -23,7 +23,7 @@ public sealed class LatencyCompensationWindow
     public static readonly SimDuration MinHistory = SimDuration.FromMilliseconds(50);
 
     /// <summary>
-    /// The history where nothing else is said: 1 s, two hops of most links there are. It has to be fixed before the first event, so before anything is
+    /// The default history: 1 s, two hops of most links there are. It has to be fixed before the first event, so before anything is
     /// measured.
     /// </summary>
     public static readonly SimDuration DefaultHistory = SimDuration.FromSeconds(1);
@@ -34,7 +34,7 @@ public sealed class LatencyCompensationWindow
     /// <summary>The history that <see cref="HistoryFor"/> gives at least, however fast the links are: 250 ms.</summary>
     public static readonly SimDuration LeastMeasuredHistory = SimDuration.FromMilliseconds(250);
 
-    /// <summary>The look-ahead where nothing else is said: two frames of a sixtieth of a second.</summary>
+    /// <summary>The default look-ahead: two frames of a sixtieth of a second.</summary>
     public static readonly SimDuration DefaultLookAhead = SimDuration.FromSeconds(2.0 / 60.0);
 
     /// <summary>The longest look-ahead: 1 s.</summary>
@@ -45,11 +45,12 @@ public sealed class LatencyCompensationWindow
     private readonly SimDuration[] lags; // by kind of event
 
     /// <summary>A window without local lag; see <see cref="WithLocalLag"/>.</summary>
-    /// <param name="history">How late an event may come and still be healed, <see cref="MinHistory"/> to <see cref="MaxHistory"/>, default <see
-    /// cref="DefaultHistory"/>; at least the worst expected delay (two hops, from player to host and from host to player), the clocks' error and the interval
-    /// at which is sent.</param>
-    /// <param name="lookAhead">How far beyond now the world is simulated, above zero to <see cref="MaxLookAhead"/>, default <see cref="DefaultLookAhead"/>. It
-    /// covers the interpolation of frames and spikes of other work; since every peer simulates everything it needs to cover no network.</param>
+    /// <param name="history">How late an event may come and still be healed, <see cref="MinHistory"/> to <see cref="MaxHistory"/>, default
+    /// <see cref="DefaultHistory"/>; at least the worst expected delay (two hops, from player to host and from host to player), the clocks'
+    /// error and the interval at which is sent.</param>
+    /// <param name="lookAhead">How far beyond now the world is simulated, above zero to <see cref="MaxLookAhead"/>, default
+    /// <see cref="DefaultLookAhead"/>. It covers the interpolation of frames and spikes of other work; since every peer simulates
+    /// everything it needs to cover no network.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public LatencyCompensationWindow(SimDuration? history = null, SimDuration? lookAhead = null)
         : this(history ?? DefaultHistory, lookAhead ?? DefaultLookAhead, new SimDuration[EventKind.Remove - EventKind.Spawn + 1])
@@ -93,11 +94,12 @@ public sealed class LatencyCompensationWindow
     /// <exception cref="ArgumentOutOfRangeException">It is out of its range, or shorter than a lag.</exception>
     public LatencyCompensationWindow WithLookAhead(SimDuration lookAhead) => new(History, lookAhead, lags);
 
-    /// <summary>The same window with a lag for what this peer does of a kind.</summary>
-    /// <param name="kind">Of which kind. Grab, keyframe and release of a hand should have the same, or they overtake each other.</param>
-    /// <param name="lag">So much later than it is done it is to happen, here as elsewhere; from zero, the default, to the look-ahead, and no more than half the
-    /// history. Above the delay of the links nobody ever has to heal it, and whoever did it sees it that much later.</param>
-    /// <exception cref="ArgumentOutOfRangeException">The kind is none of a player's, or the lag is out of its range.</exception>
+    /// <summary>The same window with a local lag for this peer's actions of one kind.</summary>
+    /// <param name="kind">The kind. Grab, keyframe and release of a hand should have the same lag, or they overtake each other.</param>
+    /// <param name="lag">How much later than the action it takes effect, here as on other peers; from zero, the default, to the look-ahead,
+    /// and no more than half the history. Above the delay of the links no peer ever has to heal it, and the player sees it that much
+    /// later.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The kind is not a player's, or the lag is out of its range.</exception>
     public LatencyCompensationWindow WithLocalLag(EventKind kind, SimDuration lag)
     {
         if (!IsOfPlayers(kind))
@@ -116,12 +118,16 @@ public sealed class LatencyCompensationWindow
     public SimDuration LocalLag(EventKind kind) => IsOfPlayers(kind) ? lags[kind - EventKind.Spawn] : SimDuration.Zero;
 
     /// <summary>
-    /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but <see cref="LeastMeasuredHistory"/> at least
-    /// and <see cref="MaxHistory"/> at most.
+    /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but
+    /// <see cref="LeastMeasuredHistory"/> at least and <see cref="MaxHistory"/> at most.
     /// </summary>
-    /// <param name="lateness">By how much each event came after its stamp, negative if before; as a session counts it. At least one.</param>
+    /// <param name="lateness">By how much each event came after its stamp, negative if before; as a session counts it. At least
+    /// one.</param>
     /// <exception cref="ArgumentException">Nothing was measured.</exception>
-    /// <remarks>The percentile is that of the sorted values at rank ⌈0.999 n⌉, so it was measured itself; of fewer than a thousand it is the largest.</remarks>
+    /// <remarks>
+    /// The percentile is that of the sorted values at rank ⌈0.999 n⌉, so it was measured itself; of fewer than a thousand it is the
+    /// largest.
+    /// </remarks>
     public static SimDuration HistoryFor(IReadOnlyCollection<SimDuration> lateness)
     {
         if (lateness is null || lateness.Count == 0)

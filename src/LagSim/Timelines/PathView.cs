@@ -6,7 +6,7 @@ namespace LagSim.Timelines;
 internal class PathView(TimelineStore timelines, RollbackState rollback)
 {
     /// <summary>
-    /// The piece of its path on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
+    /// The segment on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
     /// before the heal from there on still standing.
     /// </summary>
     internal int PieceAt(int slot, in EventKey key)
@@ -16,7 +16,7 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
     }
 
     /// <summary>
-    /// The first piece of another's path that a body's newest segment can still meet: the newest, but for one who is ahead.
+    /// The first segment of another body that a body's newest segment can still meet: the newest, unless that body is ahead.
     /// </summary>
     internal int PieceFrom(int slot, int other)
     {
@@ -24,14 +24,14 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
         return timelines.Serial(piece) > rollback.LastOld ? piece : PastPieceFrom(slot, piece);
     }
 
-    /// <summary>The piece on which a body comes to an event.</summary>
+    /// <summary>The segment on which a body comes to an event.</summary>
     internal int PieceBefore(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
         return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
     }
 
-    /// <summary>The same of another that may be ahead, whose newest piece is given.</summary>
+    /// <summary>The same of another that may be ahead, whose newest segment is given.</summary>
     private protected virtual int PastPieceFrom(int slot, int piece)
     {
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));

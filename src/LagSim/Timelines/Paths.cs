@@ -9,7 +9,7 @@ internal readonly struct Paths(TimelineStore timelines)
 {
     private readonly TimelineStore timelines = timelines;
 
-    /// <summary>Whether a body is in a hand on a segment.</summary>
+    /// <summary>Whether a body is held on a segment.</summary>
     internal bool IsHeld(int segment) => timelines.Segment(segment).Law == MotionLaw.Held;
 
     /// <summary>Whether a body is a member of an island on a segment.</summary>

@@ -3,8 +3,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Timelines;
 
-/// <summary>A contact that a body of an island carries from step to step: with whom, and the impulses of the last step on this body.</summary>
-/// <remarks>Immutable. It is part of the body's piece of path, in snapshots and hashes too, for the next step begins with it.</remarks>
+/// <summary>
+/// A contact that a body of an island carries from step to step: the other body or surface, and the impulses of the last step on this body.
+/// </summary>
+/// <remarks>Immutable. It is part of the body's segment, in snapshots and hashes too, because the next step begins with it.</remarks>
 public readonly struct PersistentContact : IEquatable<PersistentContact>
 {
     /// <summary>In place of a surface where the contact is with another body.</summary>

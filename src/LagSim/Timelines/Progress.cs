@@ -27,7 +27,7 @@ internal sealed class Progress(SimTime start, SimDuration history, SimTime from)
     /// <summary>Moves the edge of the history on, if it is not there yet.</summary>
     internal void ForgetBefore(SimTime time) => HistoryEdge = SimTime.Max(HistoryEdge, time);
 
-    /// <summary>Whether the edge moves on where so much is simulated.</summary>
+    /// <summary>Whether the edge moves on when the world is simulated this far.</summary>
     /// <param name="now">How far it is simulated.</param>
     internal bool IsLongerThanHistory(SimTime now) =>
         (ulong)now.Ticks - (ulong)Start.Ticks > (ulong)History.Ticks; // unsigned: the span since the start may exceed the range of a long

@@ -4,28 +4,28 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>How far a rollback has come: what is known beyond the event at hand, and since when.</summary>
+/// <summary>The progress of a rollback: what is known beyond the current event, and since when.</summary>
 /// <remarks>Not thread-safe. Only the rollback changes it.</remarks>
 internal sealed class RollbackState
 {
     private uint[] healedIn = Array.Empty<uint>(); // by slot: the number of the last rollback that touched the body
 
     /// <summary>
-    /// How far the world was simulated before the rollback at hand, and so how far the paths of bodies that nothing late has touched are
-    /// known. The least time there is where there is no rollback. One may be finished in several advances.
+    /// The rollback horizon: how far the world was simulated before the current rollback, and so how far the paths of bodies that nothing
+    /// late has touched are known. The least time there is if there is no rollback. A rollback may be finished in several advances.
     /// </summary>
     internal SimTime Horizon { get; private set; } = SimTime.MinValue;
 
-    /// <summary>The event at hand, or the key to which was rewound.</summary>
+    /// <summary>The current event, or the key that was rewound to.</summary>
     internal EventKey Cursor { get; set; }
 
-    /// <summary>Segments up to this serial stood before the rollback at hand; -1 if all that is left of them is right.</summary>
+    /// <summary>Segments up to this serial are from before the current rollback; -1 if all that is left of them is right.</summary>
     internal long LastOld { get; set; }
 
-    /// <summary>How many bodies the rollback at hand has touched.</summary>
+    /// <summary>The number of bodies that the current rollback has touched.</summary>
     internal int BodyCount { get; private set; }
 
-    /// <summary>The number of the rollback at hand, from 1.</summary>
+    /// <summary>The number of the current rollback, from 1.</summary>
     internal uint Number { get; private set; }
 
     /// <summary>How often timelines were rewound for a late event.</summary>
@@ -34,7 +34,7 @@ internal sealed class RollbackState
     /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
     internal long SegmentsCut { get; set; }
 
-    /// <summary>The count, if some may be known beyond the event at hand; else 0.</summary>
+    /// <summary>The count, if some may be known beyond the current event; else 0.</summary>
     internal long AtHand => MayBeKnownBeyond(Cursor) && LastOld >= 0 ? Count : 0;
 
     /// <summary>Whether a rollback is under way.</summary>
@@ -54,7 +54,7 @@ internal sealed class RollbackState
         BodyCount = 0;
     }
 
-    /// <summary>The rollback at hand is done.</summary>
+    /// <summary>The current rollback is done.</summary>
     internal void End() => Horizon = SimTime.MinValue;
 
     /// <summary>Makes room for a body, which no rollback has touched.</summary>
@@ -77,6 +77,6 @@ internal sealed class RollbackState
         return isNew;
     }
 
-    /// <summary>Whether the rollback at hand, or the last if there is none, has touched a body.</summary>
+    /// <summary>Whether the current rollback, or the last if there is none, has touched a body.</summary>
     internal bool HasTouched(int slot) => healedIn[slot] == Number;
 }

@@ -12,7 +12,7 @@ public readonly struct TimelineEntry
         State = state;
     }
 
-    /// <summary>The event that opened this piece of the body's path.</summary>
+    /// <summary>The event that opened this segment.</summary>
     public EventKey Key { get; }
 
     /// <summary>The body right after it.</summary>

@@ -57,10 +57,10 @@ internal sealed class TimelineStore
     /// <summary>The serial of the segment that was opened last.</summary>
     internal long LastSerial { get; private set; }
 
-    /// <summary>Is told of impacts that are cut; null for nobody.</summary>
+    /// <summary>Notified of impacts that are cut; null for none.</summary>
     internal IImpactObserver? Observer { get; set; }
 
-    /// <summary>Is told of segments that are opened; null for nobody.</summary>
+    /// <summary>Notified of segments that are opened; null for none.</summary>
     internal IOpeningObserver? Openings { get; set; }
 
     /// <summary>How many segments may be kept.</summary>
@@ -111,10 +111,13 @@ internal sealed class TimelineStore
     /// <summary>Whether the slot is some body's.</summary>
     internal bool IsKnown(int slot) => slot < ends.Length && ends[slot].Last != None;
 
-    /// <summary>A number no other segment of this store ever has, 0 for one that is no more; tells whether a remembered segment is still the one.</summary>
+    /// <summary>
+    /// A number that no other segment of this store ever has, 0 for one that is gone; it shows whether a remembered segment is still the
+    /// same.
+    /// </summary>
     internal long Serial(int segment) => links[segment].Serial;
 
-    /// <summary>The slot of the body whose path the segment is part of.</summary>
+    /// <summary>The slot of the segment's body.</summary>
     internal int Owner(int segment) => links[segment].Owner;
 
     /// <summary>The body's newest segment keyed before <paramref name="key"/>; <see cref="None"/> if none that is kept is.</summary>
@@ -230,7 +233,9 @@ internal sealed class TimelineStore
         newest?.Clear(slot);
     }
 
-    /// <summary>The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.</summary>
+    /// <summary>
+    /// The segment that holds at <paramref name="time"/>, after all events of that tick; <see cref="None"/> before the first kept.
+    /// </summary>
     internal int At(int slot, SimTime time)
     {
         int at = ends[slot].Last;

@@ -1,14 +1,14 @@
 namespace LagSim.Timelines;
 
-/// <summary>What an <see cref="IWorkObserver"/> says of an advance; of two the greater holds.</summary>
+/// <summary>The verdict of an <see cref="IWorkObserver"/> on an advance; of two the greater counts.</summary>
 internal enum WorkVerdict
 {
-    /// <summary>It goes on.</summary>
+    /// <summary>The advance continues.</summary>
     GoOn,
 
     /// <summary>It stops after this instant.</summary>
     StopAfterInstant,
 
-    /// <summary>It stops at once in a session's world, though an instant be done in part; elsewhere after this instant.</summary>
+    /// <summary>It stops at once in a session's world, even if an instant is done in part; elsewhere after this instant.</summary>
     StopNow,
 }

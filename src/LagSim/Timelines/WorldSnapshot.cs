@@ -4,8 +4,10 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>All that a world is after everything before an instant has happened: whoever goes on from it has the same world, bit for bit.</summary>
-/// <remarks>Immutable, safe on any thread. Of what comes from outside it holds nothing that is stamped at its time or later.</remarks>
+/// <summary>
+/// The complete state of a world after everything before an instant has happened: a world that continues from it is the same, bit for bit.
+/// </summary>
+/// <remarks>Immutable, safe on any thread. It holds no external event that is stamped at its time or later.</remarks>
 public sealed class WorldSnapshot
 {
     private readonly BodySnapshot[] bodies;

@@ -32,7 +32,7 @@ internal sealed class FlightFactory(
     }
 
     /// <summary>
-    /// The first piece of a flight that is no parabola: a step of an integrator, or as much of a closed form as a polynomial follows.
+    /// The first segment of a flight that is not a parabola: a step of an integrator, or as much of a closed form as a polynomial follows.
     /// </summary>
     private MotionSegment PieceOfFlight(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, out DenseOutput dense)
     {
@@ -55,7 +55,7 @@ internal sealed class FlightFactory(
         return piece;
     }
 
-    /// <summary>What the step before proposes, if there was one; else nothing.</summary>
+    /// <summary>The step that the one before proposes, if there was one; else none.</summary>
     private SimDuration StepToTry(int slot)
     {
         int last = timelines.Last(slot);

@@ -6,7 +6,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Trajectories;
 
-/// <summary>What is said of forces that are too much for a step, or for the timelines.</summary>
+/// <summary>The error messages for forces that are too strong for a step, or for the timelines.</summary>
 internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bodies, TimelineStore timelines)
 {
     private readonly Forces forces = forces;
@@ -71,7 +71,9 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
     private static string ActTooFast(double here, double met, double most) =>
         here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Short(met)} 1/s";
 
-    /// <summary>What error control cannot follow and nobody but the program's author can see; a sentence that follows another.</summary>
+    /// <summary>
+    /// A message about what error control cannot follow and only the program's author can see; it follows another sentence.
+    /// </summary>
     private string Jumps(in BodySpec spec)
     {
         foreach (Force force in spec.Forces.Among(scene.ForceArray))
@@ -86,7 +88,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         return "";
     }
 
-    /// <summary>What forces act on a body at a state, and at which rates.</summary>
+    /// <summary>The forces that act on a body at a state, and their rates.</summary>
     private string RatesOn(int slot, in Vector3D x, in Vector3D v, in Vector3D spin)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
@@ -101,7 +103,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
     }
 
     /// <summary>
-    /// Whose path most segments of full timelines are, how short they are, and how long they would have to be; a sentence that follows
+    /// The body with most segments of full timelines, how short these are, and how long they would have to be; a sentence that follows
     /// another.
     /// </summary>
     internal string OfFullTimelines(SimDuration history)

@@ -6,15 +6,15 @@ using LagSim.Timelines;
 
 namespace LagSim.Trajectories;
 
-/// <summary>Opens the paths of held bodies: a hand takes one, tells now and then where it is, and lets go.</summary>
+/// <summary>Opens the paths of held bodies: a hand grabs one, sends keyframes, and releases it.</summary>
 /// <remarks>
 /// While it is held a body's path is the hand's: nothing it meets changes it, and it pushes others as if its mass were infinite. Static
-/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the keyframes up to t
-/// alone.
+/// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the keyframes up to
+/// t alone.
 /// </remarks>
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
 {
-    /// <summary>So often what is let go inside static geometry is put out of one surface after the other.</summary>
+    /// <summary>The number of times that a body released inside static geometry is moved out of one surface after the other.</summary>
     private const int MostPuttingOut = 16;
 
     private readonly Paths paths = new(timelines);
@@ -26,8 +26,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a keyframe or a release of a hand that does
-    /// not hold it, nor what would move it faster than may be given. An event that comes late may change that.
+    /// Does what a hand does to a body that is there. To grab what is held has no effect, nor has a keyframe or a release of a hand that
+    /// does not hold it, nor what would move it faster than may be given. An event that comes late may change that.
     /// </summary>
     internal void Act(int slot, in EventKey key, in ExternalEvent external)
     {
@@ -53,8 +53,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Converges on the path that a keyframe foretells. A body that is on it already, as far as the scene resolves, follows it: so a hand that
-    /// only says that it keeps still moves nothing.
+    /// Converges on the path that a keyframe extrapolates. A body that is on it already, as far as the scene resolves, follows it. So a
+    /// keyframe of a hand that keeps still moves nothing.
     /// </summary>
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
@@ -85,7 +85,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// A piece of a held path ends: the next begins where it ends, or the hand, of which nothing was heard for so long, has let go.
+    /// A segment of a held path ends: the next begins where it ends, or the hand, without a keyframe for so long, has released the body.
     /// </summary>
     internal void OpenNext(int slot, in EventKey key)
     {
@@ -105,7 +105,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// A held body goes on after an impact as before it: the same path, to the bit, in a new piece, so that who cuts it cuts what it
+    /// A held body continues after an impact as before it: the same path, to the bit, in a new segment, so that cutting it cuts what it
     /// struck.
     /// </summary>
     internal void GoOn(int slot, in EventKey key)
@@ -116,8 +116,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// Where a body is let go that a hand holds inside static geometry: outside of it, at the surface, one after the other in the scene's
-    /// order. What is between surfaces too close for it stays inside.
+    /// The place where a body is released that a hand holds inside static geometry: outside of it, at the surface, one surface after the
+    /// other in the scene's order. A body between surfaces too close for it stays inside.
     /// </summary>
     private Vector3D PutOut(int slot, in Vector3D position)
     {

@@ -9,22 +9,21 @@ namespace LagSim.Trajectories;
 
 /// <summary>Opens motion on a plane with friction: slipping, rolling, rest.</summary>
 /// <remarks>
-/// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q
-/// is slowed down by mu g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling
+/// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q is
+/// slowed down by mu g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling
 /// resistance c takes 5/2 c g_n from q. So v' = g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two
-/// directions, which turn where they and gravity are aslant. What does not
-/// turn yet begins to do so with q' along u, for c counts for no more than mu.</para>
-/// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no
-/// more than mu g_n. Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n
-/// / r, whether the sphere slips, rolls
-/// or stays where it is.</para>
+/// directions, which turn where they and gravity are aslant. What does not turn yet begins to do so with q' along u, for c counts for no
+/// more than mu.</para>
+/// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no more
+/// than mu g_n. Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r,
+/// whether the sphere slips, rolls or stays where it is.</para>
 /// </remarks>
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
-    /// <summary>By how much a direction of slip or rolling may turn in one piece of path, in radians, where gravity pulls aslant.</summary>
+    /// <summary>By how much a direction of slip or rolling may turn in one segment, in radians, where gravity pulls aslant.</summary>
     private const double MostTurn = 1.0 / 128;
 
-    /// <summary>What slips, or moves or turns on a surface slower than this, in m/s, is what rounding leaves of nothing.</summary>
+    /// <summary>A slip, motion or turning on a surface slower than this, in m/s, counts as the rounding of zero.</summary>
     private const double RoundingSlip = 1e-10;
 
     private readonly StaticSurfaces surfaces = scene.Surfaces;
@@ -54,7 +53,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
             Supports = supports,
         };
 
-        // What a tick changes of a speed: times are rounded to ticks.
+        // The change of a speed in a tick: times are rounded to ticks.
         double tick = SimDuration.OneTick.ToSeconds() * (pull.Length + (3.5 * at.Grip) + (2.5 * at.Resistance));
         at.Pivot = n * Vector3D.Dot(n, spin);
         at.Slowing = Slowing(ref at.Pivot, 2.5 * at.Resistance / spec.Radius, RoundingSlip / spec.Radius);
@@ -81,7 +80,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
     }
 
-    /// <summary>Opens a piece of slipping in one direction and turning in another.</summary>
+    /// <summary>Opens a segment of slipping in one direction and turning in another.</summary>
     private void OpenSlipping(int slot, in EventKey key, in SlidingContact at, in Vector3D slip, Vector3D along, Vector3D over)
     {
         Vector3D push = at.Pull + (over * (2.5 * at.Resistance)), rate = push - (along * (3.5 * at.Grip)), drive = along * (2.5 * at.Grip);
@@ -101,7 +100,9 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, default, spin: new Spin(at.Spin, turning));
     }
 
-    /// <summary>Opens a piece of staying where it is, turning on the spot or not, or bouncing by less than counts for so long.</summary>
+    /// <summary>
+    /// Opens a segment of staying in place, turning on the spot or not, or bouncing by less than counts, for a given time.
+    /// </summary>
     private void OpenStill(int slot, in EventKey key, in SlidingContact at, SimDuration left)
     {
         SimTime still = EndOfPivoting(key.Time, at.Pivot, at.Slowing);
@@ -110,7 +111,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         MotionSegment path;
         if (left > SimDuration.Zero)
         {
-            // What has stopped turning before the bounces that are left out would have been over stops with them.
+            // A body that has stopped turning before the bounces that are left out would have been over stops with them.
             slowing = still < key.Time + left ? at.Pivot * (1 / left.ToSeconds()) : slowing;
             path = new MotionSegment(MotionLaw.Sliding, key.Time, key.Time + left, at.Position, Vector3D.Zero, Vector3D.Zero, at.Supports);
         }
@@ -123,7 +124,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, default, spin: new Spin(at.Pivot, -slowing));
     }
 
-    /// <summary>Opens a piece of rolling in one direction.</summary>
+    /// <summary>Opens a segment of rolling in one direction.</summary>
     private void OpenRolling(int slot, in EventKey key, in SlidingContact at, in Vector3D start, Vector3D heading)
     {
         Vector3D change = (at.Pull - (heading * at.Resistance)) * (5.0 / 7);
@@ -155,14 +156,14 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// What rolling resistance takes from what turns about the normal, in rad/s²; where it is slower than <paramref name="least"/>, or than
-    /// a tick takes, it turns no more.
+    /// The deceleration by rolling resistance of a body that turns about the normal, in rad/s². If it turns slower than
+    /// <paramref name="least"/>, or than a tick takes, it turns no more.
     /// </summary>
     private static Vector3D Slowing(ref Vector3D pivot, double rate, double least)
     {
         if (!(rate > 0))
         {
-            return Vector3D.Zero; // and goes on turning
+            return Vector3D.Zero; // and continues to turn
         }
 
         double speed = pivot.Length;
@@ -175,8 +176,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         slowing != Vector3D.Zero && TryTicks(from, pivot.Length / slowing.Length, out SimDuration turns) ? from + turns : SimTime.MaxValue;
 
     /// <summary>
-    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new piece is due; never, if
-    /// neither comes.
+    /// When something that slips or rolls with that velocity has stopped doing so, or has turned so far that a new segment is due; never,
+    /// if neither comes.
     /// </summary>
     private SimTime EndOfTurning(SimTime from, in Vector3D velocity, in Vector3D along, in Vector3D pull, double rate) =>
         TryTicks(from, SecondsOfTurning(velocity, along, pull, rate), out SimDuration turns) ? from + turns : SimTime.MaxValue;
@@ -188,7 +189,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
         return aslant > 1e-13 * pull.Length && velocity.Length > 0 ? Math.Min(seconds, Turn(velocity.Length, pull) * velocity.Length / aslant) : seconds;
     }
 
-    /// <summary>So many seconds from then on, a tick at least; false if that is beyond all time.</summary>
+    /// <summary>Some seconds from then on, a tick at least; false if that is beyond all time.</summary>
     private static bool TryTicks(SimTime from, double seconds, out SimDuration span)
     {
         bool fits = TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks);
@@ -197,10 +198,10 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// By how much, in radians, the direction of something so fast may turn in a piece. A piece is off by its speed times the cube of that;
-    /// so what is slower than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse of
-    /// the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
-    /// thousands of pieces, and what hops again and again would each time.
+    /// By how much, in radians, the direction of something so fast may turn in a segment. A segment is off by its speed times the cube of
+    /// that; so what is slower than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse
+    /// of the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
+    /// thousands of segments, and what hops again and again would each time.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {
@@ -209,13 +210,13 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// When something that slips and turns with that surface speed has stopped turning, or a new piece is due because the direction in
-    /// which it turns follows that of the slip, at the rate of what drives it by the speed.
+    /// The time when a body that slips and turns with that surface speed has stopped turning, or when a new segment is due because the
+    /// direction in which it turns follows that of the slip, at the rate of drive / speed.
     /// </summary>
     /// <remarks>
-    /// From where less is left of that than may turn in a piece the rest of it fades away within some speed / drive, of which a piece is at
-    /// most a quarter, but not below 2^-8 s: <see cref="Following"/> bears any. What is slow follows in no time, and as little as
-    /// resistance lets it gain it stays slow.
+    /// Once less of that is left than may turn in a segment, the rest fades away within some speed / drive. A segment is at most a quarter
+    /// of that, but not below 2^-8 s: <see cref="Following"/> works for any length. A slow direction follows at once, and stays slow as
+    /// long as resistance lets it gain little.
     /// </remarks>
     private SimTime EndOfFollowing(SimTime from, in Vector3D turn, in Vector3D over, in Vector3D drive, double resistance)
     {
@@ -229,8 +230,8 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// The direction in which something turns in a piece, if that which drives it does so throughout: the one at its middle, which makes it
-    /// right to the second order; or where that is long against speed / drive, the one at its end, which bears any length.
+    /// The direction in which a body turns in a segment under a constant drive: the one at its middle, which is right to second order; or,
+    /// for a segment long against speed / drive, the one at its end, which works for any length.
     /// </summary>
     private static Vector3D Following(in Vector3D turn, in Vector3D drive, SimTime from, SimTime end)
     {
@@ -242,7 +243,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// The direction at the middle of a piece, which makes it right to the second order; as it was where it does not turn.
+    /// The direction at the middle of a segment, which makes it right to the second order; as it was where it does not turn.
     /// </summary>
     private static Vector3D Midway(in Vector3D velocity, in Vector3D along, in Vector3D rate, SimTime from, SimTime end)
     {

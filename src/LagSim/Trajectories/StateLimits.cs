@@ -13,8 +13,8 @@ internal sealed class StateLimits(Scene scene)
     private readonly Scene scene = scene;
 
     /// <summary>
-    /// When a closed form would exceed the permitted speed: the root of |v + a t| = limit, which there is one of. Beyond the range of a
-    /// time for anything but the smallest bodies and the strongest gravity.
+    /// The time when a closed form would exceed the permitted speed: the only root of |v + a t| = limit. Beyond the range of a time except
+    /// for the smallest bodies and the strongest gravity.
     /// </summary>
     internal SimTime EndOfRange(SimTime from, in Vector3D velocity, in Vector3D acceleration)
     {
@@ -35,9 +35,9 @@ internal sealed class StateLimits(Scene scene)
     }
 
     /// <summary>
-    /// When a flight in a periodic box ends, for the next to begin: after an eighth of the least side. Until then two bodies come nearer by
-    /// at most a quarter of that side, and they touch at less than another quarter. So the images that are nearest when both paths are open
-    /// are the ones that can meet.
+    /// The time when a flight in a periodic box ends and the next begins: after an eighth of the least side. Until then two bodies come
+    /// nearer by at most a quarter of that side, and they touch at less than another quarter. So the images that are nearest when both
+    /// paths are open are the ones that can meet.
     /// </summary>
     internal SimTime EndOfFlight(SimTime from, in Vector3D velocity)
     {

@@ -16,8 +16,8 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
     /// <summary>
     /// Rest or sliding, if after the impact no bounce is left that the scene resolves. The bounces that remain rise at most w^2 / 2a and
     /// last 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's resolution they are left out, the body
-    /// is put on the plane, and it rests from the end of that time on. Tangential motion goes on unchanged: frictionless bounces do not
-    /// touch it.
+    /// is put on the plane, and it rests from the end of that time on. Tangential motion continues unchanged: frictionless bounces do not
+    /// affect it.
     /// </summary>
     internal bool TryOpen(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)

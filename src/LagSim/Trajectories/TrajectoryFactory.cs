@@ -8,7 +8,7 @@ using LagSim.Timelines;
 namespace LagSim.Trajectories;
 
 /// <summary>Opens the next segment of a body that is no member of an island: which law it follows from a state on.</summary>
-/// <remarks>What it meets on the way is not its affair.</remarks>
+/// <remarks>Contacts on the way are predicted elsewhere.</remarks>
 internal sealed class TrajectoryFactory
 {
     private readonly Scene scene;
@@ -34,7 +34,7 @@ internal sealed class TrajectoryFactory
         Hands = new HandFactory(scene, bodies, timelines, limits, Flights);
     }
 
-    /// <summary>What is said where forces are too much.</summary>
+    /// <summary>The messages for forces that are too strong.</summary>
     internal ForceFailures Failures { get; }
 
     /// <summary>Opens flights.</summary>
@@ -43,7 +43,7 @@ internal sealed class TrajectoryFactory
     /// <summary>Opens motion on a plane with friction.</summary>
     internal SlipFactory Friction { get; }
 
-    /// <summary>Opens paths of what is in a hand.</summary>
+    /// <summary>Opens paths of held bodies.</summary>
     internal HandFactory Hands { get; }
 
     /// <summary>Throws if a body may not be in a state.</summary>
@@ -115,7 +115,7 @@ internal sealed class TrajectoryFactory
         }
     }
 
-    /// <summary>Whether a piece ended because its body would become too fast.</summary>
+    /// <summary>Whether a segment ended because its body would become too fast.</summary>
     private bool IsAtEndOfRange(in MotionSegment segment) =>
         segment.Acceleration != Vector3D.Zero && segment.End == limits.EndOfRange(segment.Epoch, segment.Velocity, segment.Acceleration);
 }

@@ -70,7 +70,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
                     StopSound(contact.Position);
                     break;
                 case ContactNoticeKind.Confirmed:
-                    Score(contact.First, contact.Second); // the same twice where the ball met the floor: contact.Surface tells which surface, and is -1 between two bodies
+                    Score(contact.First, contact.Second); // on the floor both are the ball; contact.Surface is the number of the surface, and -1 between two bodies
                     break;
             }
         }
@@ -97,7 +97,8 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
             Draw(state.Position);
         }
 
-        // what this player does shows here at once, and everywhere else at its own time; what may not be done throws, and what concerns a body that is not there has no effect
+        // the action shows here at once, and takes effect on every other machine at the same instant;
+        // it throws if it is not allowed, and does nothing if the body is gone
         await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
@@ -167,7 +168,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
             Draw(state.Position);
         }
 
-        // a kick: here at once, on every other machine at the same instant of the world
+        // a kick: shows here at once, and takes effect on every other machine at the same instant
         await client.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 

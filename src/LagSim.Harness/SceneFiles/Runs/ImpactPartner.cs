@@ -7,7 +7,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.SceneFiles.Runs;
 
-/// <summary>What a body met in an impact. An impact of many parties is named by two of them; whom the others met, their places tell.</summary>
+/// <summary>
+/// The partner of a body in an impact. The key of an impact of many bodies names two of them; the partners of the others follow from their
+/// places.
+/// </summary>
 internal static class ImpactPartner
 {
     /// <summary>The body that a body met; null if it met none.</summary>
@@ -28,7 +31,7 @@ internal static class ImpactPartner
             return self == key.Body ? key.Other : key.Body;
         }
 
-        // The parties of one impact hang together by contacts of bodies, so the nearest one touches this one.
+        // The bodies of one impact are linked by contacts, so the nearest one touches this one.
         BodyState state = impact.State;
         return all.Where(e => e.Key == key && e.Body != self).MinBy(e => Gap(scene, self, state, e)).Body;
     }
