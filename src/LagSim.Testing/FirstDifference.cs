@@ -24,7 +24,9 @@ public sealed record FirstDifference(
     /// <summary>When that happens.</summary>
     public double SinceStartSeconds => (Key.Time - Start).ToSeconds();
 
-    /// <summary>What differs, of which body, in both versions, and how far apart they are: one sentence, of times since the start.</summary>
+    /// <summary>
+    /// What differs, of which body, in both versions, and how far apart they are: one sentence, of times since the start.
+    /// </summary>
     /// <remarks>Numbers have four digits where that tells them apart, else all.</remarks>
     public override string ToString() => Text(body => body.ToString());
 

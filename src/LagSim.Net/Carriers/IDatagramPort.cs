@@ -19,7 +19,9 @@ public interface IDatagramPort : IDisposable
     event Action? Arrived;
 
     /// <summary>Hands a datagram to the network. Never blocks; what the network will not take is lost, as any datagram may be.</summary>
-    /// <exception cref="ArgumentException">The datagram is empty or longer than <see cref="MaxDatagramBytes"/>, or there is no address.</exception>
+    /// <exception cref="ArgumentException">
+    /// The datagram is empty or longer than <see cref="MaxDatagramBytes"/>, or there is no address.
+    /// </exception>
     void Send(ReadOnlySpan<byte> datagram, PeerAddress to);
 
     /// <summary>Takes the next datagram that came in, if there is one. Never blocks.</summary>

@@ -80,8 +80,8 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
     internal bool IsSameMachine(PeerAddress other) => Machine == other.Machine;
 
     /// <summary>
-    /// The same for all that one machine can send from: its IP address, whatever the port; of IPv6 the first 64 bits, for whoever has one such address has all
-    /// those of its network.
+    ///  The same for all that one machine can send from: its IP address, whatever the port; of IPv6 the first 64 bits, for whoever has one
+    /// such address has all those of its network.
     /// </summary>
     internal PeerAddress Machine => portAndFamily >> 31 != 0 ? new(high, 0, 1u << 31) : new(high, low, 0);
 

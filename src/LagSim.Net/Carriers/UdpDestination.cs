@@ -9,7 +9,8 @@ namespace LagSim.Net.Carriers;
 internal static class UdpDestination
 {
     /// <summary>
-    /// Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but not at that.
+    ///  Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but
+    /// not at that.
     /// </summary>
     /// <param name="endpoint">The address and port.</param>
     /// <param name="purpose">What for, as a verb; part of the sentence.</param>
@@ -28,7 +29,9 @@ internal static class UdpDestination
         return !isNone;
     }
 
-    /// <summary>Of this machine's addresses the one, with any free port, from which that machine is reached: loopback reaches loopback only.</summary>
+    /// <summary>
+    /// Of this machine's addresses the one, with any free port, from which that machine is reached: loopback reaches loopback only.
+    /// </summary>
     /// <exception cref="ArgumentNullException">There is no address.</exception>
     public static IPEndPoint Facing(IPAddress machine)
     {

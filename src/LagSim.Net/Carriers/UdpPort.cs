@@ -10,8 +10,9 @@ namespace LagSim.Net.Carriers;
 
 /// <summary>Datagrams over UDP, through <see cref="Socket"/>.</summary>
 /// <remarks>
-/// <para>A background thread takes datagrams from the socket into a ring of <see cref="RingSlots"/>; when that is full, newer ones are dropped
-/// and counted. Bound to <see cref="IPAddress.IPv6Any"/> it also speaks IPv4. The scope of a link-local IPv6 address is not kept.</para>
+/// <para>A background thread takes datagrams from the socket into a ring of <see cref="RingSlots"/>; when that is full, newer ones are
+/// dropped and counted. Bound to <see cref="IPAddress.IPv6Any"/> it also speaks IPv4. The scope of a link-local IPv6 address is not
+/// kept.</para>
 /// <para>The counters may be read from any thread.</para>
 /// </remarks>
 public sealed class UdpPort : IDatagramPort
@@ -62,7 +63,9 @@ public sealed class UdpPort : IDatagramPort
     /// <summary>How many datagrams the network would not take.</summary>
     public long SendFailures => Interlocked.Read(ref sendFailures);
 
-    /// <summary>How often the system reported trouble instead of a datagram; a report that nobody listens at the other end is not counted.</summary>
+    /// <summary>
+    /// How often the system reported trouble instead of a datagram; a report that nobody listens at the other end is not counted.
+    /// </summary>
     public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
 
     /// <inheritdoc/>
@@ -111,7 +114,9 @@ public sealed class UdpPort : IDatagramPort
         return ring.TryTake(buffer, out length, out from);
     }
 
-    /// <summary>Closes the port and ends its thread. What waits in the ring can still be taken. To be called from any other thread.</summary>
+    /// <summary>
+    /// Closes the port and ends its thread. What waits in the ring can still be taken. To be called from any other thread.
+    /// </summary>
     public void Dispose()
     {
         if (!stopping.IsSet)

@@ -4,7 +4,8 @@ using LagSim.Time;
 namespace LagSim.Net.Clocks;
 
 /// <summary>
-/// How far another peer's clock is ahead of one's own, at any own time: an offset at one instant, the drift since, and how wrong both may be.
+///  How far another peer's clock is ahead of one's own, at any own time: an offset at one instant, the drift since, and how wrong both may
+/// be.
 /// </summary>
 /// <remarks>Immutable, safe on any thread. Read with integers only. <c>default</c> says that the two clocks are the same.</remarks>
 internal readonly struct ClockEstimate
@@ -69,7 +70,9 @@ internal readonly struct ClockEstimate
         return age == SimDuration.Zero ? ErrorBound : ErrorBound + Share(driftBound, age < SimDuration.Zero ? -age : age) + SimDuration.OneTick;
     }
 
-    /// <summary>Rounded down, so that own time plus offset never goes back. In two parts, for the product of the whole does not fit.</summary>
+    /// <summary>
+    /// Rounded down, so that own time plus offset never goes back. In two parts, for the product of the whole does not fit.
+    /// </summary>
     private static SimDuration Share(long units, SimDuration span) =>
         SimDuration.FromTicks(((span.Ticks >> FractionBits) * units) + (((span.Ticks & ((1L << FractionBits) - 1)) * units) >> FractionBits));
 }

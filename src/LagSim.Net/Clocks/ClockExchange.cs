@@ -2,7 +2,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Clocks;
 
-/// <summary>What one exchange says of another clock's offset, whatever the two ways took: at most this when it left, at least that when it came back.</summary>
+/// <summary>
+/// What one exchange says of another clock's offset, whatever the two ways took: at most this when it left, at least that when it came
+/// back.
+/// </summary>
 internal struct ClockExchange
 {
     private readonly SimTime left;
@@ -35,7 +38,9 @@ internal struct ClockExchange
     /// <summary>How long from the request to the answer, in seconds of one's own clock, the wait at the other peer included.</summary>
     internal readonly double Length => (back - left).ToSeconds();
 
-    /// <summary>How much room it leaves the offset, in seconds, if the clocks drift apart like this: at the true drift, the round trip.</summary>
+    /// <summary>
+    /// How much room it leaves the offset, in seconds, if the clocks drift apart like this: at the true drift, the round trip.
+    /// </summary>
     internal readonly double Width(double drift) => (most - least).ToSeconds() + (drift * Length);
 
     /// <summary>The most that the offset can be at an own time, in seconds above a reference, after this drift.</summary>
@@ -47,7 +52,9 @@ internal struct ClockExchange
     /// <summary>How long ago the middle of it was, in seconds.</summary>
     internal readonly double Age(SimTime at) => ((at - left).ToSeconds() + (at - back).ToSeconds()) / 2;
 
-    /// <summary>The middle of the two limits, and the middle of their times: both on the line, whatever the drift, if the two ways are alike.</summary>
+    /// <summary>
+    /// The middle of the two limits, and the middle of their times: both on the line, whatever the drift, if the two ways are alike.
+    /// </summary>
     internal readonly (double Time, double Offset) Middle(SimTime at, SimDuration reference) =>
         (-Age(at), ((most - reference).ToSeconds() + (least - reference).ToSeconds()) / 2);
 

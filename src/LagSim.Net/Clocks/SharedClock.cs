@@ -3,12 +3,16 @@ using LagSim.Time;
 
 namespace LagSim.Net.Clocks;
 
-/// <summary>The session's time, made from one's own clock: set at the start of a world, from then on bent gently towards each newer estimate.</summary>
+/// <summary>
+/// The session's time, made from one's own clock: set at the start of a world, from then on bent gently towards each newer estimate.
+/// </summary>
 /// <remarks>
-/// <para>While a world lasts it never steps and never goes back, as long as one's own clock does not. Where a session goes on with a fresh copy of the world
-/// (<see cref="Sessions.Session.Renewed"/>), it steps once, forwards or back, to the time of the copy's host. It runs with the drift of the newest estimate, so that
-/// it stays right between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
-/// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any thread.</para>
+/// <para>While a world lasts it never steps and never goes back, as long as one's own clock does not. Where a session goes on with a fresh
+/// copy of the world (<see cref="Sessions.Session.Renewed"/>), it steps once, forwards or back, to the time of the copy's host. It runs
+/// with the drift of the newest estimate, so that it stays right between two of them; on top of that at most 0.5 % fast or slow, or 5 %
+/// while it is more than <see cref="FastAbove"/> off.</para>
+/// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any
+/// thread.</para>
 /// </remarks>
 public sealed class SharedClock : IClock
 {
@@ -75,7 +79,9 @@ public sealed class SharedClock : IClock
         }
     }
 
-    /// <summary>What of the newest estimate is still to be made good, as of the last reading or adjustment; positive when the clock is behind.</summary>
+    /// <summary>
+    /// What of the newest estimate is still to be made good, as of the last reading or adjustment; positive when the clock is behind.
+    /// </summary>
     public SimDuration Remaining
     {
         get
@@ -90,7 +96,8 @@ public sealed class SharedClock : IClock
     private SimDuration CurrentOffset => target.OffsetAt(read) - remaining;
 
     /// <summary>
-    /// Gives the clock the newest estimate: the first sets it at once, as does the first for a fresh copy of the world, and any other one is approached.
+    ///  Gives the clock the newest estimate: the first sets it at once, as does the first for a fresh copy of the world, and any other one
+    /// is approached.
     /// </summary>
     /// <param name="estimate">Shared time minus own time, within 48 days of zero, with its drift.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero by now.</exception>
@@ -118,7 +125,9 @@ public sealed class SharedClock : IClock
         }
     }
 
-    /// <summary>Has the next estimate set the clock at once, as the first did: for a world that begins anew. Until then it runs on.</summary>
+    /// <summary>
+    /// Has the next estimate set the clock at once, as the first did: for a world that begins anew. Until then it runs on.
+    /// </summary>
     internal void Restart()
     {
         lock (gate)

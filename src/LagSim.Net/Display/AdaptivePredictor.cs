@@ -6,19 +6,22 @@ using LagSim.Time;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// Where a remote hand is now, told from samples that are as old as the link is slow: several predictors, weighted by how each has done lately over that very
-/// span.
+///  Where a remote hand is now, told from samples that are as old as the link is slow: several predictors, weighted by how each has done
+/// lately over that very span.
 /// </summary>
 /// <remarks>
-/// <para>For display only: what it says depends on when the samples came, so it differs from peer to peer and must never enter a simulation.</para>
-/// <para>Mixed are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant velocity, and least squares over
-/// the last 200 ms that learn as they go. Each new sample shows what each would have said of it from the samples as old as now; that error, squared and
-/// forgotten within a second or two, gives the weights. So there is nothing to set: a calm hand is followed, a shaken one is not.</para>
-/// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best of them in hindsight. Nothing can promise an error below
-/// A L^2 / 2 for a hand that may accelerate by A (m/s^2) after what is known of it, L seconds ago: see <see cref="LeastWorstError"/>.</para>
-/// <para>It remembers 512 samples and so can learn for spans up to what those cover. Memory is fixed; nothing is allocated after construction. A sample costs
-/// some ten microseconds, a prediction far less; when the span changes for good by a quarter or more, one prediction goes through all it remembers anew. Not
-/// thread-safe.</para>
+/// <para>For display only: what it says depends on when the samples came, so it differs from peer to peer and must never enter a
+/// simulation.</para>
+/// <para>Mixed are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant velocity, and
+/// least squares over the last 200 ms that learn as they go. Each new sample shows what each would have said of it from the samples as old
+/// as now; that error, squared and forgotten within a second or two, gives the weights. So there is nothing to set: a calm hand is
+/// followed, a shaken one is not.</para>
+/// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best of them in hindsight. Nothing can
+/// promise an error below A L^2 / 2 for a hand that may accelerate by A (m/s^2) after what is known of it, L seconds ago: see
+/// <see cref="LeastWorstError"/>.</para>
+/// <para>It remembers 512 samples and so can learn for spans up to what those cover. Memory is fixed; nothing is allocated after
+/// construction. A sample costs some ten microseconds, a prediction far less; when the span changes for good by a quarter or more, one
+/// prediction goes through all it remembers anew. Not thread-safe.</para>
 /// </remarks>
 public sealed class AdaptivePredictor
 {
@@ -60,7 +63,9 @@ public sealed class AdaptivePredictor
     public static IReadOnlyList<string> Candidates { get; } =
         Array.AsReadOnly(new[] { "hold", "damped 20 ms", "damped 40 ms", "damped 80 ms", "damped 160 ms", "damped 320 ms", "velocity", "least squares" });
 
-    /// <summary>How far beyond the newest sample a prediction goes at most; what is asked for later is told to be where it was then.</summary>
+    /// <summary>
+    /// How far beyond the newest sample a prediction goes at most; what is asked for later is told to be where it was then.
+    /// </summary>
     public static SimDuration MaxHorizon { get; } = SimDuration.FromSeconds(1);
 
     /// <summary>Whether a sample has been heard; before that nothing can be told.</summary>
@@ -71,8 +76,8 @@ public sealed class AdaptivePredictor
     public SimTime NewestSample => HasSamples ? history.Newest.Time : throw new InvalidOperationException("This predictor has heard no sample.");
 
     /// <summary>
-    /// The least error in metres that any predictor can promise for a hand that accelerates by at most <paramref name="acceleration"/> (m/s^2, at least 0),
-    /// <paramref name="delay"/> (at least 0) after its newest sample: A L^2 / 2.
+    ///  The least error in metres that any predictor can promise for a hand that accelerates by at most <paramref name="acceleration"/>
+    /// (m/s^2, at least 0), <paramref name="delay"/> (at least 0) after its newest sample: A L^2 / 2.
     /// </summary>
     /// <remarks>
     /// Two hands that were the same up to that sample can part with A one way and A the other, and be A L^2 apart: whatever is said, it is
@@ -152,7 +157,9 @@ public sealed class AdaptivePredictor
         return true;
     }
 
-    /// <summary>Where one candidate alone would have the hand; for comparison. Changes nothing, and asks for no other span than is learned for.</summary>
+    /// <summary>
+    /// Where one candidate alone would have the hand; for comparison. Changes nothing, and asks for no other span than is learned for.
+    /// </summary>
     /// <param name="now">When.</param>
     /// <param name="candidate">Its place in <see cref="Candidates"/>.</param>
     /// <param name="position">Metres.</param>
@@ -188,7 +195,9 @@ public sealed class AdaptivePredictor
         _ => from.Learned * seconds,
     };
 
-    /// <summary>Sees that what is learned is for about the span that is asked for. A single frame more or less is not worth learning anew.</summary>
+    /// <summary>
+    /// Sees that what is learned is for about the span that is asked for. A single frame more or less is not worth learning anew.
+    /// </summary>
     private void Aim(SimTime now)
     {
         double seconds = SecondsAfterNewest(now);

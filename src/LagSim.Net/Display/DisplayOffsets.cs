@@ -6,18 +6,21 @@ using LagSim.Time;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// Hides from the eye that a late event has moved a body: the world is always where it is, and what is drawn is off by what it has changed, less and less so.
+///  Hides from the eye that a late event has moved a body: the world is always where it is, and what is drawn is off by what it has
+/// changed, less and less so.
 /// </summary>
 /// <remarks>
-/// <para>Call <see cref="Update"/> once a frame with the newest render snapshot and the frame's time, then <see cref="TryRead"/> for each body to draw. For display
-/// only: what is drawn differs from peer to peer and must never enter a simulation.</para>
-/// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new render snapshot has it at that same time.
-/// So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the body's offset, and the offset decays
-/// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
-/// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too
-/// large to be smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
-/// <para>For one world: who joins another makes another. A frame costs two readings of the render snapshot a body, and for each body with an offset one look at every
-/// other. Memory grows with the bodies of the render snapshot; otherwise nothing is allocated. Not thread-safe: for the thread that reads render snapshots.</para>
+/// <para>Call <see cref="Update"/> once a frame with the newest render snapshot and the frame's time, then <see cref="TryRead"/> for each
+/// body to draw. For display only: what is drawn differs from peer to peer and must never enter a simulation.</para>
+/// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new render snapshot
+/// has it at that same time. So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the
+/// body's offset, and the offset decays exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the
+/// frame rate.</para>
+/// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn;
+/// where it is too large to be smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
+/// <para>For one world: who joins another makes another. A frame costs two readings of the render snapshot a body, and for each body with
+/// an offset one look at every other. Memory grows with the bodies of the render snapshot; otherwise nothing is allocated. Not thread-safe:
+/// for the thread that reads render snapshots.</para>
 /// </remarks>
 /// <example>
 /// Each frame:
@@ -65,8 +68,12 @@ public sealed class DisplayOffsets
 
     /// <summary>Begins a frame.</summary>
     /// <param name="snapshot">The newest render snapshot.</param>
-    /// <param name="now">The time to show. If it is before that of the last frame, or the render snapshot is an older one, all begins anew without offsets.</param>
-    /// <returns>False if the render snapshot does not cover that time; then nothing changed and bodies are read as in the last frame.</returns>
+    /// <param name="now">
+    /// The time to show. If it is before that of the last frame, or the render snapshot is an older one, all begins anew without offsets.
+    /// </param>
+    /// <returns>
+    /// False if the render snapshot does not cover that time; then nothing changed and bodies are read as in the last frame.
+    /// </returns>
     /// <exception cref="ArgumentNullException"><paramref name="snapshot"/> is null.</exception>
     public bool Update(RenderSnapshot snapshot, SimTime now)
     {

@@ -13,14 +13,20 @@ public sealed class DisplayOptions
     /// <param name="smallCorrection">
     /// Up to what size corrections count as smallest: above 0 m; default 0.05 m. In between the time constant grows in proportion.
     /// </param>
-    /// <param name="largeCorrection">From what size on they count as largest: above <paramref name="smallCorrection"/>; default 1 m.</param>
-    /// <param name="maxSpeed">How fast an offset shrinks at most, in m/s, above 0; default 10 m/s.</param>
-    /// <param name="snapDistance">What is off by more than that, in metres, is not smoothed but shown at once: at least 0; default 5 m.</param>
-    /// <param name="hiding">
-    /// A bounce hides an offset of its change of velocity times this, 0 to 1 s; default 50 ms. The eye does not see where exactly a ball that changes by 10 m/s
-    /// was, half a metre more or less.
+    /// <param name="largeCorrection">
+    /// From what size on they count as largest: above <paramref name="smallCorrection"/>; default 1 m.
     /// </param>
-    /// <param name="penetration">How deep an offset may let a body be drawn inside another thing, in metres, at least 0; default 1 mm.</param>
+    /// <param name="maxSpeed">How fast an offset shrinks at most, in m/s, above 0; default 10 m/s.</param>
+    /// <param name="snapDistance">
+    /// What is off by more than that, in metres, is not smoothed but shown at once: at least 0; default 5 m.
+    /// </param>
+    /// <param name="hiding">
+    ///  A bounce hides an offset of its change of velocity times this, 0 to 1 s; default 50 ms. The eye does not see where exactly a ball
+    /// that changes by 10 m/s was, half a metre more or less.
+    /// </param>
+    /// <param name="penetration">
+    /// How deep an offset may let a body be drawn inside another thing, in metres, at least 0; default 1 mm.
+    /// </param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public DisplayOptions(
         SimDuration? fastest = null,

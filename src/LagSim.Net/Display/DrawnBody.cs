@@ -3,7 +3,9 @@ using LagSim.Scenes;
 namespace LagSim.Net.Display;
 
 /// <summary>How a body is to be drawn in a frame.</summary>
-/// <remarks>Immutable, safe on any thread. <see cref="Jump"/>, <see cref="Decay"/> and <see cref="Dropped"/> tell of this frame alone.</remarks>
+/// <remarks>
+/// Immutable, safe on any thread. <see cref="Jump"/>, <see cref="Decay"/> and <see cref="Dropped"/> tell of this frame alone.
+/// </remarks>
 public readonly struct DrawnBody
 {
     internal DrawnBody(in BodyState state, in Vector3D offset, double jump, double decay, double dropped)
@@ -25,7 +27,8 @@ public readonly struct DrawnBody
     public Vector3D Position => State.Position + Offset;
 
     /// <summary>
-    /// By how many metres late events have moved what was shown in the frame before: the size of the correction that the eye would see without an offset.
+    ///  By how many metres late events have moved what was shown in the frame before: the size of the correction that the eye would see
+    /// without an offset.
     /// </summary>
     public double Jump { get; }
 
@@ -33,7 +36,8 @@ public readonly struct DrawnBody
     public double Decay { get; }
 
     /// <summary>
-    /// How many metres of offset were given up at once: drawn inside something, hidden in a bounce, too large to be smoothed, or the body put elsewhere.
+    ///  How many metres of offset were given up at once: drawn inside something, hidden in a bounce, too large to be smoothed, or the body
+    /// put elsewhere.
     /// </summary>
     public double Dropped { get; }
 }

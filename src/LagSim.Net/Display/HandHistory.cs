@@ -57,7 +57,9 @@ internal sealed class HandHistory
         return low - 1;
     }
 
-    /// <summary>Where the hand was at an instant between the oldest and the newest sample: on the straight line between the two around it.</summary>
+    /// <summary>
+    /// Where the hand was at an instant between the oldest and the newest sample: on the straight line between the two around it.
+    /// </summary>
     internal bool TryPositionAt(SimTime time, out Vector3D position)
     {
         int before = LastAt(time);

@@ -3,8 +3,8 @@ using System;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// How an offset shrinks with time: as exp(-t / tau), but never faster than the largest speed. In closed form, so that frames of any length give the same
-/// curve.
+///  How an offset shrinks with time: as exp(-t / tau), but never faster than the largest speed. In closed form, so that frames of any
+/// length give the same curve.
 /// </summary>
 internal static class OffsetDecay
 {

@@ -18,9 +18,14 @@ public enum ComparisonOutcome
     /// <summary>The log is the same where both cover it, and a committed state differs.</summary>
     StateDiffers,
 
-    /// <summary>There is no committed time that both cover, whatever entries of the log are the same, or one of them has no sound header.</summary>
+    /// <summary>
+    /// There is no committed time that both cover, whatever entries of the log are the same, or one of them has no sound header.
+    /// </summary>
     NothingInCommon,
 
-    /// <summary>The fold versions differ: the libraries that recorded make different states of the same scene and events, so no hash of one says anything of the other's.</summary>
+    /// <summary>
+    /// The fold versions differ: the libraries that recorded make different states of the same scene and events, so no hash of one says
+    /// anything of the other's.
+    /// </summary>
     FoldVersionDiffers,
 }

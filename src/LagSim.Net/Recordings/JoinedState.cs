@@ -14,7 +14,8 @@ internal sealed class JoinedState
     /// <param name="snapshot">See <see cref="Snapshot"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The index is 0.</exception>
     /// <exception cref="ArgumentException">
-    /// The snapshot is further than 48 days from the origin, of its start or before, or longer than <see cref="RecordingFormat.MaxSnapshotBytes"/>.
+    ///  The snapshot is further than 48 days from the origin, of its start or before, or longer than
+    /// <see cref="RecordingFormat.MaxSnapshotBytes"/>.
     /// </exception>
     public JoinedState(uint firstIndex, WorldSnapshot? snapshot)
     {
@@ -45,8 +46,8 @@ internal sealed class JoinedState
     public uint FirstIndex { get; }
 
     /// <summary>
-    /// The world it went on from; every accepted event before <see cref="Time"/> is in it, wherever it stands in the log. Null: it began from the
-    /// scene, and nothing before <see cref="FirstIndex"/> was accepted.
+    ///  The world it went on from; every accepted event before <see cref="Time"/> is in it, wherever it stands in the log. Null: it began
+    /// from the scene, and nothing before <see cref="FirstIndex"/> was accepted.
     /// </summary>
     public WorldSnapshot? Snapshot { get; }
 

@@ -9,9 +9,9 @@ namespace LagSim.Net.Recordings;
 
 /// <summary>What a peer wrote down of a session: the scene, the host's log, and the hashes of its committed states.</summary>
 /// <remarks>
-/// <para>A file that was cut or damaged is read up to the damage: what stands before is here, and <see cref="Damage"/> says where it ends and
-/// why. A file without damage and without <see cref="EndReason"/> is of a process that was killed or still writes, or was cut where a record ends. None of
-/// these <see cref="IsWhole"/>, and what is here of any of them counts.</para>
+/// <para>A file that was cut or damaged is read up to the damage: what stands before is here, and <see cref="Damage"/> says where it ends
+/// and why. A file without damage and without <see cref="EndReason"/> is of a process that was killed or still writes, or was cut where a
+/// record ends. None of these <see cref="IsWhole"/>, and what is here of any of them counts.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class Recording
@@ -68,10 +68,15 @@ public sealed class Recording
     /// <summary>Whether nothing is missing: the file has its end record, and no damage.</summary>
     public bool IsWhole => EndReason is not null && Damage is null;
 
-    /// <summary>The time of the last committed state, up to which the recording can be run again and compared; null when it has none.</summary>
+    /// <summary>
+    /// The time of the last committed state, up to which the recording can be run again and compared; null when it has none.
+    /// </summary>
     public SimTime? HoldsUpTo => CommittedArray.Length > 0 ? CommittedArray[^1].Time : null;
 
-    /// <summary>How far it holds and what it lacks, as the rest of a sentence that begins with what it is called: <c>holds 3 log entries, and ...</c></summary>
+    /// <summary>
+    /// How far it holds and what it lacks, as the rest of a sentence that begins with what it is called: <c>holds 3 log entries, and
+    /// ...</c>
+    /// </summary>
     public string Extent
     {
         get
@@ -92,13 +97,17 @@ public sealed class Recording
     /// <summary>Reads a recording to its end or to its first damage. No content of a file makes it throw.</summary>
     /// <param name="stream">A stream that can be read, from where it stands to its end. It stays open.</param>
     /// <param name="known">The accelerations that are there for the scene to use; null for none.</param>
-    /// <remarks>Memory: a few times the bytes that are there, whatever they announce. Cost of the scene: see <see cref="Wire.SceneFormat"/>.</remarks>
+    /// <remarks>
+    /// Memory: a few times the bytes that are there, whatever they announce. Cost of the scene: see <see cref="Wire.SceneFormat"/>.
+    /// </remarks>
     /// <exception cref="ArgumentNullException">There is no stream.</exception>
     /// <exception cref="IOException">The stream itself cannot be read.</exception>
     public static Recording Read(Stream stream, IReadOnlyList<IAcceleration>? known = null) =>
         new RecordingReader(stream ?? throw new ArgumentNullException(nameof(stream)), known).Read();
 
-    /// <summary>Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration})"/> does; also one that is still being written.</summary>
+    /// <summary>
+    /// Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration})"/> does; also one that is still being written.
+    /// </summary>
     /// <param name="path">The file.</param>
     /// <param name="known">The accelerations that are there for the scene to use; null for none.</param>
     /// <exception cref="IOException">The file cannot be opened or read.</exception>

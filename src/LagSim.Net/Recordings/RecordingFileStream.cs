@@ -28,7 +28,10 @@ internal static class RecordingFileStream
         }
     }
 
-    /// <summary>Locks a file for this process. Windows holds others to what they may share; Linux holds only those who ask for locks, so that everybody can read.</summary>
+    /// <summary>
+    /// Locks a file for this process. Windows holds others to what they may share; Linux holds only those who ask for locks, so that
+    /// everybody can read.
+    /// </summary>
     private static void ThrowIfLocked(FileStream file)
     {
         if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux) || !file.CanSeek)

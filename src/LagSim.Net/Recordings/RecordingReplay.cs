@@ -10,10 +10,13 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>A recording run again: its scene with the events that were accepted, and every committed state checked against its hashes.</summary>
+/// <summary>
+/// A recording run again: its scene with the events that were accepted, and every committed state checked against its hashes.
+/// </summary>
 /// <remarks>
 /// <para>By the invariant the state is a fold of the scene over the accepted events, so a replay gives the recorded hashes whatever the
-/// network did, or the peer that recorded departed from it. Of a peer that joined late it goes on from the snapshot that the peer went on from.</para>
+/// network did, or the peer that recorded departed from it. Of a peer that joined late it goes on from the snapshot that the peer went on
+/// from.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class RecordingReplay
@@ -60,8 +63,8 @@ public sealed class RecordingReplay
     /// <param name="recording">What to run. Of one that is not whole that which it holds is run.</param>
     /// <param name="cancellation">Ends the run between two instants of the world.</param>
     /// <remarks>
-    /// Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one instant.
-    /// Cost: that of the simulation. A scene may ask for more events than anyone can wait for, hence the cancellation.
+    ///  Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one
+    /// instant. Cost: that of the simulation. A scene may ask for more events than anyone can wait for, hence the cancellation.
     /// </remarks>
     /// <exception cref="ArgumentNullException">There is no recording.</exception>
     /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
@@ -135,8 +138,8 @@ public sealed class RecordingReplay
     private static string Holds(Recording recording) => " The recording " + recording.Extent;
 
     /// <summary>
-    /// Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about in what has happened
-    /// since.
+    ///  Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about
+    /// in what has happened since.
     /// </summary>
     private static string WhoseDoing(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
     {

@@ -11,9 +11,10 @@ namespace LagSim.Net.Recordings;
 
 /// <summary>Writes a recording while its peer takes part in a session.</summary>
 /// <remarks>
-/// <para>Every committed state is flushed to the operating system, so that a process that is killed leaves a file that can be read up to there.</para>
-/// <para>For one thread at a time. Writing entries and states allocates nothing. What the stream throws reaches the caller; a record may then
-/// be half written, so nothing more can be.</para>
+/// <para>Every committed state is flushed to the operating system, so that a process that is killed leaves a file that can be read up to
+/// there.</para>
+/// <para>For one thread at a time. Writing entries and states allocates nothing. What the stream throws reaches the caller; a record may
+/// then be half written, so nothing more can be.</para>
 /// </remarks>
 internal sealed class RecordingWriter : IDisposable
 {
@@ -29,13 +30,17 @@ internal sealed class RecordingWriter : IDisposable
     private bool isDisposed;
 
     /// <summary>Begins a recording: header, scene and what a late client began with are written at once.</summary>
-    /// <param name="stream">Where to; it must be writable and belongs to the writer, unless <paramref name="leaveOpen"/> says otherwise.</param>
+    /// <param name="stream">
+    /// Where to; it must be writable and belongs to the writer, unless <paramref name="leaveOpen"/> says otherwise.
+    /// </param>
     /// <param name="peer">The number of the peer that records; 0 is the host.</param>
     /// <param name="scene">The session's scene.</param>
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
     /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
     /// <param name="leaveOpen">Whether the stream stays open when the writer is disposed.</param>
-    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
+    /// <exception cref="ArgumentException">
+    /// The scene or the start cannot travel, or the joined state is of a world with another start.
+    /// </exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public RecordingWriter(Stream stream, byte peer, Scene scene, SimTime start, JoinedState? joined = null, bool leaveOpen = false)
     {
@@ -73,7 +78,9 @@ internal sealed class RecordingWriter : IDisposable
     /// <param name="scene">The session's scene.</param>
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
     /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
-    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
+    /// <exception cref="ArgumentException">
+    /// The scene or the start cannot travel, or the joined state is of a world with another start.
+    /// </exception>
     /// <exception cref="IOException">The file cannot be made or written, or another process is writing it.</exception>
     /// <exception cref="UnauthorizedAccessException">The file may not be written.</exception>
     public static RecordingWriter Create(string path, byte peer, Scene scene, SimTime start, JoinedState? joined = null)
@@ -91,7 +98,9 @@ internal sealed class RecordingWriter : IDisposable
     }
 
     /// <summary>Writes the next entry of the host's log.</summary>
-    /// <param name="index">Its place in the log: one more than that of the entry before, and at first 1 or the joined state's first.</param>
+    /// <param name="index">
+    /// Its place in the log: one more than that of the entry before, and at first 1 or the joined state's first.
+    /// </param>
     /// <param name="verdict">What the host said; not <see cref="Verdict.Pending"/>.</param>
     /// <param name="what">The event.</param>
     /// <exception cref="ArgumentOutOfRangeException">It is not the next entry, or not a verdict.</exception>
@@ -146,7 +155,9 @@ internal sealed class RecordingWriter : IDisposable
         hasCommitted = true;
     }
 
-    /// <summary>Ends the recording and flushes. Without it readers tell that the recording is not whole: its writer was ended, or the file is cut.</summary>
+    /// <summary>
+    /// Ends the recording and flushes. Without it readers tell that the recording is not whole: its writer was ended, or the file is cut.
+    /// </summary>
     /// <param name="reason">Why, as a sentence for people; what is longer than <see cref="RecordingFormat.MaxReasonBytes"/> is cut.</param>
     /// <exception cref="InvalidOperationException">The recording has ended, or failed before.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>

@@ -8,9 +8,10 @@ namespace LagSim.Net.Recordings;
 
 /// <summary>Records a session as one peer has it: its log, and the hashes of its committed states.</summary>
 /// <remarks>
-/// <para>It listens to the session and writes on the session's thread, to a file that is made once there is a world. A disk that fails
-/// does not end the session: the recording ends where it did, and <see cref="Failure"/> and <see cref="Failed"/> tell. When a fresh copy takes the place of the
-/// world, the recording ends with that reason and another begins, in a file named after the first: of <c>game.lagsim</c>, <c>game.2.lagsim</c>.</para>
+/// <para>It listens to the session and writes on the session's thread, to a file that is made once there is a world. A disk that fails does
+/// not end the session: the recording ends where it did, and <see cref="Failure"/> and <see cref="Failed"/> tell. When a fresh copy takes
+/// the place of the world, the recording ends with that reason and another begins, in a file named after the first: of <c>game.lagsim</c>,
+/// <c>game.2.lagsim</c>.</para>
 /// <para>To be made before the session's first step, and disposed of on its thread or once that has stopped.</para>
 /// </remarks>
 public sealed class SessionRecorder : IDisposable
@@ -31,8 +32,8 @@ public sealed class SessionRecorder : IDisposable
     /// <summary>Records a session that has no world yet.</summary>
     /// <param name="session">The session.</param>
     /// <param name="path">
-    /// The file, which is made or replaced once there is a world; its name should end with <see cref="RecordingFormat.Extension"/>. That it cannot be
-    /// made is a <see cref="Failure"/> like any other.
+    ///  The file, which is made or replaced once there is a world; its name should end with <see cref="RecordingFormat.Extension"/>. That
+    /// it cannot be made is a <see cref="Failure"/> like any other.
     /// </param>
     /// <param name="length">Committed states later after the session's start than this are left out; null takes in all.</param>
     /// <exception cref="InvalidOperationException">The session has a world already: what happened before would be missing.</exception>
@@ -63,7 +64,8 @@ public sealed class SessionRecorder : IDisposable
     }
 
     /// <summary>
-    /// Raised once, on the session's thread, when nothing more can be recorded; with the same sentence as <see cref="Failure"/>. Handlers must not throw.
+    ///  Raised once, on the session's thread, when nothing more can be recorded; with the same sentence as <see cref="Failure"/>. Handlers
+    /// must not throw.
     /// </summary>
     public event Action<string>? Failed;
 
@@ -71,8 +73,8 @@ public sealed class SessionRecorder : IDisposable
     public string? Failure => failure;
 
     /// <summary>
-    /// The files written so far, in order: none before there is a world, then the one that was asked for, and one more for each fresh copy that took the place
-    /// of the world. From any thread.
+    ///  The files written so far, in order: none before there is a world, then the one that was asked for, and one more for each fresh copy
+    /// that took the place of the world. From any thread.
     /// </summary>
     public IReadOnlyList<string> Files => files;
 

@@ -27,7 +27,9 @@ internal sealed class ActionRequests
         }
     }
 
-    /// <summary>A request that is not answered yet. One that is still in use is left to whoever has it, and another takes its place.</summary>
+    /// <summary>
+    /// A request that is not answered yet. One that is still in use is left to whoever has it, and another takes its place.
+    /// </summary>
     internal ActionRequest Take(in PlayerAction action)
     {
         lock (gate)

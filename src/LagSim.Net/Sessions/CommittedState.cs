@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>The hashes of a peer's world at a time that no late event can change any more: the same on every peer, or they differ for good.</summary>
+/// <summary>
+/// The hashes of a peer's world at a time that no late event can change any more: the same on every peer, or they differ for good.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct CommittedState : IEquatable<CommittedState>
 {

@@ -5,7 +5,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// The first committed state of a client that is not the host's: since when, and which event of a player makes the difference, in both versions.
+///  The first committed state of a client that is not the host's: since when, and which event of a player makes the difference, in both
+/// versions.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class Divergence
@@ -36,7 +37,8 @@ public sealed class Divergence
     }
 
     /// <summary>
-    /// The newest committed time at which the states were the same; before any, the tick before this peer's world begins. What differs came after it.
+    ///  The newest committed time at which the states were the same; before any, the tick before this peer's world begins. What differs
+    /// came after it.
     /// </summary>
     public SimTime After { get; }
 
@@ -50,7 +52,8 @@ public sealed class Divergence
     public ulong HostHash { get; }
 
     /// <summary>
-    /// The accepted events stamped between the two times that have had their effect in this peer's world, by stamp; of a session with very many the newest.
+    ///  The accepted events stamped between the two times that have had their effect in this peer's world, by stamp; of a session with very
+    /// many the newest.
     /// </summary>
     public IReadOnlyList<LogEntry> Events { get; }
 
@@ -58,7 +61,8 @@ public sealed class Divergence
     public DivergenceFinding Finding { get; }
 
     /// <summary>
-    /// With <see cref="DivergenceFinding.EventDiffers"/> the first event that differs as the host has it; null if the host has no such event.
+    ///  With <see cref="DivergenceFinding.EventDiffers"/> the first event that differs as the host has it; null if the host has no such
+    /// event.
     /// </summary>
     public LogEntry? HostVersion { get; }
 
@@ -66,7 +70,8 @@ public sealed class Divergence
     public LogEntry? OwnVersion { get; }
 
     /// <summary>
-    /// Whether <see cref="OwnVersion"/> has had its effect in this peer's world. One that was accepted and has not came too late for the history here.
+    ///  Whether <see cref="OwnVersion"/> has had its effect in this peer's world. One that was accepted and has not came too late for the
+    /// history here.
     /// </summary>
     public bool HasOwnEffect { get; }
 

@@ -6,11 +6,14 @@ public enum DivergenceFinding
     /// <summary>The host has been asked for its events, and has not told all of them yet.</summary>
     Asking = 0,
 
-    /// <summary>An event of a player differs; <see cref="Divergence.HostVersion"/> and <see cref="Divergence.OwnVersion"/> are its two versions.</summary>
+    /// <summary>
+    /// An event of a player differs; <see cref="Divergence.HostVersion"/> and <see cref="Divergence.OwnVersion"/> are its two versions.
+    /// </summary>
     EventDiffers = 1,
 
     /// <summary>
-    /// All events of players are the same on both: one of the two worlds made something else of them, or the hash that the host told is not its world's.
+    ///  All events of players are the same on both: one of the two worlds made something else of them, or the hash that the host told is
+    /// not its world's.
     /// </summary>
     EventsAgree = 2,
 

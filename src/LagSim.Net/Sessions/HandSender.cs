@@ -7,12 +7,15 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// Says when the others must hear of a hand that holds a body: when what they foretell of it from the last keyframe is off by more than a set distance.
+///  Says when the others must hear of a hand that holds a body: when what they foretell of it from the last keyframe is off by more than a
+/// set distance.
 /// </summary>
 /// <remarks>
-/// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same keyframes. For one
-/// hand from one grab to its release, on one thread. What is done is stamped when it is done, so a keyframe is to be done at once.</para>
-/// <para>As <c>if (sender.TrySample(now, hand, speed, out PlayerAction keyframe)) { session.Do(keyframe); }</c>, each frame, from the grab on.</para>
+/// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same
+/// keyframes. For one hand from one grab to its release, on one thread. What is done is stamped when it is done, so a keyframe is to be
+/// done at once.</para>
+/// <para>As <c>if (sender.TrySample(now, hand, speed, out PlayerAction keyframe)) { session.Do(keyframe); }</c>, each frame, from the grab
+/// on.</para>
 /// </remarks>
 public sealed class HandSender
 {
@@ -37,7 +40,8 @@ public sealed class HandSender
     public long Keyframes { get; private set; }
 
     /// <summary>
-    /// The greatest distance in metres by which a sample was off from what the others foretold, those included that a keyframe was due for; of the first none.
+    ///  The greatest distance in metres by which a sample was off from what the others foretold, those included that a keyframe was due
+    /// for; of the first none.
     /// </summary>
     public double GreatestError { get; private set; }
 

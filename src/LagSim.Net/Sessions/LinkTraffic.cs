@@ -41,8 +41,8 @@ public sealed class LinkTraffic
     public SimDuration RoundTrip { get; }
 
     /// <summary>
-    /// How much of the round trips of late is waiting in a queue, in one direction or the other; zero where there is none worth speaking of. While there is one,
-    /// this end repeats nothing and puts more into each datagram.
+    ///  How much of the round trips of late is waiting in a queue, in one direction or the other; zero where there is none worth speaking
+    /// of. While there is one, this end repeats nothing and puts more into each datagram.
     /// </summary>
     public SimDuration Queueing { get; }
 }

@@ -6,9 +6,10 @@ namespace LagSim.Net.Sessions;
 
 /// <summary>What shows a host that one is a player it had before: the player's number, and a secret that the host gave with it.</summary>
 /// <remarks>
-/// <para>A client gets one with its number (<see cref="ClientSession.Pass"/>), and uses it by itself when it lost its host. A program that wants to come back
-/// after a restart keeps it, as text, and gives it in <see cref="ClientOptions.Pass"/>. It is good with the host that gave it, until that host ends or has given the number to
-/// somebody else. Whoever has it can take the player's place, so it is kept like a password. It travels unencrypted once, when it is given.</para>
+/// <para>A client gets one with its number (<see cref="ClientSession.Pass"/>), and uses it by itself when it lost its host. A program that
+/// wants to come back after a restart keeps it, as text, and gives it in <see cref="ClientOptions.Pass"/>. It is good with the host that
+/// gave it, until that host ends or has given the number to somebody else. Whoever has it can take the player's place, so it is kept like a
+/// password. It travels unencrypted once, when it is given.</para>
 /// <para>Immutable, safe on any thread. <c>default</c> is no pass.</para>
 /// </remarks>
 public readonly struct PlayerPass : IEquatable<PlayerPass>

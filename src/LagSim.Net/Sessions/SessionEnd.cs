@@ -21,10 +21,15 @@ public enum SessionEnd
     /// <summary>The host gave this client up: it heard nothing of it, or it did not keep up.</summary>
     Disconnect,
 
-    /// <summary>What may still change of this peer's world is more than <see cref="SessionOptions.MaxSegments"/>, and was again in fresh copies of it.</summary>
+    /// <summary>
+    /// What may still change of this peer's world is more than <see cref="SessionOptions.MaxSegments"/>, and was again in fresh copies of
+    /// it.
+    /// </summary>
     TimelinesFull,
 
-    /// <summary>What happens in the session is more than the link carries: even fresh copies of the world were out of date again at once.</summary>
+    /// <summary>
+    /// What happens in the session is more than the link carries: even fresh copies of the world were out of date again at once.
+    /// </summary>
     LinkTooSlow,
 
     /// <summary>What the host sent makes no world, or the world cannot be simulated any further.</summary>

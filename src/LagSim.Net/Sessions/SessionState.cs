@@ -16,7 +16,8 @@ public enum SessionState
     Running,
 
     /// <summary>
-    /// A client that lost its host, or its world, asks to be let in again. What it knew stays readable and stands still, and nothing can be done.
+    ///  A client that lost its host, or its world, asks to be let in again. What it knew stays readable and stands still, and nothing can
+    /// be done.
     /// </summary>
     Rejoining,
 

@@ -13,7 +13,9 @@ internal static class WarmupScene
 
     private const double Radius = 0.5;
 
-    /// <summary>A few bodies, each looking at every other, under every kind of law; or so many that they are found by their index, in plain flight.</summary>
+    /// <summary>
+    /// A few bodies, each looking at every other, under every kind of law; or so many that they are found by their index, in plain flight.
+    /// </summary>
     internal static Scene Of(bool few)
     {
         SceneBuilder builder = new SceneBuilder("warm-up")

@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Strategies;
 
-/// <summary>The event happens at its own time: what it can have touched since, and only that, is taken back and simulated again. Right bit for bit.</summary>
+/// <summary>
+/// The event happens at its own time: what it can have touched since, and only that, is taken back and simulated again. Right bit for bit.
+/// </summary>
 internal sealed class Healing : ILateEventStrategy
 {
     /// <inheritdoc/>

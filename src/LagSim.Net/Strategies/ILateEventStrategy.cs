@@ -17,13 +17,18 @@ internal interface ILateEventStrategy
     /// <summary>Whether a late event takes effect at its own time, so that what was there since is rewritten.</summary>
     bool RewritesPast { get; }
 
-    /// <summary>How the world rewrites what an event before its time has changed; also one's own events, which lie in what is simulated ahead.</summary>
+    /// <summary>
+    /// How the world rewrites what an event before its time has changed; also one's own events, which lie in what is simulated ahead.
+    /// </summary>
     HealingMode Mode { get; }
 
     /// <summary>
-    /// How far behind shared time the world is shown, at least zero: what has come within that time is there before it is drawn. Zero shows the present.
+    ///  How far behind shared time the world is shown, at least zero: what has come within that time is there before it is drawn. Zero
+    /// shows the present.
     /// </summary>
-    /// <remarks>One's own actions show that much later too. A frame reads at <see cref="Sessions.Session.DisplayTime"/>, which knows.</remarks>
+    /// <remarks>
+    /// One's own actions show that much later too. A frame reads at <see cref="Sessions.Session.DisplayTime"/>, which knows.
+    /// </remarks>
     SimDuration DisplayDelay { get; }
 
     /// <summary>Brings the event into the world.</summary>

@@ -6,12 +6,12 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>
-/// Draw the past: the world heals as with <see cref="Healing"/>, right bit for bit, but what is shown lies <see cref="DisplayDelay"/> behind shared time, so
-/// that most events have come before it is drawn, and nothing jumps.
+///  Draw the past: the world heals as with <see cref="Healing"/>, right bit for bit, but what is shown lies <see cref="DisplayDelay"/>
+/// behind shared time, so that most events have come before it is drawn, and nothing jumps.
 /// </summary>
 /// <remarks>
-/// The price is paid always and by everybody: all that is seen is old by the delay, what this peer itself does included. That is input latency, which no other
-/// strategy has. An event that comes later than the delay is seen to jump as with any other.
+///  The price is paid always and by everybody: all that is seen is old by the delay, what this peer itself does included. That is input
+/// latency, which no other strategy has. An event that comes later than the delay is seen to jump as with any other.
 /// </remarks>
 internal sealed class Interpolation : ILateEventStrategy
 {

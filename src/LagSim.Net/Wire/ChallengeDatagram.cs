@@ -3,8 +3,8 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// The host's answer to a <see cref="ConnectRequestDatagram"/>, or to an update that comes from another address than those before: bring this cookie back, then I know
-/// that you are where you say you are.
+///  The host's answer to a <see cref="ConnectRequestDatagram"/>, or to an update that comes from another address than those before: bring
+/// this cookie back, then I know that you are where you say you are.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct ChallengeDatagram

@@ -2,14 +2,20 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client's first word to a host. The host keeps nothing of it; it answers with a <see cref="ChallengeDatagram"/> of the same length.</summary>
-/// <remarks>Immutable, safe on any thread. Where its nonce stands is the same in every version, so that one of another version can be answered.</remarks>
+/// <summary>
+/// A client's first word to a host. The host keeps nothing of it; it answers with a <see cref="ChallengeDatagram"/> of the same length.
+/// </summary>
+/// <remarks>
+/// Immutable, safe on any thread. Where its nonce stands is the same in every version, so that one of another version can be answered.
+/// </remarks>
 internal readonly struct ConnectRequestDatagram
 {
     /// <summary>A request of this nonce.</summary>
     public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;
 
-    /// <summary>A number the client drew; every answer carries it, so that an answer to another attempt is not taken for this one's.</summary>
+    /// <summary>
+    /// A number the client drew; every answer carries it, so that an answer to another attempt is not taken for this one's.
+    /// </summary>
     public ulong Nonce { get; }
 
     /// <summary>Writes the datagram.</summary>

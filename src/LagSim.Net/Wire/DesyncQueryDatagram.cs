@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client whose committed state is not the host's asks which accepted events the host has between the last time they agreed and then.</summary>
+/// <summary>
+/// A client whose committed state is not the host's asks which accepted events the host has between the last time they agreed and then.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct DesyncQueryDatagram
 {

@@ -23,7 +23,9 @@ internal readonly struct DesyncReportDatagram
         Event = what;
     }
 
-    /// <summary>There is none: whole, because nothing happened in that time; not whole, because the host no longer has all that did.</summary>
+    /// <summary>
+    /// There is none: whole, because nothing happened in that time; not whole, because the host no longer has all that did.
+    /// </summary>
     public DesyncReportDatagram(ulong sessionId, bool isWhole)
     {
         SessionId = sessionId;

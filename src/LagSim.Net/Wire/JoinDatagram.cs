@@ -33,7 +33,9 @@ internal readonly struct JoinDatagram
     /// <summary>By which version of the rules the client computes worlds; see <see cref="Simulation.FoldVersion"/>.</summary>
     public uint FoldVersion { get; }
 
-    /// <summary>The number of the player that the client was before; 0: none, and then there is no <see cref="PlayerProof"/> either.</summary>
+    /// <summary>
+    /// The number of the player that the client was before; 0: none, and then there is no <see cref="PlayerProof"/> either.
+    /// </summary>
     public byte Player { get; }
 
     /// <summary>Shows that the client has that player's pass, without telling it: a keyed hash of nonce and cookie.</summary>

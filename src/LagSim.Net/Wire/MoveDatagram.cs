@@ -2,7 +2,9 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.</summary>
+/// <summary>
+/// A client whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct MoveDatagram
 {

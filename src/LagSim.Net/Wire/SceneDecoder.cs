@@ -5,7 +5,9 @@ using LagSim.Scenes;
 namespace LagSim.Net.Wire;
 
 /// <summary>Makes a scene of bytes that anyone may have sent, part by part, and tells in a sentence what is wrong with them.</summary>
-/// <remarks>What is read goes through a <see cref="SceneBuilder"/>, so that the wire lets nothing in that a program could not build itself.</remarks>
+/// <remarks>
+/// What is read goes through a <see cref="SceneBuilder"/>, so that the wire lets nothing in that a program could not build itself.
+/// </remarks>
 internal ref struct SceneDecoder
 {
     private readonly IReadOnlyList<IAcceleration>? known;
@@ -208,7 +210,9 @@ internal ref struct SceneDecoder
         builder.WithPeriodicBox(size);
     }
 
-    /// <summary>Begins the parts of one kind. More than are allowed, or than the bytes that are left can hold, are refused at once.</summary>
+    /// <summary>
+    /// Begins the parts of one kind. More than are allowed, or than the bytes that are left can hold, are refused at once.
+    /// </summary>
     private int Begin(string what, int most, int leastBytes)
     {
         if (!IsSound)

@@ -24,8 +24,9 @@ internal static class SnapshotFormat
 
     /// <summary>The bytes of a snapshot.</summary>
     /// <exception cref="ArgumentException">
-    /// A body has a number that is not finite, a negative support, a contact with a surface below <see cref="PersistentContact.NoSurface"/>,
-    /// or more than 65,535 contacts, none of which a world has; or all of them take 2 GiB or more.
+    ///  A body has a number that is not finite, a negative support, a contact with a surface below
+    /// <see cref="PersistentContact.NoSurface"/>, or more than 65,535 contacts, none of which a world has; or all of them take 2 GiB or
+    /// more.
     /// </exception>
     public static byte[] Encode(WorldSnapshot snapshot)
     {

@@ -10,7 +10,9 @@ internal sealed partial class UpdateDatagram
     /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxBytes"/> always do.</param>
     /// <returns>Its length, <see cref="EncodedLength"/>.</returns>
     /// <exception cref="ArgumentException">The destination is too short, or a time is out of range.</exception>
-    /// <exception cref="InvalidOperationException">The numbers of the entries do not end by 4,294,967,295, or bits of an echo are set without its number.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The numbers of the entries do not end by 4,294,967,295, or bits of an echo are set without its number.
+    /// </exception>
     public int Encode(Span<byte> destination)
     {
         if (!AreIndicesInRange)

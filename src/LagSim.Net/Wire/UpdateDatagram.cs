@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>What peers send each other all the time: clock readings, acknowledgements, the watermark, and events not yet acknowledged.</summary>
+/// <summary>
+/// What peers send each other all the time: clock readings, acknowledgements, the watermark, and events not yet acknowledged.
+/// </summary>
 /// <remarks>
 /// <para>One object, used again and again: encoding and decoding allocate nothing. For one thread at a time.</para>
 /// <para>Times that may be missing say so with <see cref="SimTime.MinValue"/>. All times are within <see cref="WireFormat.MaxTimeTicks"/>
@@ -51,17 +53,22 @@ internal sealed partial class UpdateDatagram
     public uint EchoNumber { get; set; }
 
     /// <summary>
-    /// Which of the 32 updates before that one the sender has: bit n is set for <see cref="EchoNumber"/> - 1 - n. 0 without <see cref="EchoNumber"/>.
+    ///  Which of the 32 updates before that one the sender has: bit n is set for <see cref="EchoNumber"/> - 1 - n. 0 without
+    /// <see cref="EchoNumber"/>.
     /// </summary>
     public uint EchoBits { get; set; }
 
     /// <summary>When the newest one arrived, by the sender's own clock. Without <see cref="EchoNumber"/> it does not travel.</summary>
     public SimTime EchoReceived { get; set; }
 
-    /// <summary>The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided, or the addressee knows it.</summary>
+    /// <summary>
+    /// The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided, or the addressee knows it.
+    /// </summary>
     public SimTime Start { get; set; }
 
-    /// <summary>The shared time before which no accepted event comes after this update's last entry; <see cref="SimTime.MinValue"/>: none.</summary>
+    /// <summary>
+    /// The shared time before which no accepted event comes after this update's last entry; <see cref="SimTime.MinValue"/>: none.
+    /// </summary>
     public SimTime Watermark { get; set; }
 
     /// <summary>
@@ -80,8 +87,8 @@ internal sealed partial class UpdateDatagram
     public SimTime HashTime { get; private set; }
 
     /// <summary>
-    /// The hashes of the sender's committed states, newest first, up to <see cref="MaxHashes"/>: each of the instant one commit interval before that of the one
-    /// before it. Valid until the next change to this object.
+    ///  The hashes of the sender's committed states, newest first, up to <see cref="MaxHashes"/>: each of the instant one commit interval
+    /// before that of the one before it. Valid until the next change to this object.
     /// </summary>
     public ReadOnlySpan<ulong> StateHashes => hashes.AsSpan(0, hashCount);
 
@@ -97,7 +104,9 @@ internal sealed partial class UpdateDatagram
     /// <summary>The entries, valid until the next change to this object.</summary>
     public ReadOnlySpan<UpdateEntry> Entries => Held;
 
-    /// <summary>The same for this library, which indexes no read-only span: some Mono runtimes cannot link that (docs/ARCHITECTURE.md).</summary>
+    /// <summary>
+    /// The same for this library, which indexes no read-only span: some Mono runtimes cannot link that (docs/ARCHITECTURE.md).
+    /// </summary>
     internal Span<UpdateEntry> Held => entries.AsSpan(0, count);
 
     /// <summary>The datagram's length as it stands, in bytes.</summary>
@@ -141,7 +150,9 @@ internal sealed partial class UpdateDatagram
 
     /// <summary>Puts one more entry at the end, if it fits; room for the start is always kept. Hashes are put in before.</summary>
     /// <returns>False when the datagram is full for an event of this kind.</returns>
-    /// <exception cref="ArgumentException">The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.</exception>
+    /// <exception cref="ArgumentException">
+    /// The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.
+    /// </exception>
     public bool TryAdd(Verdict verdict, in ExternalEvent what) => TryAdd(new UpdateEntry(verdict, what));
 
     /// <summary>Puts the addressee's own event of that number at the end, if it fits.</summary>

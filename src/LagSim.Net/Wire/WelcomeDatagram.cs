@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host lets a client come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.</summary>
+/// <summary>
+/// The host lets a client come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct WelcomeDatagram
 {

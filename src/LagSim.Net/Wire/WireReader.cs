@@ -59,7 +59,9 @@ internal ref struct WireReader
     /// <summary>One byte.</summary>
     public byte ReadByte() => TryTake(1, out ReadOnlySpan<byte> taken) ? ByteAt(taken, 0) : (byte)0;
 
-    /// <summary>One byte of many, which must be there. Not by the span's own indexer: some Mono runtimes cannot link it (docs/ARCHITECTURE.md).</summary>
+    /// <summary>
+    /// One byte of many, which must be there. Not by the span's own indexer: some Mono runtimes cannot link it (docs/ARCHITECTURE.md).
+    /// </summary>
     internal static byte ByteAt(ReadOnlySpan<byte> bytes, int index) => MemoryMarshal.Read<byte>(bytes.Slice(index));
 
     /// <summary>Two bytes.</summary>

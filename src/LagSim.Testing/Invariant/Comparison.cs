@@ -8,7 +8,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Testing.Invariant;
 
-/// <summary>Holds worlds against the one that had every accepted event before it began: states, hashes of events, and whole timelines.</summary>
+/// <summary>
+/// Holds worlds against the one that had every accepted event before it began: states, hashes of events, and whole timelines.
+/// </summary>
 internal sealed class Comparison
 {
     private const int Instants = 12;
@@ -16,7 +18,9 @@ internal sealed class Comparison
     private readonly Simulation expected;
     private readonly List<(BodyId Body, TimelineEntry[] Entries)> timelines = [];
 
-    /// <param name="expected">The world that never had a delay; advanced beyond all that are compared with it, with a history without end.</param>
+    /// <param name="expected">
+    /// The world that never had a delay; advanced beyond all that are compared with it, with a history without end.
+    /// </param>
     internal Comparison(Simulation expected)
     {
         this.expected = expected;
@@ -36,8 +40,8 @@ internal sealed class Comparison
     internal FirstDifference? First { get; private set; }
 
     /// <summary>
-    /// The first hash of states or events that a peer has otherwise, as a sentence; of several peers that of the first. The timelines may agree all the same, where
-    /// a committed state came right afterwards, or an event was counted that changed nothing.
+    ///  The first hash of states or events that a peer has otherwise, as a sentence; of several peers that of the first. The timelines may
+    /// agree all the same, where a committed state came right afterwards, or an event was counted that changed nothing.
     /// </summary>
     internal string? FirstHash { get; private set; }
 

@@ -4,19 +4,22 @@ namespace LagSim.Testing.Links;
 
 /// <summary>Where a direction of a link is narrowest: so many bits a second get through, and so many bytes can wait for it.</summary>
 /// <remarks>
-/// <para>Made like the Linux kernel's token bucket filter, <c>tc qdisc add dev D root tbf rate R burst 1540 latency T</c>, against which it was measured: tokens come
-/// in at the rate, up to the burst; a datagram leaves as soon as there are tokens for all of it, so after a silence at once, and takes them.</para>
+/// <para>Made like the Linux kernel's token bucket filter, <c>tc qdisc add dev D root tbf rate R burst 1540 latency T</c>, against which it
+/// was measured: tokens come in at the rate, up to the burst; a datagram leaves as soon as there are tokens for all of it, so after a
+/// silence at once, and takes them.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class Bottleneck
 {
     /// <summary>
-    /// What each datagram takes besides its own bytes, 42: 20 for IPv4, 8 for UDP, 14 for Ethernet. So the kernel counts them at a virtual Ethernet
-    /// device; <see cref="PortTraffic.HeaderBytes"/>, which measures a sender and not a wire, leaves Ethernet out.
+    ///  What each datagram takes besides its own bytes, 42: 20 for IPv4, 8 for UDP, 14 for Ethernet. So the kernel counts them at a virtual
+    /// Ethernet device; <see cref="PortTraffic.HeaderBytes"/>, which measures a sender and not a wire, leaves Ethernet out.
     /// </summary>
     public const int OverheadBytes = PortTraffic.HeaderBytes + 14;
 
-    /// <summary>The burst that there is if none is said, in bytes: one full Ethernet frame and a little, the least that lets every datagram through.</summary>
+    /// <summary>
+    /// The burst that there is if none is said, in bytes: one full Ethernet frame and a little, the least that lets every datagram through.
+    /// </summary>
     public const int DefaultBurstBytes = 1_540;
 
     /// <summary>The most that a burst can be, in bytes.</summary>
@@ -47,18 +50,23 @@ public sealed class Bottleneck
             : throw new ArgumentOutOfRangeException(nameof(discipline), discipline, "A queue is DropTail or CoDel.");
     }
 
-    /// <summary>How much gets through, in bit/s; <see cref="MinBitsPerSecond"/> to <see cref="MaxBitsPerSecond"/>. <see cref="OverheadBytes"/> count.</summary>
+    /// <summary>
+    /// How much gets through, in bit/s; <see cref="MinBitsPerSecond"/> to <see cref="MaxBitsPerSecond"/>. <see cref="OverheadBytes"/>
+    /// count.
+    /// </summary>
     public long RateBitsPerSecond { get; }
 
-    /// <summary>How long the queue is, in milliseconds at that rate, besides one burst; 0 to <see cref="LinkLeg.MaxMilliseconds"/>.</summary>
+    /// <summary>
+    /// How long the queue is, in milliseconds at that rate, besides one burst; 0 to <see cref="LinkLeg.MaxMilliseconds"/>.
+    /// </summary>
     public double QueueMilliseconds { get; }
 
     /// <summary>What the queue does when it fills; default drop-tail.</summary>
     public QueueDiscipline Discipline { get; }
 
     /// <summary>
-    /// How much may leave at once after a silence, in bytes; what is longer never gets through. <see cref="DefaultBurstBytes"/>, the default, to
-    /// <see cref="MaxBurstBytes"/>; or 0, a line on which each datagram takes its bits' time, whatever was before it.
+    ///  How much may leave at once after a silence, in bytes; what is longer never gets through. <see cref="DefaultBurstBytes"/>, the
+    /// default, to <see cref="MaxBurstBytes"/>; or 0, a line on which each datagram takes its bits' time, whatever was before it.
     /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">It is out of range.</exception>
     public int BurstBytes

@@ -4,28 +4,38 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A TCP connection that sends without end, in virtual time: somebody's download, which takes what a bottleneck gives and fills its queue.</summary>
+/// <summary>
+/// A TCP connection that sends without end, in virtual time: somebody's download, which takes what a bottleneck gives and fills its queue.
+/// </summary>
 /// <remarks>
-/// <para>NewReno: slow start, congestion avoidance, fast retransmit, limited transmit (RFC 5681, 3042), fast recovery with partial acknowledgements in the impatient variant
-/// (RFC 6582), and the retransmission timer of RFC 6298 on the round trip that every acknowledgement tells (RFC 7323). The window begins with ten segments (RFC
-/// 6928). The receiver acknowledges each segment at once and has room for <see cref="ReceiveWindow"/>. No handshake, no end, no selective acknowledgements: after many losses
-/// at once it comes back more slowly than systems of today do.</para>
-/// <para>It is a part of the queues that it goes through: whoever sends through one of them finds it there as it is by then. So nobody needs to step it;
-/// <see cref="RunUntil"/> is for reading figures. All who share a queue must act in the order of time.</para>
+/// <para>NewReno: slow start, congestion avoidance, fast retransmit, limited transmit (RFC 5681, 3042), fast recovery with partial
+/// acknowledgements in the impatient variant (RFC 6582), and the retransmission timer of RFC 6298 on the round trip that every
+/// acknowledgement tells (RFC 7323). The window begins with ten segments (RFC 6928). The receiver acknowledges each segment at once and has
+/// room for <see cref="ReceiveWindow"/>. No handshake, no end, no selective acknowledgements: after many losses at once it comes back more
+/// slowly than systems of today do.</para>
+/// <para>It is a part of the queues that it goes through: whoever sends through one of them finds it there as it is by then. So nobody
+/// needs to step it; <see cref="RunUntil"/> is for reading figures. All who share a queue must act in the order of time.</para>
 /// <para>Deterministic: integers, and the luck of its links. Some 250 steps a second of time at 1 Mbit/s. Not thread-safe.</para>
 /// </remarks>
 internal sealed class BulkTransfer
 {
-    /// <summary>What a segment carries, in bytes: an Ethernet frame's 1,500 without the headers of IPv4 and of TCP with timestamps.</summary>
+    /// <summary>
+    /// What a segment carries, in bytes: an Ethernet frame's 1,500 without the headers of IPv4 and of TCP with timestamps.
+    /// </summary>
     public const int SegmentBytes = 1_448;
 
     /// <summary>The most that is sent and not acknowledged, in bytes.</summary>
     public const int ReceiveWindow = 4 << 20;
 
-    /// <summary>What <see cref="LinkModel.Send(SimTime, int)"/> is told of a segment, so that with the overhead of UDP it is 1,514 bytes on the wire.</summary>
+    /// <summary>
+    /// What <see cref="LinkModel.Send(SimTime, int)"/> is told of a segment, so that with the overhead of UDP it is 1,514 bytes on the
+    /// wire.
+    /// </summary>
     internal const int SegmentDatagramBytes = SegmentBytes + AckDatagramBytes;
 
-    /// <summary>Likewise of an acknowledgement, which is 66 bytes on the wire: TCP's header with timestamps is 24 bytes longer than UDP's.</summary>
+    /// <summary>
+    /// Likewise of an acknowledgement, which is 66 bytes on the wire: TCP's header with timestamps is 24 bytes longer than UDP's.
+    /// </summary>
     internal const int AckDatagramBytes = 24;
 
     private const long InitialWindow = 10 * SegmentBytes;
@@ -137,7 +147,9 @@ internal sealed class BulkTransfer
         return ReceivedBytes * 8 / (now - Start).ToSeconds();
     }
 
-    /// <summary>Does all that it does until then, that time included. Nobody may send through one of its queues from before it afterwards.</summary>
+    /// <summary>
+    /// Does all that it does until then, that time included. Nobody may send through one of its queues from before it afterwards.
+    /// </summary>
     public void RunUntil(SimTime now)
     {
         if (isRunning)

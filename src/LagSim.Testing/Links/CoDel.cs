@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>Which datagrams a queue loses at its head by RFC 8289: its pseudocode (section 5), its names, over whatever queue there is.</summary>
+/// <summary>
+/// Which datagrams a queue loses at its head by RFC 8289: its pseudocode (section 5), its names, over whatever queue there is.
+/// </summary>
 /// <remarks>Deterministic. Not thread-safe.</remarks>
 internal sealed class CoDel
 {
@@ -38,7 +40,9 @@ internal sealed class CoDel
         void Drop(Waiting lost);
     }
 
-    /// <summary>Takes out the one that goes on its way now, after those that are lost; false if none is left. To be asked whenever the line is free.</summary>
+    /// <summary>
+    /// Takes out the one that goes on its way now, after those that are lost; false if none is left. To be asked whenever the line is free.
+    /// </summary>
     internal bool TryDequeue(SimTime now, out Waiting first)
     {
         bool any = DoDequeue(now, out first, out bool okToDrop);

@@ -3,8 +3,12 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A path that changes every so often, as that over a satellite which moves on: the mean delay steps up at one change and down at the next.</summary>
-/// <remarks>Half of the step lies above the leg's delay, half below. Both directions of a link step at once. Immutable, safe on any thread.</remarks>
+/// <summary>
+/// A path that changes every so often, as that over a satellite which moves on: the mean delay steps up at one change and down at the next.
+/// </summary>
+/// <remarks>
+/// Half of the step lies above the leg's delay, half below. Both directions of a link step at once. Immutable, safe on any thread.
+/// </remarks>
 public sealed class DelayStep
 {
     /// <summary>A step of that size every so often.</summary>

@@ -63,19 +63,25 @@ public sealed class LinkLeg
     /// <summary>How many of a hundred datagrams are lost in the long run, 0 to 100.</summary>
     public double LossPercent { get; }
 
-    /// <summary>How many datagrams are lost in a row on average, at least 1. Losses that know nothing of each other have 1 / (1 - loss).</summary>
+    /// <summary>
+    /// How many datagrams are lost in a row on average, at least 1. Losses that know nothing of each other have 1 / (1 - loss).
+    /// </summary>
     public double MeanBurstLength { get; }
 
     /// <summary>How many of a hundred datagrams are held back so that later ones overtake them, 0 to 100.</summary>
     public double ReorderPercent { get; }
 
-    /// <summary>How long a reordered datagram is held back on average, in milliseconds; uniform from half to one and a half of it.</summary>
+    /// <summary>
+    /// How long a reordered datagram is held back on average, in milliseconds; uniform from half to one and a half of it.
+    /// </summary>
     public double ReorderHoldMilliseconds { get; }
 
     /// <summary>How many of a hundred datagrams that arrive do so twice, 0 to 100.</summary>
     public double DuplicatePercent { get; }
 
-    /// <summary>How the delay varies where a standard deviation does not say it; null, the default: by <see cref="JitterMilliseconds"/>.</summary>
+    /// <summary>
+    /// How the delay varies where a standard deviation does not say it; null, the default: by <see cref="JitterMilliseconds"/>.
+    /// </summary>
     /// <exception cref="ArgumentException">The leg has jitter too, or the tail does not begin above a delay that is above 0.</exception>
     public LongTail? Tail
     {
@@ -108,7 +114,10 @@ public sealed class LinkLeg
     /// <summary>When it loses more than at other times; null, the default: never.</summary>
     public PeriodicOutage? Outage { get; init; }
 
-    /// <summary>Where it is narrowest: a rate, and a queue before it, through which a datagram goes before all else; null, the default: as wide as need be.</summary>
+    /// <summary>
+    /// Where it is narrowest: a rate, and a queue before it, through which a datagram goes before all else; null, the default: as wide as
+    /// need be.
+    /// </summary>
     public Bottleneck? Bottleneck { get; init; }
 
     private static double InRange(double value, double low, double high, string parameter) =>

@@ -5,15 +5,18 @@ namespace LagSim.Testing.Links;
 
 /// <summary>One direction of one link at work: decides for each datagram whether and when it arrives.</summary>
 /// <remarks>
-/// <para>First comes the leg's <see cref="Bottleneck"/>, if it has one: a datagram may be lost in its queue, and waits there. All else befalls it from when it leaves, as if it
-/// were sent then. A queue of drop-tail says at once when that is; one of CoDel only later (<see cref="DecidesAtOnce"/>).</para>
-/// <para>Delay: normal about the leg's mean, never below 0, so never before it was sent; or with a <see cref="LongTail"/>. Loss: Gilbert and Elliott's two states, one that
-/// loses everything and one that loses nothing, stepped once per datagram; bursts are geometric with the leg's mean.</para>
-/// <para>What comes in periods, a <see cref="DelayStep"/> or a <see cref="PeriodicOutage"/>, goes by that time alone, whatever is sent. Where
-/// a period begins, and which of them have an outage, is luck of the path, which both directions share; periods of one length begin together.</para>
+/// <para>First comes the leg's <see cref="Bottleneck"/>, if it has one: a datagram may be lost in its queue, and waits there. All else
+/// befalls it from when it leaves, as if it were sent then. A queue of drop-tail says at once when that is; one of CoDel only later
+/// (<see cref="DecidesAtOnce"/>).</para>
+/// <para>Delay: normal about the leg's mean, never below 0, so never before it was sent; or with a <see cref="LongTail"/>. Loss: Gilbert
+/// and Elliott's two states, one that loses everything and one that loses nothing, stepped once per datagram; bursts are geometric with the
+/// leg's mean.</para>
+/// <para>What comes in periods, a <see cref="DelayStep"/> or a <see cref="PeriodicOutage"/>, goes by that time alone, whatever is sent.
+/// Where a period begins, and which of them have an outage, is luck of the path, which both directions share; periods of one length begin
+/// together.</para>
 /// <para>Order: jitter alone never reorders, since a path that is one queue does not; a datagram that would overtake another arrives with
-/// it. So where datagrams are sent closer together than the jitter, the mean delay is above the leg's and its spread below.
-/// Only the share that the leg says is held back, by half to one and a half of its hold, and later ones pass it (if any are sent that soon).</para>
+/// it. So where datagrams are sent closer together than the jitter, the mean delay is above the leg's and its spread below. Only the share
+/// that the leg says is held back, by half to one and a half of its hold, and later ones pass it (if any are sent that soon).</para>
 /// <para>Duplication: the copy has a delay of its own, never arrives before the first, and may arrive after datagrams sent later.</para>
 /// <para>Deterministic: the same leg, seed and send times give the same bits. Each concern draws from its own stream, always, so two runs
 /// that differ in one property of the leg, or in what else is lost, see the same luck in all others. Not thread-safe.</para>
@@ -45,7 +48,9 @@ internal sealed class LinkModel
     /// <param name="leg">What it does.</param>
     /// <param name="random">Its luck; only <see cref="SeededRandom.Fork"/> is called on it.</param>
     /// <param name="path">The luck of both directions together, equal for the two; likewise. Default: this direction's own.</param>
-    /// <param name="queue">A queue that it shares with other directions, in place of one of its own. All of them must send in the order of time.</param>
+    /// <param name="queue">
+    /// A queue that it shares with other directions, in place of one of its own. All of them must send in the order of time.
+    /// </param>
     public LinkModel(LinkLeg leg, SeededRandom random, SeededRandom? path = null, LinkQueue? queue = null)
     {
         ArgumentNullException.ThrowIfNull(leg);
@@ -79,13 +84,19 @@ internal sealed class LinkModel
     /// <summary>The queue that datagrams go through first; null if there is none.</summary>
     public LinkQueue? Queue { get; }
 
-    /// <summary>Whether <see cref="Send(SimTime, int)"/> can say what becomes of a datagram: all links but those with a queue of CoDel.</summary>
+    /// <summary>
+    /// Whether <see cref="Send(SimTime, int)"/> can say what becomes of a datagram: all links but those with a queue of CoDel.
+    /// </summary>
     public bool DecidesAtOnce => Queue is null || Queue.DecidesAtOnce;
 
     /// <summary>When the datagram that is sent now arrives.</summary>
     /// <param name="at">The true time it is sent; never earlier than that of the call before.</param>
-    /// <param name="bytes">Its own bytes, 1 to 65,507; <see cref="Bottleneck.OverheadBytes"/> come on top where there is a bottleneck.</param>
-    /// <exception cref="ArgumentOutOfRangeException"><paramref name="at"/> is earlier than that of the call before, or <paramref name="bytes"/> out of range.</exception>
+    /// <param name="bytes">
+    /// Its own bytes, 1 to 65,507; <see cref="Bottleneck.OverheadBytes"/> come on top where there is a bottleneck.
+    /// </param>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// <paramref name="at"/> is earlier than that of the call before, or <paramref name="bytes"/> out of range.
+    /// </exception>
     /// <exception cref="InvalidOperationException">Not <see cref="DecidesAtOnce"/>.</exception>
     public LinkDeliveries Send(SimTime at, int bytes)
     {
@@ -99,8 +110,10 @@ internal sealed class LinkModel
         return Queue is null ? Arrive(at, luck) : Queue.TryPass(at, bytes, out SimTime leaves) ? Arrive(leaves, luck) : default;
     }
 
-    /// <summary>Sends a datagram, and tells when it arrives as soon as that is decided: before this returns, or while <see cref="LinkQueue.DecideUntil"/> of
-    /// the <see cref="Queue"/> is called, or another datagram sent through it.</summary>
+    /// <summary>
+    /// Sends a datagram, and tells when it arrives as soon as that is decided: before this returns, or while
+    /// <see cref="LinkQueue.DecideUntil"/> of the <see cref="Queue"/> is called, or another datagram sent through it.
+    /// </summary>
     /// <param name="at">As for <see cref="Send(SimTime, int)"/>.</param>
     /// <param name="bytes">Likewise.</param>
     /// <param name="decided">Called once, in the order of sending. It must not send.</param>
@@ -160,7 +173,8 @@ internal sealed class LinkModel
         SimTime arrival = SimTime.Max(at + Delay(usual, luck.Delay), lastInOrder);
         if (luck.IsHeldBack)
         {
-            arrival += SimDuration.FromMilliseconds(luck.Hold * Leg.ReorderHoldMilliseconds); // and the mark stays, so that those sent later may arrive before it
+            // And the mark stays, so that those sent later may arrive before it.
+            arrival += SimDuration.FromMilliseconds(luck.Hold * Leg.ReorderHoldMilliseconds);
         }
         else
         {

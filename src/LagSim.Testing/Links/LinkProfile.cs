@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A named kind of connection between a player and the host: what it does each way, and how far the two clocks are apart.</summary>
+/// <summary>
+/// A named kind of connection between a player and the host: what it does each way, and how far the two clocks are apart.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. <see cref="LinkProfiles"/> has those that the project reports on.</remarks>
 public sealed class LinkProfile
 {
@@ -43,15 +45,19 @@ public sealed class LinkProfile
     /// <summary>The way down, from the host to a player.</summary>
     public LinkLeg FromHost { get; }
 
-    /// <summary>How far a player's clock is ahead of the host's, on top of whatever else sets them apart. The link does nothing with it: who
-    /// sets up the machines gives the player's a clock that far off.</summary>
+    /// <summary>
+    /// How far a player's clock is ahead of the host's, on top of whatever else sets them apart. The link does nothing with it: who sets up
+    /// the machines gives the player's a clock that far off.
+    /// </summary>
     public SimDuration ReceiverClockOffset { get; }
 
     /// <summary>
-    /// Whether a bulk TCP transfer towards the player goes through the same queues as all else, its acknowledgements the other way; default false.
-    /// <see cref="VirtualNetwork"/> runs one for each link of such a profile by itself.
+    ///  Whether a bulk TCP transfer towards the player goes through the same queues as all else, its acknowledgements the other way;
+    /// default false. <see cref="VirtualNetwork"/> runs one for each link of such a profile by itself.
     /// </summary>
-    /// <exception cref="ArgumentException">The way down has no <see cref="LinkLeg.Bottleneck"/>: nothing would hold the transfer back.</exception>
+    /// <exception cref="ArgumentException">
+    /// The way down has no <see cref="LinkLeg.Bottleneck"/>: nothing would hold the transfer back.
+    /// </exception>
     public bool HasBulkTransfer
     {
         get;

@@ -50,8 +50,8 @@ public static class LinkProfiles
     public static LinkProfile FiveG { get; } = new("5g", toHost: new LinkLeg(18, 4, 0.1, 1.5), fromHost: new LinkLeg(7, 2, 0.1, 1.5));
 
     /// <summary>
-    /// Satellites in low orbit, another one every 15 s: 25 ms, jitter 7 ms, a step of 10 ms at each handover; 0.3 % lost one by one, and half
-    /// of what is sent in the first 200 ms after every second handover on average.
+    ///  Satellites in low orbit, another one every 15 s: 25 ms, jitter 7 ms, a step of 10 ms at each handover; 0.3 % lost one by one, and
+    /// half of what is sent in the first 200 ms after every second handover on average.
     /// </summary>
     public static LinkProfile Starlink { get; } = new("starlink", new LinkLeg(25, 7, lossPercent: 0.3, meanBurstLength: 1 / 0.997)
     {
@@ -68,7 +68,9 @@ public static class LinkProfiles
     /// <summary>A geostationary satellite: 325 ms, jitter 10 ms, 0.5 % lost in bursts of 2.</summary>
     public static LinkProfile Satellite { get; } = new("satellite", new LinkLeg(325, 10, 0.5, 2));
 
-    /// <summary>Everything at once, to break things with: 200 ms, jitter 60 ms, 10 % lost in bursts of 5, 5 % reordered, 2 % duplicated.</summary>
+    /// <summary>
+    /// Everything at once, to break things with: 200 ms, jitter 60 ms, 10 % lost in bursts of 5, 5 % reordered, 2 % duplicated.
+    /// </summary>
     public static LinkProfile Awful { get; } =
         new("awful", new LinkLeg(200, 60, lossPercent: 10, meanBurstLength: 5, reorderPercent: 5, duplicatePercent: 2));
 
@@ -82,14 +84,20 @@ public static class LinkProfiles
         toHost: new LinkLeg(25, 2) { Bottleneck = new Bottleneck(256_000, 500) },
         fromHost: new LinkLeg(25, 2) { Bottleneck = new Bottleneck(2_000_000, 500) });
 
-    /// <summary>What a modem gave, or a phone at the edge of its cell gives: 60 ms, jitter 5 ms; 64 kbit/s each way, with a queue of 1 s.</summary>
+    /// <summary>
+    /// What a modem gave, or a phone at the edge of its cell gives: 60 ms, jitter 5 ms; 64 kbit/s each way, with a queue of 1 s.
+    /// </summary>
     public static LinkProfile Modem64K { get; } = new("modem-64k", new LinkLeg(60, 5) { Bottleneck = new Bottleneck(64_000, 1_000) });
 
-    /// <summary>A line whose queue is much too long, and somebody downloads over it: 20 ms, jitter 2 ms; 1 Mbit/s each way, with a queue of 2 s.</summary>
+    /// <summary>
+    /// A line whose queue is much too long, and somebody downloads over it: 20 ms, jitter 2 ms; 1 Mbit/s each way, with a queue of 2 s.
+    /// </summary>
     public static LinkProfile Bufferbloat { get; } =
         new("bufferbloat", new LinkLeg(20, 2) { Bottleneck = new Bottleneck(1_000_000, 2_000) }) { HasBulkTransfer = true };
 
-    /// <summary>A line that gets narrow for 5 s every 30 s, both ways at once: 40 ms, jitter 2 ms; 512 kbit/s, then 100 kbit/s, with a queue of 1 s.</summary>
+    /// <summary>
+    /// A line that gets narrow for 5 s every 30 s, both ways at once: 40 ms, jitter 2 ms; 512 kbit/s, then 100 kbit/s, with a queue of 1 s.
+    /// </summary>
     public static LinkProfile Dip { get; } = new("dip", new LinkLeg(40, 2)
     {
         Bottleneck = new Bottleneck(512_000, 1_000) { Dip = new PeriodicDip(periodSeconds: 30, lengthSeconds: 5, rateBitsPerSecond: 100_000) },
@@ -109,7 +117,9 @@ public static class LinkProfiles
     /// <summary>The names of <see cref="All"/>, in that order: the rows of a test that runs on every link.</summary>
     public static IReadOnlyList<string> Names { get; } = [.. All.Select(known => known.Name)];
 
-    /// <summary>A link that delays every datagram by the same time each way and does nothing else, named <c>delay-25ms</c> for 25.</summary>
+    /// <summary>
+    /// A link that delays every datagram by the same time each way and does nothing else, named <c>delay-25ms</c> for 25.
+    /// </summary>
     /// <param name="milliseconds">One way, 0 to <see cref="MaxPureDelay"/>; rounded to a nanosecond, so that the name says all.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="milliseconds"/> is not finite or out of range.</exception>
     public static LinkProfile PureDelay(double milliseconds)

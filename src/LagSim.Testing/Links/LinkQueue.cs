@@ -4,14 +4,17 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A <see cref="Links.Bottleneck"/> at work: a queue, and the line behind it. Several directions may go through one and the same.</summary>
+/// <summary>
+/// A <see cref="Links.Bottleneck"/> at work: a queue, and the line behind it. Several directions may go through one and the same.
+/// </summary>
 /// <remarks>
-/// <para>First in, first out. With drop-tail a datagram's fate is known when it comes, since it depends on nothing that comes later. With CoDel it is
-/// not: what is lost at the head depends on how much waits behind it by then. So it is decided when it is next, and who sent it is told then
-/// (<see cref="NextDecision"/>, <see cref="DecideUntil"/>): as RFC 8289 has it, nothing is guessed.</para>
-/// <para>The next is chosen when the one before it has left, and is then served by the token bucket. It counts as waiting until it leaves for the room
-/// there is, not for CoDel; both as in the kernel.</para>
-/// <para>Deterministic: the same datagrams at the same times have the same fates; the only luck is where a dip's period begins. Not thread-safe.</para>
+/// <para>First in, first out. With drop-tail a datagram's fate is known when it comes, since it depends on nothing that comes later. With
+/// CoDel it is not: what is lost at the head depends on how much waits behind it by then. So it is decided when it is next, and who sent it
+/// is told then (<see cref="NextDecision"/>, <see cref="DecideUntil"/>): as RFC 8289 has it, nothing is guessed.</para>
+/// <para>The next is chosen when the one before it has left, and is then served by the token bucket. It counts as waiting until it leaves
+/// for the room there is, not for CoDel; both as in the kernel.</para>
+/// <para>Deterministic: the same datagrams at the same times have the same fates; the only luck is where a dip's period begins. Not
+/// thread-safe.</para>
 /// </remarks>
 internal sealed class LinkQueue
 {
@@ -30,8 +33,10 @@ internal sealed class LinkQueue
 
     /// <summary>An empty queue whose line has been idle.</summary>
     /// <param name="bottleneck">What it is.</param>
-    /// <param name="path">The luck of a path, on which it depends where a dip's period begins; only <see cref="SeededRandom.Fork"/> is called on
-    /// it. Default: one begins at time zero.</param>
+    /// <param name="path">
+    /// The luck of a path, on which it depends where a dip's period begins; only <see cref="SeededRandom.Fork"/> is called on it. Default:
+    /// one begins at time zero.
+    /// </param>
     public LinkQueue(Bottleneck bottleneck, SeededRandom? path = null)
         : this(bottleneck, path is null ? 0 : LinkModel.Phase(path))
     {
@@ -78,8 +83,10 @@ internal sealed class LinkQueue
         return leavingBytes + waiting.WaitingBytes;
     }
 
-    /// <summary>Decides all that is to be decided by then, that time included, once the transfers that go through here have sent what they send until
-    /// then. Nothing may come from before it afterwards.</summary>
+    /// <summary>
+    /// Decides all that is to be decided by then, that time included, once the transfers that go through here have sent what they send
+    /// until then. Nothing may come from before it afterwards.
+    /// </summary>
     public void DecideUntil(SimTime now)
     {
         // One that sends asks here who comes before it, so they come in order whichever is first.
@@ -119,7 +126,9 @@ internal sealed class LinkQueue
         return true;
     }
 
-    /// <summary>A datagram comes, and whoever sent it is told its fate as soon as it is decided: when it leaves, or null if it is lost.</summary>
+    /// <summary>
+    /// A datagram comes, and whoever sent it is told its fate as soon as it is decided: when it leaves, or null if it is lost.
+    /// </summary>
     internal void Pass(SimTime at, int bytes, Action<SimTime?> decided)
     {
         if (codel is null)

@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A time of another rate that begins every so often: a wall between phone and mast, a neighbour's download. What waits, waits longer.</summary>
+/// <summary>
+/// A time of another rate that begins every so often: a wall between phone and mast, a neighbour's download. What waits, waits longer.
+/// </summary>
 /// <remarks>Both directions of a link have it at once, if their periods are the same. Immutable, safe on any thread.</remarks>
 public sealed class PeriodicDip
 {
@@ -31,6 +33,8 @@ public sealed class PeriodicDip
     /// <summary>How long it lasts.</summary>
     public SimDuration Length { get; }
 
-    /// <summary>The rate meanwhile, in bit/s; <see cref="Bottleneck.MinBitsPerSecond"/> to <see cref="Bottleneck.MaxBitsPerSecond"/>.</summary>
+    /// <summary>
+    /// The rate meanwhile, in bit/s; <see cref="Bottleneck.MinBitsPerSecond"/> to <see cref="Bottleneck.MaxBitsPerSecond"/>.
+    /// </summary>
     public long RateBitsPerSecond { get; }
 }

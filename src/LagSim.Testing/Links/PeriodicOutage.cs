@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A time of loss that begins every so often: a handover, a cable that is loose. On top of the loss that the leg has at all times.</summary>
+/// <summary>
+/// A time of loss that begins every so often: a handover, a cable that is loose. On top of the loss that the leg has at all times.
+/// </summary>
 /// <remarks>Both directions of a link have it at once. Immutable, safe on any thread.</remarks>
 public sealed class PeriodicOutage
 {

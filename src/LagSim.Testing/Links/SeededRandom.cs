@@ -86,7 +86,9 @@ internal sealed class SeededRandom
         return new SeededRandom(SplitMix(ref state));
     }
 
-    /// <summary>Natural logarithm of a normal number in (0, 1): ln(m 2^e) = e ln 2 + 2 artanh((m - 1) / (m + 1)), m in [0.5, 1) x sqrt 2.</summary>
+    /// <summary>
+    /// Natural logarithm of a normal number in (0, 1): ln(m 2^e) = e ln 2 + 2 artanh((m - 1) / (m + 1)), m in [0.5, 1) x sqrt 2.
+    /// </summary>
     internal static double Log(double x)
     {
         long bits = BitConverter.DoubleToInt64Bits(x);
@@ -109,7 +111,9 @@ internal sealed class SeededRandom
         return (exponent * Ln2) + (2.0 * f * sum);
     }
 
-    /// <summary>e to that power: 2^k e^r, r within half of ln 2 either way. Zero below -708, infinite above 709, in between to the last bits.</summary>
+    /// <summary>
+    /// e to that power: 2^k e^r, r within half of ln 2 either way. Zero below -708, infinite above 709, in between to the last bits.
+    /// </summary>
     internal static double Exp(double x)
     {
         if (!(x is >= -708 and <= 709))

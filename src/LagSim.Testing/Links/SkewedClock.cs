@@ -4,7 +4,9 @@ using LagSim.Time;
 namespace LagSim.Testing.Links;
 
 /// <summary>The clock of a machine whose clock is wrong: true time x (1 + skew) + offset.</summary>
-/// <remarks>Exact to a tick, rounded down; never goes back. Deterministic: integers only. As safe on any thread as the clock it wraps.</remarks>
+/// <remarks>
+/// Exact to a tick, rounded down; never goes back. Deterministic: integers only. As safe on any thread as the clock it wraps.
+/// </remarks>
 internal sealed class SkewedClock : IClock
 {
     /// <summary>The largest skew either way, in parts per million: a tenth.</summary>
@@ -18,7 +20,9 @@ internal sealed class SkewedClock : IClock
     /// <param name="trueClock">What it is off from.</param>
     /// <param name="partsPerMillion">How much faster it runs; real crystals are within 100 either way.</param>
     /// <param name="offset">What it reads when <paramref name="trueClock"/> reads zero.</param>
-    /// <exception cref="ArgumentOutOfRangeException"><paramref name="partsPerMillion"/> is not finite or beyond <see cref="MaxPartsPerMillion"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// <paramref name="partsPerMillion"/> is not finite or beyond <see cref="MaxPartsPerMillion"/>.
+    /// </exception>
     public SkewedClock(IClock trueClock, double partsPerMillion, SimDuration offset)
     {
         ArgumentNullException.ThrowIfNull(trueClock);
@@ -43,7 +47,9 @@ internal sealed class SkewedClock : IClock
     /// <exception cref="OverflowException">The reading is out of range.</exception>
     public SimTime ReadingAt(SimTime trueTime) => SimTime.FromTicks(checked((long)Reading(trueTime.Ticks)));
 
-    /// <summary>The first true time at which this clock reads <paramref name="reading"/> or later: when to wake who waits by this clock.</summary>
+    /// <summary>
+    /// The first true time at which this clock reads <paramref name="reading"/> or later: when to wake who waits by this clock.
+    /// </summary>
     /// <exception cref="OverflowException">The true time is out of range.</exception>
     public SimTime TrueTimeOf(SimTime reading)
     {

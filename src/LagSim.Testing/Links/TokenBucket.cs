@@ -3,7 +3,9 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>Tokens that come in at a rate, up to a burst, and are taken by what leaves. Exact: whole numbers, rounded up to a tick once a datagram.</summary>
+/// <summary>
+/// Tokens that come in at a rate, up to a burst, and are taken by what leaves. Exact: whole numbers, rounded up to a tick once a datagram.
+/// </summary>
 /// <remarks>Begins full. A token is a bit's 2^-40th part, what one bit per second brings in a tick. Not thread-safe.</remarks>
 internal sealed class TokenBucket
 {

@@ -243,7 +243,8 @@ public sealed class VirtualNetwork
         Clock.Now = now;
         foreach ((int _, int _, BulkTransfer transfer) in transfers)
         {
-            transfer.RunUntil(now); // whatever goes through its queues finds it where it should be; who only reads its figures does so by this
+            // Whatever goes through its queues finds it where it should be; who only reads its figures does so by this.
+            transfer.RunUntil(now);
         }
 
         return delivered;

@@ -6,10 +6,13 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>Counts the accepted events of hosts' logs that a client was to hear of, from each copy of a world that it got to where it came, and those that it did not.</summary>
+/// <summary>
+/// Counts the accepted events of hosts' logs that a client was to hear of, from each copy of a world that it got to where it came, and
+/// those that it did not.
+/// </summary>
 /// <remarks>
-/// What was missed counts also where a later copy, or another host's world, made up for it: repair is not to hide a fault. It looks at what hosts and clients told of
-/// their logs, and adds what clients themselves counted as too late for their worlds.
+///  What was missed counts also where a later copy, or another host's world, made up for it: repair is not to hide a fault. It looks at
+/// what hosts and clients told of their logs, and adds what clients themselves counted as too late for their worlds.
 /// </remarks>
 internal sealed class LogCoverage
 {
@@ -24,7 +27,9 @@ internal sealed class LogCoverage
     private long missed;
 
     /// <summary>Of a client that has no session yet.</summary>
-    /// <param name="accepted">Gives, for the start of a world, the numbers of the entries in its host's log that are accepted events.</param>
+    /// <param name="accepted">
+    /// Gives, for the start of a world, the numbers of the entries in its host's log that are accepted events.
+    /// </param>
     /// <param name="isOverlooked">Which entries this does not see, to find out whether what is missed is found; null for none.</param>
     public LogCoverage(Func<SimTime, IEnumerable<uint>> accepted, Func<uint, bool>? isOverlooked = null)
     {

@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>Steps sessions in virtual time, each when it is due or something has arrived for it, in the order in which they were added.</summary>
+/// <summary>
+/// Steps sessions in virtual time, each when it is due or something has arrived for it, in the order in which they were added.
+/// </summary>
 /// <remarks>Deterministic. For the network's one thread.</remarks>
 internal sealed class VirtualSteps
 {
@@ -34,18 +36,20 @@ internal sealed class VirtualSteps
     /// <summary>Called with a session's number before each of its steps.</summary>
     public Action<int>? BeforeStep { get; set; }
 
-    /// <summary>Called with a session's number after each of its steps, once its world is where it should be, or given up for now.</summary>
+    /// <summary>
+    /// Called with a session's number after each of its steps, once its world is where it should be, or given up for now.
+    /// </summary>
     public Action<int>? AfterStep { get; set; }
 
     /// <summary>
-    /// How much virtual time a step takes that leaves a world behind; default none: the machines are as fast as they need be, and such a session is stepped until
-    /// its world is there. With a machine that is too slow its port is served meanwhile.
+    ///  How much virtual time a step takes that leaves a world behind; default none: the machines are as fast as they need be, and such a
+    /// session is stepped until its world is there. With a machine that is too slow its port is served meanwhile.
     /// </summary>
     public SimDuration BusyStep { get; set; }
 
     /// <summary>
-    /// How much work a second of virtual time the machines do, as <see cref="WorkLedger"/> counts it; default 0, for machines as fast as they need be. A step takes as long as its
-    /// work does, and what arrives meanwhile waits.
+    ///  How much work a second of virtual time the machines do, as <see cref="WorkLedger"/> counts it; default 0, for machines as fast as
+    /// they need be. A step takes as long as its work does, and what arrives meanwhile waits.
     /// </summary>
     public double WorkPerSecond { get; set; }
 
@@ -63,7 +67,9 @@ internal sealed class VirtualSteps
         return number;
     }
 
-    /// <summary>Takes out the session that was added last. Its port must be disposed, for what arrives there wakes whoever gets its number.</summary>
+    /// <summary>
+    /// Takes out the session that was added last. Its port must be disposed, for what arrives there wakes whoever gets its number.
+    /// </summary>
     public void RemoveLast()
     {
         sessions.RemoveAt(sessions.Count - 1);

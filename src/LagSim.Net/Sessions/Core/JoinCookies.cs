@@ -8,11 +8,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>How a host knows, without keeping anything, that who wants to join is at the address it gives and has the connect key.</summary>
+/// <summary>
+/// How a host knows, without keeping anything, that who wants to join is at the address it gives and has the connect key.
+/// </summary>
 /// <remarks>
-/// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is good for half a minute to a minute. The
-/// proof of a key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the secret too, so
-/// who has one cannot tell another's. For one thread.
+///  A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is good for half a minute to a minute. The
+/// proof of a key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the
+/// secret too, so who has one cannot tell another's. For one thread.
 /// </remarks>
 internal sealed class JoinCookies : IDisposable
 {

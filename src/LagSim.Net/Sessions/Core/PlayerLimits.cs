@@ -9,7 +9,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a client asks it of what it does itself.</summary>
+/// <summary>
+/// What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a client asks it of what it does itself.
+/// </summary>
 /// <remarks>No rule of the world: what was accepted once happens everywhere, whatever others would have said to it.</remarks>
 internal sealed class PlayerLimits
 {
@@ -50,12 +52,14 @@ internal sealed class PlayerLimits
         return Verdict.Invalid;
     }
 
-    /// <summary>How many bodies that a player has spawned are there. By itself, for what a lambda needs is allocated where its method begins.</summary>
+    /// <summary>
+    /// How many bodies that a player has spawned are there. By itself, for what a lambda needs is allocated where its method begins.
+    /// </summary>
     private int CountOf(byte player, SimTime now) => spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now);
 
     /// <summary>
-    /// The bodies that a player spawned and that nobody removed, those included whose spawn is still to come, each with when it is spawned, by identity; or of some that are named
-    /// those of any player.
+    ///  The bodies that a player spawned and that nobody removed, those included whose spawn is still to come, each with when it is
+    /// spawned, by identity; or of some that are named those of any player.
     /// </summary>
     internal List<(BodyId Body, SimTime Since)> Spawned(byte player, ICollection<BodyId>? named = null) => spawned
         .Where(s => s.Value.Removed == SimTime.MaxValue && (named?.Contains(s.Key) ?? s.Key.Peer == player))
@@ -93,8 +97,8 @@ internal sealed class PlayerLimits
     private static double SurfaceSpeed(in ExternalEvent spawn) => spawn.Spin.Length * spawn.Spec.Radius;
 
     /// <summary>
-    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are validated by the world as it is known
-    /// now.
+    ///  How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are validated by the
+    /// world as it is known now.
     /// </summary>
     private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
     {
@@ -134,7 +138,9 @@ internal sealed class PlayerLimits
             : 0;
     }
 
-    /// <summary>In kg; of a body that nobody here has heard of, as one that acts faster than its spawner is heard may mean, as if it were 1 kg.</summary>
+    /// <summary>
+    /// In kg; of a body that nobody here has heard of, as one that acts faster than its spawner is heard may mean, as if it were 1 kg.
+    /// </summary>
     private double MassOf(BodyId body, Simulation world)
     {
         if (body.Peer == 0 && body.Sequence == 0 && body.Index < world.Scene.Bodies.Count)

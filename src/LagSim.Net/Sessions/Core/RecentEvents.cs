@@ -33,7 +33,9 @@ internal sealed class RecentEvents
     /// <summary>Whether every accepted event stamped after that time is still here.</summary>
     internal bool IsWholeAfter(SimTime after) => forgotten <= after;
 
-    /// <summary>The accepted events stamped after one time and up to another that have had their effect here, in the order of <see cref="Compare"/>.</summary>
+    /// <summary>
+    /// The accepted events stamped after one time and up to another that have had their effect here, in the order of <see cref="Compare"/>.
+    /// </summary>
     internal List<LogEntry> Between(SimTime after, SimTime upTo)
     {
         List<LogEntry> found = new();
@@ -49,7 +51,9 @@ internal sealed class RecentEvents
         return found;
     }
 
-    /// <summary>The newest line about that event, whatever its verdict, and whether it has had its effect; false if there is none.</summary>
+    /// <summary>
+    /// The newest line about that event, whatever its verdict, and whether it has had its effect; false if there is none.
+    /// </summary>
     internal bool TryFind(in ExternalEvent what, out LogEntry entry, out bool hasEffect)
     {
         entry = default;
@@ -65,7 +69,9 @@ internal sealed class RecentEvents
         return entry.Index > 0;
     }
 
-    /// <summary>By stamp, then by who did it as which of his: the same on every peer, and no two events of a session are the same in it.</summary>
+    /// <summary>
+    /// By stamp, then by who did it as which of his: the same on every peer, and no two events of a session are the same in it.
+    /// </summary>
     internal static int Compare(LogEntry a, LogEntry b)
     {
         int order = a.Event.Time.CompareTo(b.Event.Time);

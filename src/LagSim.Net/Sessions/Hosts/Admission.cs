@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Answers those who ask to be let in: welcomes them, each with a link of its own and a copy to request, or tells why not.</summary>
+/// <summary>
+/// Answers those who ask to be let in: welcomes them, each with a link of its own and a copy to request, or tells why not.
+/// </summary>
 internal sealed class Admission(
     ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules,
     PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinCopies copies, ClientTimeouts timeouts,

@@ -8,7 +8,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>One that is coming in, and has no number yet, or is in.</summary>
 internal sealed class Client
 {
-    private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32]; // by the number of the update: the committed states it tells
+    // By the number of the update: the committed states it tells.
+    private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32];
 
     internal Client(JoinClaim claim, UpdateLink link, JoinCopy copy)
     {
@@ -38,7 +39,9 @@ internal sealed class Client
     /// <summary>The last sequence number of those who had its number before.</summary>
     internal uint FirstSequence { get; private set; }
 
-    /// <summary>How many of its questions about a difference are answered: two a second, and as many at once as a whole answer takes.</summary>
+    /// <summary>
+    /// How many of its questions about a difference are answered: two a second, and as many at once as a whole answer takes.
+    /// </summary>
     internal RateLimit DesyncQueries { get; }
 
     /// <summary>The last such question that was answered.</summary>

@@ -12,11 +12,15 @@ internal sealed class DoorLimits
     internal int ComingOfOne { get; set; } = 16;
 
     /// <summary>
-    /// The most memory, in bytes, that the copies being fetched may take, unless <see cref="CopiesAtLeast"/> of them are larger. A host makes at most one copy a second.
+    ///  The most memory, in bytes, that the copies being fetched may take, unless <see cref="CopiesAtLeast"/> of them are larger. A host
+    /// makes at most one copy a second.
     /// </summary>
     internal long CopyBytes { get; set; } = 64 << 20;
 
-    /// <summary>This many copies always fit, however large they are, so a client has at least three time-outs to fetch its copy before it can be dropped for others.</summary>
+    /// <summary>
+    /// This many copies always fit, however large they are, so a client has at least three time-outs to fetch its copy before it can be
+    /// dropped for others.
+    /// </summary>
     internal int CopiesAtLeast { get; set; } = 4;
 
     /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>

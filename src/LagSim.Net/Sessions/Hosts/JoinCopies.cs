@@ -9,7 +9,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Makes what those who join request, and shares it among them, so that many who come cost one copy a second and a bounded amount of memory.
+///  Makes what those who join request, and shares it among them, so that many who come cost one copy a second and a bounded amount of
+/// memory.
 /// </summary>
 internal sealed class JoinCopies
 {

@@ -6,7 +6,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The host's log: every event it said yes or no to, in that order, counted from 1; its beginning is forgotten once nobody needs it.</summary>
+/// <summary>
+/// The host's log: every event it said yes or no to, in that order, counted from 1; its beginning is forgotten once nobody needs it.
+/// </summary>
 internal sealed class LogLines
 {
     private readonly List<(LogEntry Entry, SimTime Watermark, SimTime At)> entries = new();
@@ -16,7 +18,9 @@ internal sealed class LogLines
     /// <summary>How many entries there have been; the number of the last.</summary>
     internal uint Count => forgotten + (uint)entries.Count;
 
-    /// <summary>How many entries, from the first on, are stamped before the watermark: whoever has the committed state needs none of them.</summary>
+    /// <summary>
+    /// How many entries, from the first on, are stamped before the watermark: whoever has the committed state needs none of them.
+    /// </summary>
     internal uint Settled => settled;
 
     /// <summary>How many of them are kept.</summary>

@@ -5,9 +5,10 @@ namespace LagSim.Net.Sessions.Links;
 
 /// <summary>How many bytes may be on their way over one link: a window, as in TCP and QUIC (RFC 9002, section 7).</summary>
 /// <remarks>
-/// It doubles a round trip while no queue shows and it was never cut, else grows by a datagram a round trip, and is cut to 0.7 (CUBIC, RFC 9438) of what is
-/// used, at most once a round trip, when datagrams are lost. It grows only while it is used. A loss counts as congestion where there is a queue, or where a larger
-/// share is lost than by a bad radio link: drop-tail queues lose when they are full, and one that was full when this link began shows by nothing else.
+///  It doubles a round trip while no queue shows and it was never cut, else grows by a datagram a round trip, and is cut to 0.7 (CUBIC, RFC
+/// 9438) of what is used, at most once a round trip, when datagrams are lost. It grows only while it is used. A loss counts as congestion
+/// where there is a queue, or where a larger share is lost than by a bad radio link: drop-tail queues lose when they are full, and one that
+/// was full when this link began shows by nothing else.
 /// </remarks>
 internal class CongestionControl
 {
@@ -20,17 +21,17 @@ internal class CongestionControl
     private const int Full = FullDatagramBytes;
 
     /// <summary>
-    /// Above the ten datagrams of RFC 9002: an event that waits for the window to open is an event too late. This is what the most that a host takes of a client by
-    /// default, 500 events a second, has on its way on the longest link that is reported on, 2 s there and back.
+    ///  Above the ten datagrams of RFC 9002: an event that waits for the window to open is an event too late. This is what the most that a
+    /// host takes of a client by default, 500 events a second, has on its way on the longest link that is reported on, 2 s there and back.
     /// </summary>
     private const int InitialWindow = 50 * Full;
 
     private const int LeastWindow = 2 * Full; // RFC 9002, 7.2
 
     /// <summary>
-    /// How many of the longest datagrams make a window: a loss shows by three that come after it (RFC 9002, 6.1), and two large ones a short queue drops together.
-    /// Then the one of two sessions behind one link of 64 kbit/s to which this happens falls silent for seconds: in a trial with 4, 6 and 8 they shared it
-    /// within a factor of two in 42, 46 and 47 of 48 runs.
+    ///  How many of the longest datagrams make a window: a loss shows by three that come after it (RFC 9002, 6.1), and two large ones a
+    /// short queue drops together. Then the one of two sessions behind one link of 64 kbit/s to which this happens falls silent for
+    /// seconds: in a trial with 4, 6 and 8 they shared it within a factor of two in 42, 46 and 47 of 48 runs.
     /// </summary>
     private const int DatagramsPerWindow = 8;
 
@@ -38,8 +39,9 @@ internal class CongestionControl
     private const double CutTo = 0.7;
 
     /// <summary>
-    /// Half as much again as <c>awful</c> loses, the worst link that is reported on (WebRTC's controller bears a tenth, BBR a fiftieth). In a trial 114 of 120 pairs
-    /// of sessions shared one link within a factor of two; with twice as much 106; with none 111, and <c>awful</c> carried 400 of 490 events a second.
+    ///  Half as much again as <c>awful</c> loses, the worst link that is reported on (WebRTC's controller bears a tenth, BBR a fiftieth).
+    /// In a trial 114 of 120 pairs of sessions shared one link within a factor of two; with twice as much 106; with none 111, and
+    /// <c>awful</c> carried 400 of 490 events a second.
     /// </summary>
     private const double BearableLoss = 0.15;
 
@@ -108,6 +110,8 @@ internal class CongestionControl
         cut = now;
     }
 
-    /// <summary>Whether the window is cut for a loss: one that a queue explains, or one of too many; once for all that was on its way.</summary>
+    /// <summary>
+    /// Whether the window is cut for a loss: one that a queue explains, or one of too many; once for all that was on its way.
+    /// </summary>
     internal virtual bool IsCutFor(SimTime sent, bool hasQueue) => (hasQueue || lossShare > BearableLoss) && sent > cut;
 }

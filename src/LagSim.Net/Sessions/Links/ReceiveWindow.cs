@@ -4,8 +4,12 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Puts the entries that another peer sends into the order of their numbers: each is taken once, and none before the one before it.</summary>
-/// <remarks>What comes before its turn is kept, up to <see cref="SendWindow.MaxEntries"/>; what is further ahead is left to be sent again.</remarks>
+/// <summary>
+/// Puts the entries that another peer sends into the order of their numbers: each is taken once, and none before the one before it.
+/// </summary>
+/// <remarks>
+/// What comes before its turn is kept, up to <see cref="SendWindow.MaxEntries"/>; what is further ahead is left to be sent again.
+/// </remarks>
 internal sealed class ReceiveWindow
 {
     private const int LeastSlots = 256; // a power of two, and more than a datagram's entries
@@ -18,7 +22,9 @@ internal sealed class ReceiveWindow
     /// <summary>The entries up to this one were taken.</summary>
     internal uint Received { get; private set; }
 
-    /// <summary>The greatest promise about what comes after entries that were all taken; the earliest instant before there is one.</summary>
+    /// <summary>
+    /// The greatest promise about what comes after entries that were all taken; the earliest instant before there is one.
+    /// </summary>
     internal SimTime Promised { get; private set; } = SimTime.MinValue;
 
     /// <summary>Whether the next entry is here.</summary>
@@ -52,7 +58,9 @@ internal sealed class ReceiveWindow
         return true;
     }
 
-    /// <summary>Notes a promise: no entry after this number is before that time. It counts once the entries up to the number were taken.</summary>
+    /// <summary>
+    /// Notes a promise: no entry after this number is before that time. It counts once the entries up to the number were taken.
+    /// </summary>
     internal void Promise(uint upTo, SimTime time)
     {
         if (upTo <= Received)

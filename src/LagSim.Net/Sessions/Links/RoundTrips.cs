@@ -3,26 +3,32 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>The round trips of one link: how long they take in the mean and at least, and how much of that is waiting in a queue on the way.</summary>
+/// <summary>
+/// The round trips of one link: how long they take in the mean and at least, and how much of that is waiting in a queue on the way.
+/// </summary>
 /// <remarks>
-/// A queue lengthens all trips, jitter some. So there is one where neither the least of a few trips in succession (the standing queue of CoDel, RFC 8289) nor
-/// their smoothed mean comes near the least that each was in the last minute: a few lucky trips say so of the first, and one spike does not lift the second. Near is what the
-/// jitter of the link accounts for, as it is where it is least: a queue that comes and goes is none.
+///  A queue lengthens all trips, jitter some. So there is one where neither the least of a few trips in succession (the standing queue of
+/// CoDel, RFC 8289) nor their smoothed mean comes near the least that each was in the last minute: a few lucky trips say so of the first,
+/// and one spike does not lift the second. Near is what the jitter of the link accounts for, as it is where it is least: a queue that comes
+/// and goes is none.
 /// </remarks>
 internal sealed class RoundTrips
 {
     /// <summary>A round trip that is said to be longer is none: what the other says of its own times is not checked.</summary>
     private static readonly SimDuration Longest = SimDuration.FromSeconds(10);
 
-    /// <summary>How long the shortest round trip is remembered: a way that has become longer is taken for a queue for no longer than this.</summary>
+    /// <summary>
+    /// How long the shortest round trip is remembered: a way that has become longer is taken for a queue for no longer than this.
+    /// </summary>
     private static readonly SimDuration Memory = SimDuration.FromSeconds(60);
 
     /// <summary>Less than this is no queue: what a sleeping thread, or a radio that waits for its turn, adds to every trip.</summary>
     private static readonly SimDuration LeastQueue = SimDuration.FromMilliseconds(5);
 
     /// <summary>
-    /// How many times the least spread of a minute jitter moves the mean from its least. A mean smoothed by an eighth has 0.26 of the jitter's standard deviation;
-    /// in a minute it goes over six of its own, 1.5; and the spread of sixteen trips is at its least some 0.4. More takes longer to see a queue that comes.
+    ///  How many times the least spread of a minute jitter moves the mean from its least. A mean smoothed by an eighth has 0.26 of the
+    /// jitter's standard deviation; in a minute it goes over six of its own, 1.5; and the spread of sixteen trips is at its least some 0.4.
+    /// More takes longer to see a queue that comes.
     /// </summary>
     private const int MostOfSpread = 4;
 
@@ -53,7 +59,8 @@ internal sealed class RoundTrips
     internal SimDuration Deviation { get; private set; }
 
     /// <summary>
-    /// After how long an answer can be taken for lost: the mean and four times its mean deviation, as TCP has it. Zero before one <see cref="IsMeasured"/>.
+    ///  After how long an answer can be taken for lost: the mean and four times its mean deviation, as TCP has it. Zero before one
+    /// <see cref="IsMeasured"/>.
     /// </summary>
     internal SimDuration Timeout => Mean + (Deviation * 4);
 
@@ -61,8 +68,9 @@ internal sealed class RoundTrips
     internal SimDuration Queueing => Lesser(LeastOfFew - least.Value, Mean - leastMean.Value);
 
     /// <summary>
-    /// Whether there is a queue on the way: a quarter of the shortest round trip, so that a link that holds back then stays well below twice that one, and more than
-    /// jitter. What doubles the shortest is one whatever the jitter: who comes in while a queue goes up and down knows no other spread.
+    ///  Whether there is a queue on the way: a quarter of the shortest round trip, so that a link that holds back then stays well below
+    /// twice that one, and more than jitter. What doubles the shortest is one whatever the jitter: who comes in while a queue goes up and
+    /// down knows no other spread.
     /// </summary>
     internal bool HasQueue => Queueing > LeastQueue && Queueing > least.Value / 4 && Queueing > Lesser(leastSpread.Value * MostOfSpread, least.Value);
 

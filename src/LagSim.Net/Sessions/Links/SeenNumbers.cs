@@ -2,7 +2,9 @@ using System;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Which of the newest numbered datagrams have come, so that each counts once, however often it comes and whatever overtook it.</summary>
+/// <summary>
+/// Which of the newest numbered datagrams have come, so that each counts once, however often it comes and whatever overtook it.
+/// </summary>
 internal sealed class SeenNumbers
 {
     /// <summary>What is so much older than the newest counts as seen.</summary>

@@ -5,15 +5,22 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Chooses which entries the next update of a link carries: what was lost first, then what is new, then repetitions as far as they are allowed.</summary>
+/// <summary>
+/// Chooses which entries the next update of a link carries: what was lost first, then what is new, then repetitions as far as they are
+/// allowed.
+/// </summary>
 /// <remarks>
-/// <para>Each entry has to go once, and again for each time that it was lost with everything that carried it (<see cref="Lose"/>). That is needed, whatever the
-/// link is like. Repetition of what is on its way hides losses before they are known, and is for links with room.</para>
-/// <para>At most <see cref="MaxEntries"/> are under way. Keyframes are made up for by later ones, so they are repeated once, with the next.</para>
+/// <para>Each entry has to go once, and again for each time that it was lost with everything that carried it (<see cref="Lose"/>). That is
+/// needed, whatever the link is like. Repetition of what is on its way hides losses before they are known, and is for links with
+/// room.</para>
+/// <para>At most <see cref="MaxEntries"/> are under way. Keyframes are made up for by later ones, so they are repeated once, with the
+/// next.</para>
 /// </remarks>
 internal class SendWindow
 {
-    /// <summary>So many entries beyond the acknowledged ones are sent at most; a receiver keeps as many that came before their turn.</summary>
+    /// <summary>
+    /// So many entries beyond the acknowledged ones are sent at most; a receiver keeps as many that came before their turn.
+    /// </summary>
     internal const int MaxEntries = 4096;
 
     /// <summary>So many datagrams go out at a time at most; the next a millisecond later.</summary>
@@ -47,7 +54,8 @@ internal class SendWindow
     }
 
     /// <summary>
-    /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
+    ///  Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be
+    /// sent again and again.
     /// </summary>
     internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKeyframe;
 
@@ -106,8 +114,8 @@ internal class SendWindow
     }
 
     /// <summary>
-    /// Whether something was sent in vain that is not acknowledged yet. Then all of it is worth a repetition, keyframes too: links lose several datagrams in a row,
-    /// however far apart, so whoever sends again only when the answer is overdue may wait for seconds.
+    ///  Whether something was sent in vain that is not acknowledged yet. Then all of it is worth a repetition, keyframes too: links lose
+    /// several datagrams in a row, however far apart, so whoever sends again only when the answer is overdue may wait for seconds.
     /// </summary>
     internal bool HasLost => lostUpTo > Acknowledged;
 
@@ -210,8 +218,8 @@ internal class SendWindow
     private uint LastOf(IEntrySource source) => source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
 
     /// <summary>
-    /// Whether all entries that are not acknowledged, up to the last, are keyframes. Then it is the newest sent before that is repeated, with the next; where there is
-    /// anything else, it is all, since what comes after one that is lost can be taken only with it.
+    ///  Whether all entries that are not acknowledged, up to the last, are keyframes. Then it is the newest sent before that is repeated,
+    /// with the next; where there is anything else, it is all, since what comes after one that is lost can be taken only with it.
     /// </summary>
     private bool AreKeyframes(IEntrySource source, uint last)
     {

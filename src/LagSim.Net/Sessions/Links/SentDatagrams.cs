@@ -5,8 +5,8 @@ namespace LagSim.Net.Sessions.Links;
 
 /// <summary>The newest updates that were sent over a link: when, and with which entries; which of them came, and which are lost.</summary>
 /// <remarks>
-/// Lost is what did not come though one sent three later did, or one sent later did and an answer would have taken nine eighths of a round trip (RFC 9002, 6.1).
-/// Only updates with entries are waited for.
+///  Lost is what did not come though one sent three later did, or one sent later did and an answer would have taken nine eighths of a round
+/// trip (RFC 9002, 6.1). Only updates with entries are waited for.
 /// </remarks>
 internal sealed class SentDatagrams
 {

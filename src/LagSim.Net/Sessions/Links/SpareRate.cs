@@ -3,12 +3,15 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>How much one link may carry beyond what has to go: repetitions before a loss is known, and small datagrams that could have waited for more.</summary>
+/// <summary>
+/// How much one link may carry beyond what has to go: repetitions before a loss is known, and small datagrams that could have waited for
+/// more.
+/// </summary>
 /// <remarks>
-/// A token bucket of one datagram. Its rate grows by a twelfth each tenth of a second, or round trip, while it is used up and no queue shows, and is cut to 0.7 when one
-/// does; while one does only the least flows in. So the links of several sessions find their shares, and what could be left out keeps no queue standing. Where nothing
-/// is answered any more it goes on at the rate it had for a while, since a link that loses many datagrams in a row is lost for longer the fewer are sent; then the
-/// rate is halved step by step.
+///  A token bucket of one datagram. Its rate grows by a twelfth each tenth of a second, or round trip, while it is used up and no queue
+/// shows, and is cut to 0.7 when one does; while one does only the least flows in. So the links of several sessions find their shares, and
+/// what could be left out keeps no queue standing. Where nothing is answered any more it goes on at the rate it had for a while, since a
+/// link that loses many datagrams in a row is lost for longer the fewer are sent; then the rate is halved step by step.
 /// </remarks>
 internal class SpareRate
 {
@@ -20,12 +23,15 @@ internal class SpareRate
     private const double Most = Full / 0.03;
 
     /// <summary>
-    /// The rate of a new link, in bytes a second: a small update each resend interval, with room for a few repeated entries. No less while nothing is answered and no queue
-    /// showed, and a link that is at rest comes back to it.
+    ///  The rate of a new link, in bytes a second: a small update each resend interval, with room for a few repeated entries. No less while
+    /// nothing is answered and no queue showed, and a link that is at rest comes back to it.
     /// </summary>
     private const double First = 12_000;
 
-    /// <summary>The lowest rate: jitter may be taken for a queue, and a link that loses many datagrams in a row then still needs a repetition now and then.</summary>
+    /// <summary>
+    /// The lowest rate: jitter may be taken for a queue, and a link that loses many datagrams in a row then still needs a repetition now
+    /// and then.
+    /// </summary>
     private const double Least = 400;
 
     /// <summary>So often the rate is looked at, or each round trip if that is longer: in so long a queue comes and goes.</summary>

@@ -2,7 +2,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>The least of the durations of the last while, kept as the least of each of two halves: exact to half the while, without a list.</summary>
+/// <summary>
+/// The least of the durations of the last while, kept as the least of each of two halves: exact to half the while, without a list.
+/// </summary>
 internal struct WindowedMinimum
 {
     private SimDuration former;
