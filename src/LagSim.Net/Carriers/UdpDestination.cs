@@ -15,7 +15,7 @@ internal static class UdpDestination
     /// <param name="endpoint">The address and port.</param>
     /// <param name="purpose">What for, as a verb; part of the sentence.</param>
     /// <param name="error">If not, a sentence that names it and says what is allowed.</param>
-    /// <exception cref="ArgumentNullException">There is no endpoint.</exception>
+    /// <exception cref="ArgumentNullException">The endpoint is null.</exception>
     public static bool IsOneMachine(IPEndPoint endpoint, string purpose, [NotNullWhen(false)] out string? error)
     {
         if (endpoint is null)
@@ -32,7 +32,7 @@ internal static class UdpDestination
     /// <summary>
     /// Of this machine's addresses the one, with any free port, from which that machine is reached: loopback reaches loopback only.
     /// </summary>
-    /// <exception cref="ArgumentNullException">There is no address.</exception>
+    /// <exception cref="ArgumentNullException">The address is null.</exception>
     public static IPEndPoint Facing(IPAddress machine)
     {
         if (machine is null)

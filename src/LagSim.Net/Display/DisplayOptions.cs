@@ -27,7 +27,7 @@ public sealed class DisplayOptions
     /// <param name="penetration">
     /// How deep an offset may let a body be drawn inside another thing, in metres, at least 0; default 1 mm.
     /// </param>
-    /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
     public DisplayOptions(
         SimDuration? fastest = null,
         SimDuration? slowest = null,

@@ -100,7 +100,7 @@ public sealed class Recording
     /// <remarks>
     /// Memory: a few times the bytes that are there, whatever they announce. Cost of the scene: see <see cref="Wire.SceneFormat"/>.
     /// </remarks>
-    /// <exception cref="ArgumentNullException">There is no stream.</exception>
+    /// <exception cref="ArgumentNullException">The stream is null.</exception>
     /// <exception cref="IOException">The stream itself cannot be read.</exception>
     public static Recording Read(Stream stream, IReadOnlyList<IAcceleration>? known = null) =>
         new RecordingReader(stream ?? throw new ArgumentNullException(nameof(stream)), known).Read();

@@ -66,8 +66,8 @@ public sealed class RecordingReplay
     ///  Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one
     /// instant. Cost: that of the simulation. A scene may ask for more events than anyone can wait for, hence the cancellation.
     /// </remarks>
-    /// <exception cref="ArgumentNullException">There is no recording.</exception>
-    /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
+    /// <exception cref="ArgumentNullException">The recording is null.</exception>
+    /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
     public static RecordingReplay Run(Recording recording, CancellationToken cancellation = default) =>
         Run(recording ?? throw new ArgumentNullException(nameof(recording)), SimTime.MaxValue, cancellation);
 

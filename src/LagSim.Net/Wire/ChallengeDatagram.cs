@@ -9,7 +9,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct ChallengeDatagram
 {
-    /// <summary>An answer of these fields.</summary>
+    /// <summary>Creates an answer from its fields.</summary>
     public ChallengeDatagram(ulong nonce, Token128 cookie)
     {
         Nonce = nonce;
@@ -36,8 +36,8 @@ internal readonly struct ChallengeDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="challenge">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="challenge">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out ChallengeDatagram challenge, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Challenge);

@@ -12,7 +12,7 @@ internal readonly struct DesyncQueryDatagram
     /// <summary>The most events that are told in answer to one.</summary>
     public const int MaxEvents = 64;
 
-    /// <summary>A question of these fields.</summary>
+    /// <summary>Creates a query from its fields.</summary>
     public DesyncQueryDatagram(ulong sessionId, byte peer, uint number, SimTime after, SimTime upTo, uint first)
     {
         SessionId = sessionId;
@@ -59,8 +59,8 @@ internal readonly struct DesyncQueryDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="query">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="query">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out DesyncQueryDatagram query, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.DesyncQuery);

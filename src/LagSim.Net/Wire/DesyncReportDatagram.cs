@@ -74,8 +74,8 @@ internal readonly struct DesyncReportDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="report">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="report">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out DesyncReportDatagram report, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.DesyncReport);

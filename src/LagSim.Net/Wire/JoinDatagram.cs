@@ -6,7 +6,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct JoinDatagram
 {
-    /// <summary>A request of these fields.</summary>
+    /// <summary>Creates a request from its fields.</summary>
     public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash, uint foldVersion, byte player = 0, Token128 playerProof = default)
     {
         Nonce = nonce;
@@ -60,8 +60,8 @@ internal readonly struct JoinDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="join">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="join">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out JoinDatagram join, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Join);

@@ -8,7 +8,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct MoveDatagram
 {
-    /// <summary>A move of these fields.</summary>
+    /// <summary>Creates a move from its fields.</summary>
     public MoveDatagram(ulong sessionId, byte peer, Token128 cookie)
     {
         SessionId = sessionId;
@@ -40,8 +40,8 @@ internal readonly struct MoveDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="move">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="move">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out MoveDatagram move, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Move);

@@ -6,7 +6,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. Its layout is the same in every version.</remarks>
 internal readonly struct RefusalDatagram
 {
-    /// <summary>An answer of these fields.</summary>
+    /// <summary>Creates an answer from its fields.</summary>
     public RefusalDatagram(ulong nonce, RefusalReason reason)
     {
         Nonce = nonce;
@@ -24,7 +24,7 @@ internal readonly struct RefusalDatagram
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
-    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is none of the enum's.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is not a defined value.</exception>
     public int Encode(Span<byte> destination)
     {
         if (!IsWellFormed)
@@ -41,7 +41,7 @@ internal readonly struct RefusalDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="answer">What it says; meaningless when it is refused.</param>
+    /// <param name="answer">The decoded datagram; meaningless on refusal.</param>
     /// <param name="refusal">Why the datagram is not taken, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out RefusalDatagram answer, out WireRefusal refusal)
     {

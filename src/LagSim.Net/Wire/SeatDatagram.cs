@@ -8,7 +8,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct SeatDatagram
 {
-    /// <summary>A place of these fields.</summary>
+    /// <summary>Creates a place from its fields.</summary>
     public SeatDatagram(ulong sessionId, byte peer, uint lastSequence, Token128 pass)
     {
         SessionId = sessionId;
@@ -54,8 +54,8 @@ internal readonly struct SeatDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="seat">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="seat">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SeatDatagram seat, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Seat);

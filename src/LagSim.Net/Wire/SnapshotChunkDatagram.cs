@@ -9,7 +9,7 @@ internal readonly ref struct SnapshotChunkDatagram
     /// <summary>The length of every piece but the last.</summary>
     public const int MaxData = WireFormat.MaxBytes - WireFormat.EmptySnapshotChunkBytes;
 
-    /// <summary>A piece of these fields.</summary>
+    /// <summary>Creates a chunk from its fields.</summary>
     public SnapshotChunkDatagram(ulong sessionId, uint index, ReadOnlySpan<byte> data)
     {
         SessionId = sessionId;
@@ -47,8 +47,8 @@ internal readonly ref struct SnapshotChunkDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="chunk">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="chunk">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SnapshotChunkDatagram chunk, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotChunk);

@@ -53,7 +53,7 @@ internal static class SnapshotFormat
     /// <summary>Reads a snapshot; never throws, and takes memory only for bodies whose bytes are there.</summary>
     /// <param name="bytes">All of it.</param>
     /// <param name="snapshot">The snapshot, if that is what the bytes are.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> bytes, [NotNullWhen(true)] out WorldSnapshot? snapshot, out WireRefusal refusal)
     {
         WireReader reader = new(bytes, int.MaxValue);

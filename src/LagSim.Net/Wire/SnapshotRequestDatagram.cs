@@ -9,7 +9,7 @@ internal readonly struct SnapshotRequestDatagram
     /// <summary>The most pieces that are asked for at once.</summary>
     public const int MaxChunks = 64;
 
-    /// <summary>A request of these fields.</summary>
+    /// <summary>Creates a request from its fields.</summary>
     public SnapshotRequestDatagram(ulong sessionId, byte peer, uint number, uint first, ulong wanted)
     {
         SessionId = sessionId;
@@ -51,8 +51,8 @@ internal readonly struct SnapshotRequestDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="request">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="request">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SnapshotRequestDatagram request, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotRequest);

@@ -64,7 +64,7 @@ internal sealed partial class UpdateDatagram
 
     /// <summary>Reads a datagram into this object; never throws, never allocates. A refused one leaves it cleared.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public bool TryDecode(ReadOnlySpan<byte> datagram, out WireRefusal refusal)
     {
         Clear();

@@ -9,7 +9,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct WelcomeDatagram
 {
-    /// <summary>An answer of these fields.</summary>
+    /// <summary>Creates an answer from its fields.</summary>
     public WelcomeDatagram(
         ulong nonce, ulong sessionId, SimDuration history, int copyLength, ulong copyHash, uint logIndex)
     {
@@ -45,7 +45,7 @@ internal readonly struct WelcomeDatagram
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.WelcomeBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
-    /// <exception cref="InvalidOperationException">A field is out of its range.</exception>
+    /// <exception cref="InvalidOperationException">A field is out of range.</exception>
     public int Encode(Span<byte> destination)
     {
         if (!IsWellFormed)
@@ -68,8 +68,8 @@ internal readonly struct WelcomeDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="welcome">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="welcome">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out WelcomeDatagram welcome, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Welcome);

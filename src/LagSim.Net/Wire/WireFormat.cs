@@ -79,7 +79,7 @@ internal static class WireFormat
     /// <summary>Reads the header of a datagram, to choose which type's decoder to ask.</summary>
     /// <param name="datagram">The whole datagram.</param>
     /// <param name="type">What it says it is; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     /// <returns>False when it is no datagram of this version; never throws.</returns>
     public static bool TryReadType(ReadOnlySpan<byte> datagram, out DatagramType type, out WireRefusal refusal)
     {

@@ -24,7 +24,7 @@ internal enum WireRefusal : byte
     /// <summary>It is of a known type, but not the one that was asked for.</summary>
     OtherType = 6,
 
-    /// <summary>A field is out of its range.</summary>
+    /// <summary>A field is out of range.</summary>
     BadValue = 7,
 
     /// <summary>Something follows its last field.</summary>
