@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Strategies;
 
-/// <summary>The event happens at its own time: everything since is taken back and simulated again. Simple, and right bit for bit.</summary>
+/// <summary>The event happens at its own time: everything since is rewound and simulated again. Simple, and exact bit for bit.</summary>
 internal sealed class FullRollback : ILateEventStrategy
 {
     /// <inheritdoc/>

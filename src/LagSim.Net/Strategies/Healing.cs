@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>
-/// The event happens at its own time: what it can have touched since, and only that, is taken back and simulated again. Right bit for bit.
+/// The event happens at its own time: only what it can have touched since is rewound and simulated again. Exact bit for bit.
 /// </summary>
 internal sealed class Healing : ILateEventStrategy
 {

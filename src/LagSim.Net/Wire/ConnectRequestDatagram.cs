@@ -3,18 +3,19 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// A client's first word to a host. The host keeps nothing of it; it answers with a <see cref="ChallengeDatagram"/> of the same length.
+/// A client's first datagram to a host. The host keeps no state for it, and answers with a <see cref="ChallengeDatagram"/> of the same
+/// length.
 /// </summary>
 /// <remarks>
-/// Immutable, safe on any thread. Where its nonce stands is the same in every version, so that one of another version can be answered.
+/// Immutable, safe on any thread. The nonce is at the same place in every version, so that a client of another version can be answered.
 /// </remarks>
 internal readonly struct ConnectRequestDatagram
 {
-    /// <summary>A request of this nonce.</summary>
+    /// <summary>Creates a request with this nonce.</summary>
     public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;
 
     /// <summary>
-    /// A number the client drew; every answer carries it, so that an answer to another attempt is not taken for this one's.
+    /// A random number from the client. Every answer carries it, so that an answer to another attempt is not taken for this one's.
     /// </summary>
     public ulong Nonce { get; }
 
@@ -26,7 +27,7 @@ internal readonly struct ConnectRequestDatagram
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.ConnectRequest);
         writer.WriteUInt64(Nonce);
-        writer.WriteUInt64(0); // so that the answer is no longer than what asked for it
+        writer.WriteUInt64(0); // padding, so that the answer is no longer than the request
         writer.WriteUInt64(0);
         return writer.Position;
     }
@@ -43,7 +44,7 @@ internal readonly struct ConnectRequestDatagram
         return reader.Finish(out refusal);
     }
 
-    /// <summary>The nonce of a connect request of any version; false if the datagram cannot be one.</summary>
+    /// <summary>Reads the nonce of a connect request of any version; false if the datagram cannot be one.</summary>
     internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce)
     {
         nonce = 0;

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A peer is no longer in the session: it says so itself, or the host says it.</summary>
+/// <summary>A notice that a peer is no longer in the session, from the peer itself or from the host.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct LeaveDatagram
 {
@@ -17,10 +17,10 @@ internal readonly struct LeaveDatagram
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>Who is gone; 0 is the host.</summary>
+    /// <summary>The peer that is gone; 0 is the host.</summary>
     public byte Peer { get; }
 
-    /// <summary>Why.</summary>
+    /// <summary>The reason.</summary>
     public LeaveReason Reason { get; }
 
     private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Kicked;

@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// A client whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.
+/// A client's answer to a challenge at its new address, with the cookie that the host sent there; the host sends there from then on.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct MoveDatagram
@@ -22,7 +22,7 @@ internal readonly struct MoveDatagram
     /// <summary>The client; 0 if it has no number yet.</summary>
     public byte Peer { get; }
 
-    /// <summary>The cookie of the <see cref="ChallengeDatagram"/> that bore the session id.</summary>
+    /// <summary>The cookie of the <see cref="ChallengeDatagram"/> that carried the session id.</summary>
     public Token128 Cookie { get; }
 
     /// <summary>Writes the datagram.</summary>

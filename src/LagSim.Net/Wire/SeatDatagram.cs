@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// The host gives a client that is ready its place among the players. Repeated until an update of the client bears the number.
+/// The host's assignment of a player number to a client that is ready, repeated until an update of the client carries the number.
 /// </summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct SeatDatagram
@@ -23,13 +23,10 @@ internal readonly struct SeatDatagram
     /// <summary>The client's peer number, 1 to 255.</summary>
     public byte Peer { get; }
 
-    /// <summary>
-    /// The last sequence number that stands in an event of that peer number, of whoever had it before; the client's first event is the
-    /// next.
-    /// </summary>
+    /// <summary>The last sequence number in an event of that peer number, by any holder; the client's first event is the next.</summary>
     public uint LastSequence { get; }
 
-    /// <summary>What shows, after a silence, that one is the same player: see <see cref="JoinDatagram.PlayerProof"/>. Secret.</summary>
+    /// <summary>Proves, after a silence, that the client is the same player: see <see cref="JoinDatagram.PlayerProof"/>. Secret.</summary>
     public Token128 Pass { get; }
 
     /// <summary>Writes the datagram.</summary>

@@ -2,11 +2,11 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client asks for pieces of the copy that it was told of.</summary>
+/// <summary>A client's request for chunks of the announced snapshot.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct SnapshotRequestDatagram
 {
-    /// <summary>The most pieces that are asked for at once.</summary>
+    /// <summary>The most chunks requested at once.</summary>
     public const int MaxChunks = 64;
 
     /// <summary>Creates a request from its fields.</summary>
@@ -28,10 +28,10 @@ internal readonly struct SnapshotRequestDatagram
     /// <summary>Counts the client's requests; one that was overtaken is not answered.</summary>
     public uint Number { get; }
 
-    /// <summary>The first piece that is missing, counted from 0.</summary>
+    /// <summary>The first chunk that is missing, counted from 0.</summary>
     public uint First { get; }
 
-    /// <summary>Bit n: piece <see cref="First"/> + n is wanted.</summary>
+    /// <summary>Bit n: chunk <see cref="First"/> + n is wanted.</summary>
     public ulong Wanted { get; }
 
     /// <summary>Writes the datagram.</summary>

@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-// How an update becomes bytes and comes back; the layout is in docs/WIRE.md.
+// How an update is encoded and decoded; the layout is in docs/WIRE.md.
 internal sealed partial class UpdateDatagram
 {
     /// <summary>Writes the datagram.</summary>

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// The host lets a client come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.
+/// The host's answer that lets a client in and announces what to download: a snapshot of scene and world, and the log from where that ends.
 /// </summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct WelcomeDatagram
@@ -30,13 +30,13 @@ internal readonly struct WelcomeDatagram
     /// <summary>How far back the host's window reaches; above zero, at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
     public SimDuration History { get; }
 
-    /// <summary>The length of the copy in bytes, 1 to <see cref="WorldCopy.MaxBytes"/>.</summary>
+    /// <summary>The length of the snapshot in bytes, 1 to <see cref="WorldCopy.MaxBytes"/>.</summary>
     public int CopyLength { get; }
 
-    /// <summary>The hash of the copy's bytes.</summary>
+    /// <summary>The hash of the snapshot's bytes.</summary>
     public ulong CopyHash { get; }
 
-    /// <summary>How many entries of the log are in the copy, or before everything that is not.</summary>
+    /// <summary>The number of log entries that the snapshot includes, or that precede everything it does not.</summary>
     public uint LogIndex { get; }
 
     private bool IsWellFormed =>

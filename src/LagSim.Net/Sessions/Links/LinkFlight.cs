@@ -40,7 +40,7 @@ internal sealed class LinkFlight
     /// <summary>Records that an update was sent.</summary>
     /// <param name="update">The update.</param>
     /// <param name="length">Its length, in bytes.</param>
-    /// <param name="now">Records that the other has this peer's entries up to a number.</param>
+    /// <param name="now">The time by the local clock.</param>
     internal void NoteSent(UpdateDatagram update, int length, SimTime now)
     {
         answers.NoteSending(now);
@@ -57,7 +57,7 @@ internal sealed class LinkFlight
         }
     }
 
-    /// <summary>Takes the acknowledgements of an update: the newest received, and which of the 32 before it.</summary>
+    /// <summary>Records that the other has this peer's entries up to a number.</summary>
     internal void Acknowledge(uint number, SimTime now)
     {
         Window.Acknowledge(number);
@@ -67,7 +67,7 @@ internal sealed class LinkFlight
         }
     }
 
-    /// <summary>Takes datagrams as lost if later ones have arrived.</summary>
+    /// <summary>Takes the acknowledgements of an update: the newest received, and which of the 32 before it.</summary>
     internal void TakeAcknowledgements(UpdateDatagram update, SimTime now)
     {
         AcknowledgeUpdate(update.EchoNumber, now);
@@ -82,7 +82,7 @@ internal sealed class LinkFlight
         TakeLost(now);
     }
 
-    /// <summary>Takes what was sent as lost, because its answer is overdue.</summary>
+    /// <summary>Takes datagrams as lost if later ones have arrived.</summary>
     internal void TakeLost(SimTime now)
     {
         while (Sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
@@ -91,11 +91,8 @@ internal sealed class LinkFlight
         }
     }
 
-    /// <summary>Whether the replacement is a probe, which the window does not hold back.</summary>
-    /// <returns>
-    /// With a queue the answer is more likely late than lost. So twice only the oldest is sent again, as a probe that the window does not
-    /// hold back (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and the least window limits what is sent (7.6).
-    /// </returns>
+    /// <summary>Takes what was sent as lost, because its answer is overdue.</summary>
+    /// <returns>Whether the replacement is a probe, which the window does not hold back.</returns>
     internal bool TakeOverdue(SimTime now)
     {
         if (answers.NoteOverdue() && trips.HasQueue)
@@ -103,7 +100,8 @@ internal sealed class LinkFlight
             Congestion.OnSilence(now);
         }
 
-        // without a queue, repetition is what hides losses
+        // With a queue the answer is more likely late than lost. So twice only the oldest is sent again, as a probe that the window does
+        // not hold back (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and the least window limits what is sent (7.6).
         SimTime before = now - answers.Timeout;
         bool isProbe = trips.HasQueue && answers.MayBeLate;
         while (Sent.TryPeekOldest(out SimTime at) && at <= before && Sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
@@ -136,7 +134,7 @@ internal sealed class LinkFlight
     {
         if (Congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue) && trips.HasQueue)
         {
-            spare.Cut(); // where none shows, repetition is what hides losses
+            spare.Cut(); // without a queue, repetition is what hides losses
         }
 
         Sent.NoteLost(datagram);
