@@ -15,7 +15,7 @@ public sealed class RecordingDamage
     /// <summary>The byte offset in the file at which the first invalid record begins, counted from 0.</summary>
     public long Offset { get; }
 
-    /// <summary>What is wrong there, as a sentence.</summary>
+    /// <summary>The error found there, as a sentence.</summary>
     public string Reason { get; }
 
     /// <summary>Both, as a sentence.</summary>

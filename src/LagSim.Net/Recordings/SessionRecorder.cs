@@ -17,7 +17,8 @@ namespace LagSim.Net.Recordings;
 public sealed class SessionRecorder : IDisposable
 {
     /// <summary>
-    /// The number of log entries that can wait for the world's start. All of them are refusals; only a misbehaving peer causes that many.
+    /// The number of log entries that can wait for the world's start. All of them are refusals, and only a peer that does nothing else
+    /// causes that many.
     /// </summary>
     internal const int MaxWaiting = 1 << 16;
 

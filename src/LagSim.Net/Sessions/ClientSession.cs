@@ -18,7 +18,7 @@ public sealed class ClientSession : Session
 {
     /// <summary>
     /// The number of own events that can wait for the host's verdict, after which <see cref="Session.Do"/> throws: 16,384. At the default
-    /// rate that a host accepts, that is more than half a minute without an answer.
+    /// rate that a host processes, that is more than half a minute without an answer.
     /// </summary>
     public const int MaxUnconfirmedEvents = 1 << 14;
 

@@ -59,7 +59,7 @@ public sealed record HostOptions : SessionOptions
     }
 
     /// <summary>
-    /// How many events per second are accepted from each client, 1 to 100,000; default 500. Excess events are taken later. Thousands need a
+    /// How many events per second are processed from each client, 1 to 100,000; default 500. Excess events are deferred. Thousands need a
     /// larger <see cref="PlayerBudget"/>, or none.
     /// </summary>
     public int MaxEventsPerSecond { get; init; } = 500;

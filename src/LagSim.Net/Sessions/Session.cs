@@ -133,7 +133,7 @@ public abstract class Session
     /// </summary>
     public string? EndReason => parts.Status.EndReason;
 
-    /// <summary>What ended the session. From any thread, as <see cref="EndReason"/>.</summary>
+    /// <summary>The cause of the session's end. From any thread, as <see cref="EndReason"/>.</summary>
     public SessionEnd EndedBy => parts.Status.EndedBy;
 
     /// <summary>This peer's number; 0 is the host. Meaningful once joined.</summary>

@@ -55,13 +55,13 @@ internal static class WireFormat
     /// <summary>The length of an <see cref="UpdateDatagram"/> without start, state hash and entries.</summary>
     public const int EmptyUpdateBytes = 59;
 
-    /// <summary>What the start adds to an <see cref="UpdateDatagram"/>.</summary>
+    /// <summary>The length of the start in an <see cref="UpdateDatagram"/>.</summary>
     public const int StartBytes = 8;
 
-    /// <summary>What a state hash and its time add to an <see cref="UpdateDatagram"/>; each further one adds 8.</summary>
+    /// <summary>The length of a state hash and its time in an <see cref="UpdateDatagram"/>; each further hash adds 8.</summary>
     public const int StateHashBytes = 16;
 
-    /// <summary>What the most state hashes and their time add to an <see cref="UpdateDatagram"/>.</summary>
+    /// <summary>The length of the most state hashes and their time in an <see cref="UpdateDatagram"/>.</summary>
     internal const int MostHashBytes = StateHashBytes + ((UpdateDatagram.MaxHashes - 1) * sizeof(ulong));
 
     /// <summary>The longest datagram.</summary>

@@ -19,7 +19,7 @@ internal sealed class SkewedClock : IClock
     /// <summary>Creates a clock that deviates from another.</summary>
     /// <param name="trueClock">The clock it deviates from.</param>
     /// <param name="partsPerMillion">How much faster it runs; real crystals are within 100 either way.</param>
-    /// <param name="offset">What it reads when <paramref name="trueClock"/> reads zero.</param>
+    /// <param name="offset">Its reading when <paramref name="trueClock"/> reads zero.</param>
     /// <exception cref="ArgumentOutOfRangeException">
     /// <paramref name="partsPerMillion"/> is not finite or beyond <see cref="MaxPartsPerMillion"/>.
     /// </exception>

@@ -89,7 +89,7 @@ internal sealed class VirtualSteps
         due[number] = SimTime.MaxValue;
     }
 
-    /// <summary>Lets a session go on; it is due at once.</summary>
+    /// <summary>Resumes a frozen session; it is due at once.</summary>
     public void Thaw(int number)
     {
         frozen[number] = false;

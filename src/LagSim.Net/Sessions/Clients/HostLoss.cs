@@ -118,7 +118,7 @@ internal sealed class HostLoss(
     /// <summary>Asks to be let in again, or ends the session where that is disabled or pointless.</summary>
     /// <param name="by">How the session ends in that case.</param>
     /// <param name="why">The reason, as a sentence.</param>
-    /// <param name="isLinkGood">Whether hearing the host again is all it takes to go on.</param>
+    /// <param name="isLinkGood">Whether hearing from the host again is enough to continue.</param>
     /// <returns>False if the session has ended.</returns>
     internal bool Rejoin(SessionEnd by, string why, bool isLinkGood)
     {
@@ -157,7 +157,7 @@ internal sealed class HostLoss(
         return true;
     }
 
-    /// <summary>Resumes if the host is heard again over the existing link.</summary>
+    /// <summary>Resumes if the host is heard from again over the existing link.</summary>
     internal void NoteHeard()
     {
         if (status.IsRejoining && attempts.IsAsking)

@@ -78,7 +78,8 @@ internal sealed class JoinAttempt
     internal bool IsReady => Copy is not null && Clock.IsReady;
 
     /// <summary>
-    /// Returns the cookie if it may still be good, null if another is needed, and schedules the next try; the interval doubles each time.
+    /// Returns the cookie if it may still be good, null if another is needed, and schedules the next try; the interval doubles each time,
+    /// up to <see cref="MostPace"/>.
     /// </summary>
     internal Token128? Ask(SimTime now)
     {
