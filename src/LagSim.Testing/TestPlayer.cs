@@ -61,7 +61,7 @@ public sealed class TestPlayer
         return external;
     }
 
-    /// <summary>Leaves the session regularly, with a goodbye. The player is not compared with the others from then on.</summary>
+    /// <summary>Leaves the session with a goodbye. The player is not compared with the others from then on.</summary>
     /// <exception cref="SessionTestException">The player is the host, without which there is no session.</exception>
     public void Leave()
     {

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Net.Clocks;
 
 /// <summary>
-/// An estimate of how far another peer's clock is ahead of this one at any own time: an offset at one instant, the drift since, and the
+/// An estimate of how far another peer's clock is ahead of this one at any local time: an offset at one instant, the drift since, and the
 /// errors of both.
 /// </summary>
 /// <remarks>Immutable, safe on any thread. Evaluated with integers only. <c>default</c> says that the two clocks are equal.</remarks>
@@ -43,22 +43,22 @@ internal readonly struct ClockEstimate
         this.driftBound = (long)Math.Ceiling(driftBound * (1L << FractionBits));
     }
 
-    /// <summary>The own time at which <see cref="Offset"/> holds.</summary>
+    /// <summary>The local time at which <see cref="Offset"/> holds.</summary>
     public SimTime At { get; }
 
-    /// <summary>The other peer's clock minus the own one, at <see cref="At"/>.</summary>
+    /// <summary>The other peer's clock minus the local one, at <see cref="At"/>.</summary>
     public SimDuration Offset { get; }
 
     /// <summary>The greatest error of <see cref="Offset"/>; zero if no bound was given.</summary>
     public SimDuration ErrorBound { get; }
 
-    /// <summary>How much faster the other clock runs, in parts per million of the own one; negative if it is slower.</summary>
+    /// <summary>How much faster the other clock runs, in parts per million of the local one; negative if it is slower.</summary>
     public double DriftPartsPerMillion => drift / UnitsPerMillionth;
 
     /// <summary>The greatest error of <see cref="DriftPartsPerMillion"/>; zero if no bound was given.</summary>
     public double DriftErrorBound => driftBound / UnitsPerMillionth;
 
-    /// <summary>The other peer's clock minus the own one, when that reads <paramref name="ownTime"/>.</summary>
+    /// <summary>The other peer's clock minus the local one, when that reads <paramref name="ownTime"/>.</summary>
     /// <exception cref="OverflowException">The result is out of range.</exception>
     public SimDuration OffsetAt(SimTime ownTime) => Offset + Share(drift, ownTime - At);
 
@@ -71,7 +71,7 @@ internal readonly struct ClockEstimate
     }
 
     /// <summary>
-    /// Rounded down, so that own time plus offset never goes back. Split in two, since the product of the whole would overflow.
+    /// Rounded down, so that local time plus offset never goes back. Split in two, since the product of the whole would overflow.
     /// </summary>
     private static SimDuration Share(long units, SimDuration span) =>
         SimDuration.FromTicks(((span.Ticks >> FractionBits) * units) + (((span.Ticks & ((1L << FractionBits) - 1)) * units) >> FractionBits));

@@ -23,7 +23,7 @@ internal struct ClockExchange
         MostDrift = double.PositiveInfinity;
     }
 
-    /// <summary>The own time at which it came back.</summary>
+    /// <summary>The local time at which it came back.</summary>
     internal readonly SimTime Back => back;
 
     /// <summary>The least offset when it came back.</summary>
@@ -35,16 +35,16 @@ internal struct ClockExchange
     /// <summary>The most drift that this exchange and those before it allow, as a fraction.</summary>
     internal double MostDrift { get; private set; }
 
-    /// <summary>The time from the request to the answer, in seconds of the own clock, including the wait at the other peer.</summary>
+    /// <summary>The time from the request to the answer, in seconds of the local clock, including the wait at the other peer.</summary>
     internal readonly double Length => (back - left).ToSeconds();
 
     /// <summary>The width of the range that it leaves the offset, in seconds, for that drift: at the true drift, the round trip.</summary>
     internal readonly double Width(double drift) => (most - least).ToSeconds() + (drift * Length);
 
-    /// <summary>The greatest possible offset at an own time, in seconds above a reference, for that drift.</summary>
+    /// <summary>The greatest possible offset at a local time, in seconds above a reference, for that drift.</summary>
     internal readonly double MostAt(SimTime at, SimDuration reference, double drift) => (most - reference).ToSeconds() + (drift * (at - left).ToSeconds());
 
-    /// <summary>The least possible offset at an own time, in seconds above a reference, for that drift.</summary>
+    /// <summary>The least possible offset at a local time, in seconds above a reference, for that drift.</summary>
     internal readonly double LeastAt(SimTime at, SimDuration reference, double drift) => (least - reference).ToSeconds() + (drift * (at - back).ToSeconds());
 
     /// <summary>How long ago its midpoint was, in seconds.</summary>

@@ -231,9 +231,9 @@ internal sealed class ClockSync
     }
 
     /// <summary>
-    /// The range of offsets that all exchanges allow at an own time, in seconds above a reference, for a drift in a range.
+    /// The range of offsets that all exchanges allow at a local time, in seconds above a reference, for a drift in a range.
     /// </summary>
-    /// <param name="at">The own time.</param>
+    /// <param name="at">The local time.</param>
     /// <param name="reference">The reference.</param>
     /// <param name="leastDrift">The least drift, as a fraction.</param>
     /// <param name="mostDrift">The most drift, as a fraction.</param>

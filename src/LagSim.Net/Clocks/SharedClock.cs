@@ -4,10 +4,11 @@ using LagSim.Time;
 namespace LagSim.Net.Clocks;
 
 /// <summary>
-/// The session's time, derived from the own clock: set at the start of a world, and from then on slewed gently towards each newer estimate.
+/// The session's time, derived from the local clock: set at the start of a world, and from then on slewed gently towards each newer
+/// estimate.
 /// </summary>
 /// <remarks>
-/// <para>During a world it never steps and never goes back, as long as the own clock does not. When a session continues from a fresh
+/// <para>During a world it never steps and never goes back, as long as the local clock does not. When a session continues from a fresh
 /// snapshot (<see cref="Sessions.Session.Renewed"/>), it steps once, forwards or back, to the host's time. It runs with the drift of the
 /// newest estimate, so that it stays right between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than
 /// <see cref="FastAbove"/> off.</para>
@@ -26,7 +27,7 @@ public sealed class SharedClock : IClock
     private readonly object gate = new();
     private readonly IClock own;
     private ClockEstimate target;
-    private SimTime read; // own clock, when the remainder was last updated
+    private SimTime read; // local clock, when the remainder was last updated
     private SimDuration remaining; // target minus offset
     private bool set;
     private bool restarts; // the next estimate is applied at once
@@ -67,7 +68,7 @@ public sealed class SharedClock : IClock
         }
     }
 
-    /// <summary>Shared time minus own time, as of the last reading or adjustment; zero before the clock is set.</summary>
+    /// <summary>Shared time minus local time, as of the last reading or adjustment; zero before the clock is set.</summary>
     public SimDuration Offset
     {
         get
@@ -99,13 +100,13 @@ public sealed class SharedClock : IClock
     /// Gives the clock the newest estimate. The first sets it at once, as does the first after <see cref="Restart"/>; later ones are
     /// approached.
     /// </summary>
-    /// <param name="estimate">Shared time minus own time, within 48 days of zero, with its drift.</param>
+    /// <param name="estimate">Shared time minus local time, within 48 days of zero, with its drift.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero by now.</exception>
     internal void Adjust(in ClockEstimate estimate)
     {
         lock (gate)
         {
-            // If the own clock goes back despite its contract, this one only stands still.
+            // If the local clock goes back despite its contract, this one only stands still.
             SimTime now = set ? SimTime.Max(own.Now, read) : own.Now;
             SimDuration offset = estimate.OffsetAt(now);
             if (offset.Ticks is < -MaxOffset or >= MaxOffset)
@@ -136,7 +137,7 @@ public sealed class SharedClock : IClock
     }
 
     /// <summary>Gives the clock an estimate without drift.</summary>
-    /// <param name="offset">Shared time minus own time, within 48 days of zero.</param>
+    /// <param name="offset">Shared time minus local time, within 48 days of zero.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="offset"/> is further from zero.</exception>
     internal void Adjust(SimDuration offset) => Adjust(new ClockEstimate(SimTime.Zero, offset));
 
@@ -148,7 +149,7 @@ public sealed class SharedClock : IClock
         read = now;
     }
 
-    /// <summary>Returns how much the offset moves towards the target in that much own time, never past it.</summary>
+    /// <summary>Returns how much the offset moves towards the target in that much local time, never past it.</summary>
     private static SimDuration Slew(SimDuration error, SimDuration elapsed)
     {
         SimDuration size = error < SimDuration.Zero ? -error : error;

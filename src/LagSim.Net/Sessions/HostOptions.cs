@@ -49,9 +49,9 @@ public sealed record HostOptions : SessionOptions
 
     /// <summary>
     /// How many clients may be in from one address, whatever their ports, 1 to <see cref="SessionOptions.MaxClients"/>; default half of the
-    /// places, or <see cref="ExpectedClients"/> if that is more. It keeps one machine from taking every place. Players behind one NAT share
-    /// an address.
+    /// places, or <see cref="ExpectedClients"/> if that is more.
     /// </summary>
+    /// <remarks>It keeps one machine from taking every place. Players behind one NAT share an address.</remarks>
     public int MaxClientsPerAddress
     {
         get => perAddress ?? Math.Max(MaxClients / 2, ExpectedClients);

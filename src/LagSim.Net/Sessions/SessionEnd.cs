@@ -9,7 +9,7 @@ public enum SessionEnd
     /// <summary>This peer left; a host thereby ended the session.</summary>
     Left,
 
-    /// <summary>The host ended the session regularly, for all peers.</summary>
+    /// <summary>The host ended the session properly, for all peers.</summary>
     HostEnded,
 
     /// <summary>The host did not let this client in: another version, key or scene, or no free place.</summary>

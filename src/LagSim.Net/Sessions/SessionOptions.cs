@@ -62,11 +62,11 @@ public abstract record SessionOptions
     /// </remarks>
     public double MaxGivenSpeed { get; init; } = 1_000;
 
-    /// <summary>
-    /// How many bodies spawned by one player may exist at a time, 0 to 1,000,000; default 64. Those of former holders of the player's
-    /// number count too. A host refuses more as <see cref="Wire.Verdict.NoRight"/>, by its own option; a client's own
-    /// <see cref="Session.Do"/> goes by the client's.
-    /// </summary>
+    /// <summary>How many bodies spawned by one player may exist at a time, 0 to 1,000,000; default 64.</summary>
+    /// <remarks>
+    /// Those of former holders of the player's number count too. A host refuses more as <see cref="Wire.Verdict.NoRight"/>, by its own
+    /// option; a client's own <see cref="Session.Do"/> goes by the client's.
+    /// </remarks>
     public int MaxSpawned { get; init; } = 64;
 
     /// <summary>
@@ -82,10 +82,12 @@ public abstract record SessionOptions
     public LatencyCompensationWindow Window { get; init; } = new();
 
     /// <summary>
-    /// The maximum number of segments in all timelines of this peer, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>. A
-    /// peer that needs more reports it and leaves (<see cref="SessionEnd.TimelinesFull"/>). It can join again, and then gets the committed
-    /// world.
+    /// The maximum number of segments in all timelines of this peer, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>.
     /// </summary>
+    /// <remarks>
+    /// A peer that needs more reports it and leaves (<see cref="SessionEnd.TimelinesFull"/>). It can join again, and then gets the
+    /// committed world.
+    /// </remarks>
     public int MaxSegments { get; init; } = SimulationOptions.DefaultMaxSegments;
 
     /// <summary>
@@ -108,11 +110,11 @@ public abstract record SessionOptions
     /// </summary>
     public SimDuration RenderedPast { get; init; } = LiveWorld.DefaultRenderedPast;
 
-    /// <summary>
-    /// How long a peer may be silent before it is given up, 100 ms to 10 min; default 10 s. A host then disconnects a client and reserves
-    /// its number for <see cref="RejoinTime"/>; a client asks that long to be let in again. A client this far behind the log gets a fresh
-    /// snapshot instead.
-    /// </summary>
+    /// <summary>How long a peer may be silent before it is given up, 100 ms to 10 min; default 10 s.</summary>
+    /// <remarks>
+    /// A host then disconnects a client and reserves its number for <see cref="RejoinTime"/>; a client asks that long to be let in again. A
+    /// client that is this far behind the log gets a fresh snapshot instead.
+    /// </remarks>
     public SimDuration Timeout { get; init; } = DefaultTimeout;
 
     /// <summary>How long unacknowledged data waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
@@ -138,16 +140,22 @@ public abstract record SessionOptions
 
     /// <summary>
     /// Whether to check every heal against a full rollback in a second world, bit for bit; default false. The first difference ends the
-    /// session with a sentence that shows both versions. It is for testing your own scene, and more than doubles the cost. Only with a
-    /// strategy that heals: <see cref="LateEventStrategy.Healing"/> or <see cref="LateEventStrategy.Interpolation"/>.
+    /// session with a sentence that shows both versions.
     /// </summary>
+    /// <remarks>
+    /// It is for testing your own scene, and more than doubles the cost. Only with a strategy that heals:
+    /// <see cref="LateEventStrategy.Healing"/> or <see cref="LateEventStrategy.Interpolation"/>.
+    /// </remarks>
     public bool SyncTest { get; init; }
 
     /// <summary>
     /// How far behind shared time <see cref="LateEventStrategy.Interpolation"/> shows the world, 0 to 5 s; default 100 ms. Other strategies
-    /// ignore it. An event that arrives within that time appears without a jump, and this peer's own actions appear that much later. Frames
-    /// read at <see cref="Session.DisplayTime"/>. Each peer may choose its own.
+    /// ignore it.
     /// </summary>
+    /// <remarks>
+    /// An event that arrives within that time appears without a jump, and this peer's own actions appear that much later. Frames read at
+    /// <see cref="Session.DisplayTime"/>. Each peer may choose its own.
+    /// </remarks>
     public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
 
     /// <summary>

@@ -17,10 +17,12 @@ internal sealed class HostLoss(
     private const int MostUseless = 3;
 
     /// <summary>
-    /// A fresh snapshot that did not last this long was useless. That many useless ones in a row end the session; a single one does when
-    /// the link is too slow, since the next snapshot would come over the same link. The value spans four dips of a link that dips every 30
-    /// s.
+    /// A fresh snapshot that did not last this long was useless. The value spans four dips of a link that dips every 30 s.
     /// </summary>
+    /// <remarks>
+    /// <see cref="MostUseless"/> useless ones in a row end the session; a single one does when the link is too slow, since the next
+    /// snapshot would come over the same link.
+    /// </remarks>
     private static readonly SimDuration UsefulFor = SimDuration.FromSeconds(120);
 
     private SimTime rejoining; // when it began, by the local clock

@@ -58,11 +58,11 @@ internal sealed class WorldEntry(
         return true;
     }
 
-    /// <summary>
-    /// The earliest start to accept. A client that joins later than the history after the start gets a state with the scene; without one,
-    /// the start lies at most the history, plus the timeout for clocks and snapshots, before it asked to join. Simulating from any earlier
-    /// start would take unbounded time.
-    /// </summary>
+    /// <summary>The earliest start to accept; simulating from any earlier one would take unbounded time.</summary>
+    /// <remarks>
+    /// A client that joins later than the history after the start gets a state with the scene. Without one, the start lies at most the
+    /// history, plus the timeout for clocks and snapshots, before it asked to join.
+    /// </remarks>
     private SimTime EarliestStart(JoinAttempt attempt) =>
         sharedTime.Now - (clock.Now - attempt.Began) - timeout
         - (connection.History < LatencyCompensationWindow.MaxHistory ? connection.History : LatencyCompensationWindow.MaxHistory);

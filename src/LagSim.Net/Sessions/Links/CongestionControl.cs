@@ -21,8 +21,8 @@ internal class CongestionControl
     private const int Full = FullDatagramBytes;
 
     /// <summary>
-    /// The initial window. It is above the ten datagrams of RFC 9002, because an event that waits for the window to open is late. It holds
-    /// the default maximum of a client, 500 events per second, in flight on the longest link that is reported on, a 2 s round trip.
+    /// The initial window: the default maximum of a client, 500 events per second, in flight on the longest link that is reported on, a 2 s
+    /// round trip. It is above the ten datagrams of RFC 9002, because an event that waits for the window to open is late.
     /// </summary>
     private const int InitialWindow = 50 * Full;
 
