@@ -90,7 +90,7 @@ public sealed class PeerThread : IDisposable
     /// <see cref="Session.Logged"/>.
     /// </summary>
     /// <remarks>
-    /// An action left unanswered when the thread ends is cancelled, and not reported here. Without a handler, refusals are written to
+    /// What the end of the thread left unanswered is cancelled, not reported. Without a handler, refusals go to
     /// <see cref="System.Diagnostics.Trace"/>.
     /// </remarks>
     public event Action<PlayerAction, Exception>? Refused
@@ -99,9 +99,7 @@ public sealed class PeerThread : IDisposable
         remove => failures.Refused.Remove(value);
     }
 
-    /// <summary>
-    /// Opens a session over UDP, on a thread that is already started. Disposing it leaves the session and closes the port.
-    /// </summary>
+    /// <summary>Opens a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
     /// <param name="scene">The scene that all peers share.</param>
     /// <param name="udpPort">The port to listen on, 0 to 65,535; 0 takes any free port, which <see cref="LocalAddress"/> returns.</param>
     /// <param name="options">How to take part; the default begins at once, and clients may join at any time.</param>
@@ -121,9 +119,7 @@ public sealed class PeerThread : IDisposable
         return Host(scene, new UdpPort(new IPEndPoint(bind ?? IPAddress.Any, udpPort)), options, setUp);
     }
 
-    /// <summary>
-    /// Opens a session over a carrier, on a thread that is already started. Disposing it leaves the session and disposes the carrier.
-    /// </summary>
+    /// <summary>Opens a session over a carrier, on a started thread. Disposing it leaves the session and disposes the carrier.</summary>
     /// <param name="scene">The scene that all peers share.</param>
     /// <param name="carrier">The carrier of datagrams. The thread owns it from now on, and it is disposed even if this throws.</param>
     /// <param name="options">How to take part; the default begins at once, and clients may join at any time.</param>
@@ -136,9 +132,7 @@ public sealed class PeerThread : IDisposable
             "LagSim host",
             setUp);
 
-    /// <summary>
-    /// Joins a session over UDP, on a thread that is already started. Disposing it leaves the session and closes the port.
-    /// </summary>
+    /// <summary>Joins a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
     /// <param name="host">The host's address: that of one machine, and a port from 1 on.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="scene">The scene that the host is expected to have; null accepts any.</param>
@@ -156,9 +150,7 @@ public sealed class PeerThread : IDisposable
         return Join(new UdpPort(UdpDestination.Facing(address.ToEndPoint().Address)), address, options, scene, setUp);
     }
 
-    /// <summary>
-    /// Joins a session over a carrier, on a thread that is already started. Disposing it leaves the session and disposes the carrier.
-    /// </summary>
+    /// <summary>Joins a session over a carrier, on a started thread. Disposing it leaves the session and disposes the carrier.</summary>
     /// <param name="carrier">The carrier of datagrams. The thread owns it from now on, and it is disposed even if this throws.</param>
     /// <param name="host">The host's address, in the carrier's terms.</param>
     /// <param name="options">How to take part.</param>
@@ -212,9 +204,7 @@ public sealed class PeerThread : IDisposable
     /// <summary>The number of steps done so far.</summary>
     public long Steps => thread.Steps;
 
-    /// <summary>
-    /// Starts the thread, once. From then until this is disposed, members reserved for the session's thread throw on any other.
-    /// </summary>
+    /// <summary>Starts the thread, once. Until this is disposed, members for the session's thread throw on any other.</summary>
     /// <exception cref="InvalidOperationException">It was started before, or another thread runs the session.</exception>
     /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
     public void Start()
@@ -252,8 +242,7 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>
-    /// Performs an action in the shared world as soon as the session's thread gets to it: at once unless it is busy, and after
-    /// <see cref="Start"/> if called before.
+    /// Performs an action as soon as the session's thread gets to it: at once unless it is busy, or after <see cref="Start"/>.
     /// </summary>
     /// <remarks>From any thread. Cost: wakes the thread; allocates nothing while fewer than 64 answers are outstanding.</remarks>
     /// <returns>
@@ -272,10 +261,7 @@ public sealed class PeerThread : IDisposable
         return answer;
     }
 
-    /// <summary>
-    /// Runs a function on the session's own thread and returns its result. It runs once the thread is started, and is cancelled if that is
-    /// disposed first.
-    /// </summary>
+    /// <summary>Runs a function on the session's thread, once it is started; cancelled if that is disposed first.</summary>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
@@ -291,8 +277,7 @@ public sealed class PeerThread : IDisposable
     /// closes its port; any other sends no goodbye, <see cref="Session.Leave"/> does.
     /// </summary>
     /// <remarks>
-    /// From any thread, and more than once. On the session's own thread, in a handler, it returns at once, and all this happens after the
-    /// step.
+    /// From any thread, and more than once. In a handler, on the session's own thread, it returns at once and takes effect after the step.
     /// </remarks>
     public void Dispose()
     {
@@ -325,9 +310,7 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>
-    /// Warms up on this thread rather than the game's, before any request is answered, so that an action waits for it once at most.
-    /// </summary>
+    /// <summary>Warms up on this thread, not the game's, before any answer, so that an action waits for it once at most.</summary>
     private void WarmUp()
     {
         if (Session.WarmsUpFor is LateEventStrategy strategy)
@@ -373,12 +356,8 @@ public sealed class PeerThread : IDisposable
         return wait;
     }
 
-    /// <summary>
-    /// The cleanup after the last step, done once: on the session's thread, or on the disposing thread if it was never started.
-    /// </summary>
-    /// <param name="fault">
-    /// The exception that ended the thread. Even then the session says goodbye, so that other peers need not wait for the timeout.
-    /// </param>
+    /// <summary>The cleanup after the last step, once: on the session's thread, or on the disposing one if never started.</summary>
+    /// <param name="fault">What ended the thread. Even then it says goodbye, so that other peers need not wait for the timeout.</param>
     private void End(Exception? fault)
     {
         if (Interlocked.Exchange(ref hasEnded, 1) != 0)
