@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Testing;
 
-/// <summary>The first event, in canonical order, that a peer has otherwise than the peer that never had a delay.</summary>
+/// <summary>The first event, in canonical order, in which a peer differs from the peer that never had a delay.</summary>
 /// <param name="Peer">The peer; 0 is the host.</param>
 /// <param name="Body">The body it happened to.</param>
 /// <param name="Start">When the world began.</param>
@@ -21,14 +21,16 @@ public sealed record FirstDifference(
     /// <summary>The earlier of the two versions.</summary>
     public EventKey Key => ExpectedKey is EventKey should && ActualKey is EventKey there ? (should < there ? should : there) : (ExpectedKey ?? ActualKey)!.Value;
 
-    /// <summary>When that happens.</summary>
+    /// <summary>The time of that event.</summary>
     public double SinceStartSeconds => (Key.Time - Start).ToSeconds();
 
-    /// <summary>What differs, of which body, in both versions, and how far apart they are: one sentence, of times since the start.</summary>
-    /// <remarks>Numbers have four digits where that tells them apart, else all.</remarks>
+    /// <summary>
+    /// Describes the difference in one sentence: the body, both versions, and how far apart they are, with times since the start.
+    /// </summary>
+    /// <remarks>Numbers have four digits if that distinguishes them, otherwise all.</remarks>
     public override string ToString() => Text(body => body.ToString());
 
-    /// <summary>The same sentence, where bodies have names.</summary>
+    /// <summary>The same sentence, with names for the bodies.</summary>
     internal string Text(Func<BodyId, string> nameOf) => $"Peer {Peer}, body {nameOf(Body)}, {What(nameOf)}.";
 
     private string What(Func<BodyId, string> nameOf)

@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Testing;
 
-/// <summary>What one player of a test went through.</summary>
+/// <summary>The results for one player of a test.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class PlayerResult
 {
@@ -34,35 +34,36 @@ public sealed class PlayerResult
     public LinkProfile? Link { get; }
 
     /// <summary>
-    /// How many events of others came after the time stamped on them, of the first <see cref="SessionCounters.MaxKeptLatenesses"/>.
+    /// The number of other players' events that came after their timestamp, among the first
+    /// <see cref="SessionCounters.MaxKeptLatenesses"/>.
     /// </summary>
     public long LateEvents { get; }
 
-    /// <summary>By how much the latest of them came late; zero if none did.</summary>
+    /// <summary>The lateness of the latest of them; zero if none was late.</summary>
     public SimDuration WorstLateness { get; }
 
     /// <summary>How often this player's world rewrote its past for a late event.</summary>
     public long Heals { get; }
 
-    /// <summary>How many frames it was watched, at 60 a second of true time, from when it was in.</summary>
+    /// <summary>The number of frames sampled, at 60 per second of true time, from when it was in.</summary>
     public long Frames { get; }
 
     /// <summary>
-    /// How many of these could not be drawn, because its world did not cover the moment. Machines are infinitely fast here: only a session
-    /// that is interrupted stalls.
+    /// The number of those that could not be drawn, because its world did not cover the moment. Machines are infinitely fast here, so only
+    /// an interrupted session stalls.
     /// </summary>
     public long StalledFrames { get; }
 
     /// <summary>
-    /// How many accepted events it should have heard of and did not, or too late for the history that it keeps. Always 0, but where a
+    /// The number of accepted events that it should have received and did not, or received too late for its history. Always 0 unless a
     /// session is broken.
     /// </summary>
     public long EventsLost { get; }
 
-    /// <summary>How often it got a fresh copy of the host's world, because it was out for too long or its own world differed.</summary>
+    /// <summary>How often it got a fresh snapshot of the host's world, because it was out for too long or its own world differed.</summary>
     public long Renewals { get; }
 
-    /// <summary>What went through its port, from joining to the end; bytes with UDP and IP headers.</summary>
+    /// <summary>The traffic through its port, from joining to the end; bytes with UDP and IP headers.</summary>
     public PortTraffic Traffic { get; }
 
     /// <summary>One line with the figures.</summary>

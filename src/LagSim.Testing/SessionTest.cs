@@ -14,15 +14,15 @@ namespace LagSim.Testing;
 /// A test of a scene under lag: a host and its clients play it over simulated links, and every one of them must end up with the same world.
 /// </summary>
 /// <remarks>
-/// <para>Say who plays over which links, what each of them does and when, then <see cref="Run"/>. The sessions are the real ones; the
-/// network and the clocks are simulated. Nothing waits: a minute of play takes what computing it takes. A difference of one bit throws a
-/// <see cref="WorldsDifferException"/> that names player, body and instant.</para>
-/// <para>Players are numbered: 0 is the host, the clients are 1, 2 and so on, in the order in which they are added. Those that are there
-/// from the start have that number as <see cref="Session.Peer"/> too, and with it whatever rights the scene gives to it. Every machine's
-/// clock reads another time, up to an hour off, and runs up to 20 millionths fast or slow.</para>
-/// <para>Deterministic: the same test with the same seed gives the same bits and the same figures on every machine, as long as what it
-/// hands in does (actions, options, forces). One test can be run any number of times, each run beginning anew. For one thread; different
-/// tests may run at once. Needs no test framework: what fails, throws.</para>
+/// <para>Add players with their links, plan what each of them does and when, then call <see cref="Run"/>. The sessions are the real ones;
+/// the network and the clocks are simulated. Nothing waits in real time: a minute of play takes as long as its computation. A difference of
+/// one bit throws a <see cref="WorldsDifferException"/> that names player, body and instant.</para>
+/// <para>Players are numbered: 0 is the host, the clients are 1, 2 and so on, in the order in which they are added. The initial ones have
+/// that number as <see cref="Session.Peer"/> too, and with it whatever rights the scene gives to it. Every machine's clock reads another
+/// time, up to an hour off, and runs up to 20 millionths fast or slow.</para>
+/// <para>Deterministic: the same test with the same seed gives the same bits and the same figures on every machine, as long as the code it
+/// is given is deterministic (actions, options, forces). One test can be run any number of times, each run starting over. For one thread;
+/// different tests may run at once. Needs no test framework: failures throw.</para>
 /// </remarks>
 /// <example>
 /// <code>
@@ -51,23 +51,23 @@ public sealed class SessionTest
     private Func<int, SessionOptions>? options;
     private ulong seed = 1;
 
-    /// <summary>A test of a scene, with a host and nobody else yet.</summary>
-    /// <param name="scene">What all share. Forces of the program's own are handed to the clients with it.</param>
+    /// <summary>Creates a test of a scene, with only a host so far.</summary>
+    /// <param name="scene">The scene that all peers share. Its custom forces are handed to the clients with it.</param>
     public SessionTest(Scene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);
         this.scene = scene;
     }
 
-    /// <summary>
-    /// Gets each player's number and its session before the session's first step: for faults put in on purpose.
-    /// </summary>
+    /// <summary>Called with each player's number and session before the session's first step, to inject faults.</summary>
     internal Action<int, Session>? PrepareSession { get; set; }
 
     /// <summary>Adds clients that are there from the start, each over a link of its own to the host.</summary>
-    /// <param name="count">How many, 1 to <see cref="SessionOptions.MaxClients"/>; all clients together no more than that.</param>
-    /// <param name="link">What their links do.</param>
-    /// <exception cref="ArgumentOutOfRangeException">That is no number of clients that a host has room for.</exception>
+    /// <param name="count">
+    /// The number of clients, 1 to <see cref="SessionOptions.MaxClients"/>; all clients together no more than that.
+    /// </param>
+    /// <param name="link">The profile of their links.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The host has no room for that number of clients.</exception>
     public SessionTest WithClients(int count, LinkProfile link)
     {
         ArgumentNullException.ThrowIfNull(link);
@@ -88,16 +88,16 @@ public sealed class SessionTest
         return this;
     }
 
-    /// <summary>Adds clients over links of a profile that is known by name, such as <c>4g</c>, <c>awful</c> or <c>delay-80ms</c>.</summary>
-    /// <param name="count">As for the other.</param>
+    /// <summary>Adds clients over links with a named profile, such as <c>4g</c>, <c>awful</c> or <c>delay-80ms</c>.</summary>
+    /// <param name="count">As for the other overload.</param>
     /// <param name="link">One of <see cref="LinkProfiles.Names"/>, or <c>delay-Nms</c>; case matters.</param>
-    /// <exception cref="ArgumentException">There is no such profile; the message lists those that there are.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">That is no number of clients that a host has room for.</exception>
+    /// <exception cref="ArgumentException">There is no such profile; the message lists those that exist.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The host has no room for that number of clients.</exception>
     public SessionTest WithClients(int count, string link) => WithClients(count, LinkProfiles.Get(link));
 
     /// <summary>Adds a client that asks to join while the others play. It is in some round trips later, and can act from then on.</summary>
     /// <param name="seconds">When it asks, in seconds since the start of the world; 0 to <see cref="MaxSeconds"/>.</param>
-    /// <param name="link">What its link does.</param>
+    /// <param name="link">The profile of its link.</param>
     /// <exception cref="ArgumentOutOfRangeException">The time is out of range, or the host has no room for another client.</exception>
     public SessionTest WithLateClient(double seconds, LinkProfile link)
     {
@@ -107,13 +107,13 @@ public sealed class SessionTest
         return this;
     }
 
-    /// <summary>Adds such a client over a link of a profile that is known by name.</summary>
-    /// <param name="seconds">As for the other.</param>
+    /// <summary>Adds such a client over a link with a named profile.</summary>
+    /// <param name="seconds">As for the other overload.</param>
     /// <param name="link">One of <see cref="LinkProfiles.Names"/>, or <c>delay-Nms</c>; case matters.</param>
-    /// <exception cref="ArgumentException">There is no such profile, or a value is out of range as for the other.</exception>
+    /// <exception cref="ArgumentException">There is no such profile, or a value is out of range as for the other overload.</exception>
     public SessionTest WithLateClient(double seconds, string link) => WithLateClient(seconds, LinkProfiles.Get(link));
 
-    /// <summary>Sets the seed: the luck of all links and clocks. Default 1.</summary>
+    /// <summary>Sets the seed of all links and clocks. Default 1.</summary>
     /// <param name="seed">Any number. Runs with other seeds lose other datagrams.</param>
     public SessionTest WithSeed(ulong seed)
     {
@@ -123,12 +123,12 @@ public sealed class SessionTest
 
     /// <summary>Sets how the peers take part: the game's own session options. Default: all defaults.</summary>
     /// <param name="options">
-    /// Called once a run for each player, with its number: 0 is the host. Returns <see cref="HostOptions"/> or <see cref="ClientOptions"/>;
-    /// where a host gets a client's, or a client a host's, what both sides have counts. The test itself sets
-    /// <see cref="HostOptions.ExpectedClients"/>, <see cref="SessionOptions.Cancellation"/>, and a
-    /// <see cref="HostOptions.StartLead"/> in which all hear of the start; a client without <see cref="ClientOptions.Accelerations"/>
-    /// gets the scene's; and where nobody is told of contacts, timelines are kept for the whole run
-    /// (<see cref="SessionOptions.ExtraHistory"/>), so that a difference can be named to the event.
+    /// Called once per run for each player, with its number: 0 is the host. Returns <see cref="HostOptions"/> or
+    /// <see cref="ClientOptions"/>; if a host gets a client's, or a client a host's, the shared settings apply. The test itself sets
+    /// <see cref="HostOptions.ExpectedClients"/>, <see cref="SessionOptions.Cancellation"/>, and a <see cref="HostOptions.StartLead"/> in
+    /// which every client receives the start; a client without <see cref="ClientOptions.Accelerations"/> gets the scene's; and without
+    /// contact notices, timelines are kept for the whole run (<see cref="SessionOptions.ExtraHistory"/>), so that a difference can be named
+    /// to the event.
     /// </param>
     public SessionTest WithOptions(Func<int, SessionOptions> options)
     {
@@ -137,21 +137,21 @@ public sealed class SessionTest
         return this;
     }
 
-    /// <summary>Has a player do something at a given time.</summary>
+    /// <summary>Plans a player's action at a given time.</summary>
     /// <param name="seconds">
-    /// When, in seconds since the start of the world by true time; 0 to <see cref="MaxSeconds"/>. The event is stamped with what the
-    /// player's shared clock reads then.
+    /// The time, in seconds since the start of the world by true time; 0 to <see cref="MaxSeconds"/>. The event is stamped with the
+    /// player's shared clock at that moment.
     /// </param>
-    /// <param name="player">Who: 0 for the host, or a client that has been added.</param>
-    /// <param name="action">What it does.</param>
+    /// <param name="player">The player: 0 for the host, or a client that has been added.</param>
+    /// <param name="action">The action.</param>
     /// <exception cref="ArgumentOutOfRangeException">The time is out of range, or there is no such player yet.</exception>
     public SessionTest At(double seconds, int player, PlayerAction action) => At(seconds, player, who => who.Do(action));
 
-    /// <summary>Has a player look at its world and act, at a given time.</summary>
-    /// <param name="seconds">As for the other.</param>
-    /// <param name="player">As for the other.</param>
+    /// <summary>Plans code that looks at a player's world and acts, at a given time.</summary>
+    /// <param name="seconds">As for the other overload.</param>
+    /// <param name="player">As for the other overload.</param>
     /// <param name="act">
-    /// Called on the thread of <see cref="Run"/>. For a run to be repeatable it must do the same each time: no clock, no random numbers but
+    /// Called on the thread of <see cref="Run"/>. For a repeatable run it must do the same each time: no clock, and random numbers only
     /// from a seed of its own.
     /// </param>
     /// <exception cref="ArgumentOutOfRangeException">The time is out of range, or there is no such player yet.</exception>
@@ -165,11 +165,11 @@ public sealed class SessionTest
     }
 
     /// <summary>
-    /// Has a player act again and again from the start on, as a bot does each frame. Moments at which the player is not in the session are
-    /// left out.
+    /// Plans code that acts for a player again and again from the start on, as a bot does each frame. Moments at which the player is not in
+    /// the session are skipped.
     /// </summary>
-    /// <param name="seconds">How far apart, in seconds; 0.001 to <see cref="MaxSeconds"/>. A frame is 1 / 60.0.</param>
-    /// <param name="player">Who: 0 for the host, or a client that has been added.</param>
+    /// <param name="seconds">The interval, in seconds; 0.001 to <see cref="MaxSeconds"/>. A frame is 1 / 60.0.</param>
+    /// <param name="player">The player: 0 for the host, or a client that has been added.</param>
     /// <param name="act">As for <see cref="At(double, int, Action{TestPlayer})"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The interval is out of range, or there is no such player yet.</exception>
     public SessionTest Every(double seconds, int player, Action<TestPlayer> act)
@@ -185,17 +185,19 @@ public sealed class SessionTest
         return this;
     }
 
-    /// <summary>Plays the test, and throws unless every player ends up with the world that all accepted events make, bit for bit.</summary>
+    /// <summary>
+    /// Plays the test, and throws unless every player ends up with the world that all accepted events produce, bit for bit.
+    /// </summary>
     /// <param name="seconds">
-    /// How long it is played, in seconds since the start of the world, above 0 and up to <see cref="MaxSeconds"/>. The run goes on for a
-    /// little until all players have heard of everything.
+    /// How long to play, in seconds since the start of the world, above 0 and up to <see cref="MaxSeconds"/>. The run continues for a
+    /// little until all players have received everything.
     /// </param>
     /// <param name="cancellation">
-    /// Ends a run early, by an <see cref="OperationCanceledException"/>; default none. Hand in that of the test framework.
+    /// Ends a run early, by an <see cref="OperationCanceledException"/>; default none. Pass that of the test framework.
     /// </param>
-    /// <returns>What happened: how many events were late, what healing did, what went over the network, and the world to read.</returns>
-    /// <exception cref="WorldsDifferException">A player had another world at some time. The message names the first difference.</exception>
-    /// <exception cref="SessionTestException">The session did not come to its end, or a player did what may not be done.</exception>
+    /// <returns>The result: how many events were late, what healing did, the network traffic, and the world to read.</returns>
+    /// <exception cref="WorldsDifferException">A player's world differed at some time. The message names the first difference.</exception>
+    /// <exception cref="SessionTestException">The session did not finish, or a player performed an action that is not allowed.</exception>
     /// <exception cref="ArgumentOutOfRangeException">
     /// <paramref name="seconds"/> is out of range, or something is planned for later.
     /// </exception>
@@ -208,12 +210,12 @@ public sealed class SessionTest
     }
 
     /// <summary>
-    /// Plays the test as <see cref="Run"/> does, and leaves a difference to the caller: <see cref="SessionTestResult.WorldsAgree"/> tells.
+    /// Plays the test as <see cref="Run"/> does, but leaves a difference to the caller: see <see cref="SessionTestResult.WorldsAgree"/>.
     /// </summary>
     /// <remarks>For tests of a strategy that promises no agreement, and for negative controls.</remarks>
     /// <param name="seconds">As for <see cref="Run"/>.</param>
     /// <param name="cancellation">As for <see cref="Run"/>.</param>
-    /// <exception cref="SessionTestException">The session did not come to its end, or a player did what may not be done.</exception>
+    /// <exception cref="SessionTestException">The session did not finish, or a player performed an action that is not allowed.</exception>
     /// <exception cref="ArgumentOutOfRangeException">
     /// <paramref name="seconds"/> is out of range, or something is planned for later.
     /// </exception>
@@ -241,7 +243,7 @@ public sealed class SessionTest
             }
         }
 
-        // Its own source: the token of a whole program would keep these peers.
+        // A source of its own, since the token of a whole program would keep these peers alive.
         using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
         return new SessionRun(scene, clients, acts, seed, options ?? (_ => new HostOptions()), PrepareSession, stop.Token).Play(seconds);
     }

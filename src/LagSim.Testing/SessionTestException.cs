@@ -3,22 +3,23 @@ using System;
 namespace LagSim.Testing;
 
 /// <summary>
-/// A session of a test did not come to its end, or a player did what may not be done. The message says who, when and why.
+/// Thrown if a session of a test did not finish, or a player performed an action that is not allowed. The message says which player, when
+/// and why.
 /// </summary>
 public class SessionTestException : Exception
 {
-    /// <summary>No message; prefer the one with a sentence.</summary>
+    /// <summary>Creates an exception without a message; prefer the one with a sentence.</summary>
     public SessionTestException()
     {
     }
 
-    /// <summary>A sentence that says what went wrong.</summary>
+    /// <summary>Creates an exception with a sentence that says what went wrong.</summary>
     public SessionTestException(string message)
         : base(message)
     {
     }
 
-    /// <summary>A sentence, and what caused it.</summary>
+    /// <summary>Creates an exception with a sentence and its cause.</summary>
     public SessionTestException(string message, Exception innerException)
         : base(message, innerException)
     {

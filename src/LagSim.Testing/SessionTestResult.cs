@@ -8,10 +8,8 @@ using LagSim.Time;
 
 namespace LagSim.Testing;
 
-/// <summary>
-/// What came of a <see cref="SessionTest"/>: whether all players had the same world, that world to read, and what it took.
-/// </summary>
-/// <remarks>For one thread: reading a world is.</remarks>
+/// <summary>The result of a <see cref="SessionTest"/>: whether all players had the same world, that world to read, and the cost.</summary>
+/// <remarks>For one thread, like reading a world.</remarks>
 public sealed class SessionTestResult
 {
     private const string UsualCauses = "Usual causes: a force or a session option that is not the same for every player,"
@@ -34,62 +32,61 @@ public sealed class SessionTestResult
     /// <summary>The seed of the run.</summary>
     public ulong Seed { get; }
 
-    /// <summary>How long was played, in seconds since the start of the world.</summary>
+    /// <summary>The length of play, in seconds since the start of the world.</summary>
     public double Seconds { get; }
 
     /// <summary>The players, the host first.</summary>
     public IReadOnlyList<PlayerResult> Players { get; }
 
     /// <summary>
-    /// The world that had every accepted event before anything was simulated: what every player's world must equal. It keeps all of its
+    /// The world that had every accepted event before anything was simulated, which every player's world must equal. It keeps all of its
     /// past, and has been advanced to <see cref="Seconds"/> at least.
     /// </summary>
     public Simulation World { get; }
 
     /// <summary>
-    /// Whether every world that any player had, at every time that it still knew or had committed to, equals <see cref="World"/> bit for
-    /// bit.
+    /// Whether every player's world equals <see cref="World"/> bit for bit, at every time that it still kept or had committed.
     /// </summary>
     public bool WorldsAgree => comparison.Differing == 0;
 
     /// <summary>
-    /// The first event that a player had otherwise; null if there is none, or the players no longer keep it (<see cref="ToString"/> then
+    /// The first event in which a player differed; null if there is none, or the players no longer keep it (<see cref="ToString"/> then
     /// names the state).
     /// </summary>
     public FirstDifference? FirstDifference => comparison.First;
 
-    /// <summary>How many states, hashes and events were compared.</summary>
+    /// <summary>The number of states, hashes and events compared.</summary>
     public long Compared => comparison.Compared;
 
-    /// <summary>How many of those differ in any bit.</summary>
+    /// <summary>The number of those that differ in any bit.</summary>
     public long Differing => comparison.Differing;
 
-    /// <summary>How many events the host accepted: what players did that happened.</summary>
+    /// <summary>The number of events that the host accepted: the players' actions that happened.</summary>
     public long EventsAccepted { get; internal init; }
 
-    /// <summary>How many events the host refused, those that came too late for the session's window among them.</summary>
+    /// <summary>The number of events that the host refused, including those too late for the session's window.</summary>
     public long EventsRefused { get; internal init; }
 
     /// <summary>
-    /// How many events came to the host too late for the session's window (<see cref="Net.Sessions.SessionOptions.Window"/>). Who did them
-    /// saw them taken back.
+    /// The number of events that reached the host too late for the session's window (<see cref="Net.Sessions.SessionOptions.Window"/>).
+    /// Their authors saw them retracted.
     /// </summary>
     public long EventsTooLate { get; internal init; }
 
-    /// <summary>How many events came late, over all players.</summary>
+    /// <summary>The number of late events, over all players.</summary>
     public long LateEvents => Players.Sum(player => player.LateEvents);
 
     /// <summary>How often a world was healed for a late event, over all players.</summary>
     public long Heals => Players.Sum(player => player.Heals);
 
-    /// <summary>How many frames could not be drawn, over all players.</summary>
+    /// <summary>The number of frames that could not be drawn, over all players.</summary>
     public long StalledFrames => Players.Sum(player => player.StalledFrames);
 
-    /// <summary>What all players sent, in bytes with UDP and IP headers, from connecting to the end.</summary>
+    /// <summary>The bytes that all players sent, with UDP and IP headers, from connecting to the end.</summary>
     public long BytesSent => Players.Sum(player => player.Traffic.BytesSent);
 
     /// <summary>
-    /// The hash of the world at the end of the run: the same seed gives the same one on every machine, so a test can pin it.
+    /// The hash of the world at the end of the run. The same seed gives the same hash on every machine, so a test can pin it.
     /// </summary>
     public ulong StateHash => World.StateHash(At(Seconds));
 
@@ -112,8 +109,8 @@ public sealed class SessionTestResult
         return World.TryRead(body, At(seconds), out BodyState state) ? state : default;
     }
 
-    /// <summary>Throws if a player had another world than <see cref="World"/> at any time.</summary>
-    /// <exception cref="WorldsDifferException">One had; the message names the first difference.</exception>
+    /// <summary>Throws if a player's world differed from <see cref="World"/> at any time.</summary>
+    /// <exception cref="WorldsDifferException">A world differed; the message names the first difference.</exception>
     public void ThrowIfWorldsDiffer()
     {
         if (!WorldsAgree)
@@ -122,7 +119,7 @@ public sealed class SessionTestResult
         }
     }
 
-    /// <summary>Whether the worlds agree, else the first difference; then a line for each player.</summary>
+    /// <summary>Whether the worlds agree, otherwise the first difference; then a line for each player.</summary>
     public override string ToString()
     {
         StringBuilder text = new();

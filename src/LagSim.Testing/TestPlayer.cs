@@ -5,8 +5,8 @@ using LagSim.Scenes;
 
 namespace LagSim.Testing;
 
-/// <summary>A player of a <see cref="SessionTest"/> that is being run: what it sees, and what it can do.</summary>
-/// <remarks>Handed to the code that acts for it, and of use only while that is called. For the thread of the run.</remarks>
+/// <summary>A player of a running <see cref="SessionTest"/>: what it sees, and what it can do.</summary>
+/// <remarks>Passed to the code that acts for it, and valid only during that call. For the thread of the run.</remarks>
 public sealed class TestPlayer
 {
     private readonly Action wake;
@@ -24,24 +24,25 @@ public sealed class TestPlayer
     internal bool HasLeft { get; private set; }
 
     /// <summary>
-    /// Its session, to read. Act by <see cref="Do"/> and <see cref="Leave"/>, or what is done waits for the session's next step.
+    /// Its session, for reading. Act by <see cref="Do"/> and <see cref="Leave"/>; otherwise the action waits for the session's next step.
     /// </summary>
     public Session Session { get; }
 
-    /// <summary>What its clock reads: seconds of shared time since the start of the world.</summary>
+    /// <summary>The time on its clock: seconds of shared time since the start of the world.</summary>
     public double Seconds => (Session.SharedTime.Now - Session.World!.Simulation.Start).ToSeconds();
 
     /// <summary>
-    /// What the player sees of a body now: the state that a frame drawn at this moment would show, at <see cref="Session.DisplayTime"/>.
+    /// Reads a body as the player sees it now: the state that a frame drawn at this moment would show, at
+    /// <see cref="Session.DisplayTime"/>.
     /// </summary>
     /// <param name="body">The body.</param>
     /// <param name="state">Its state, in metres, metres per second and radians per second.</param>
-    /// <returns>False where it is not there, or its render snapshot does not cover this moment.</returns>
+    /// <returns>False if it is not there, or its render snapshot does not cover this moment.</returns>
     public bool TryRead(BodyId body, out BodyState state) => Session.World!.RenderSnapshots.Latest().TryRead(body, Session.DisplayTime, out state);
 
-    /// <summary>Does something, now. The player's own world has it at once, the others' when they hear of it.</summary>
-    /// <param name="action">What.</param>
-    /// <returns>The event as it was stamped; of a spawn its <see cref="ExternalEvent.Body"/> is the new one.</returns>
+    /// <summary>Performs an action now. The player's own world has it at once, the others' when they receive it.</summary>
+    /// <param name="action">The action.</param>
+    /// <returns>The stamped event; for a spawn its <see cref="ExternalEvent.Body"/> is the new one.</returns>
     /// <exception cref="SessionTestException">The player may not do that, or not now; the message says why.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
@@ -60,8 +61,8 @@ public sealed class TestPlayer
         return external;
     }
 
-    /// <summary>Leaves the session, as a player that says goodbye. It is not compared with the others from then on.</summary>
-    /// <exception cref="SessionTestException">It is the host, without which there is no session.</exception>
+    /// <summary>Leaves the session with a goodbye. The player is not compared with the others from then on.</summary>
+    /// <exception cref="SessionTestException">The player is the host, without which there is no session.</exception>
     public void Leave()
     {
         if (Number == 0)

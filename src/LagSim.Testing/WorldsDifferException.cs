@@ -3,22 +3,23 @@ using System;
 namespace LagSim.Testing;
 
 /// <summary>
-/// A player of a test had another world than the accepted events make. The message names player, body, instant and both states.
+/// Thrown if a player's world in a test differed from the one that the accepted events produce. The message names player, body, instant and
+/// both states.
 /// </summary>
 public sealed class WorldsDifferException : SessionTestException
 {
-    /// <summary>No message; prefer the one with the result.</summary>
+    /// <summary>Creates an exception without a message; prefer the one with the result.</summary>
     public WorldsDifferException()
     {
     }
 
-    /// <summary>A sentence that says what differs.</summary>
+    /// <summary>Creates an exception with a sentence that says what differs.</summary>
     public WorldsDifferException(string message)
         : base(message)
     {
     }
 
-    /// <summary>A sentence, and what caused it.</summary>
+    /// <summary>Creates an exception with a sentence and its cause.</summary>
     public WorldsDifferException(string message, Exception innerException)
         : base(message, innerException)
     {
@@ -27,6 +28,6 @@ public sealed class WorldsDifferException : SessionTestException
     internal WorldsDifferException(string message, SessionTestResult result)
         : base(message) => Result = result;
 
-    /// <summary>All that came of the run; null where the exception was made without one.</summary>
+    /// <summary>The whole result of the run; null if the exception was made without one.</summary>
     public SessionTestResult? Result { get; }
 }

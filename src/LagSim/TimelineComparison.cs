@@ -8,12 +8,12 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <summary>Holds the timelines of two worlds against each other, to the bit.</summary>
+/// <summary>Compares the timelines of two worlds, bit for bit.</summary>
 internal static class TimelineComparison
 {
     /// <summary>
-    /// The first thing in the timelines of one world that is not in the other's, with both versions of it; null if there is none. Anything
-    /// that either has forgotten is not compared.
+    /// Returns the earliest difference between the timelines of the two worlds, with both versions of it; null if there is none. History
+    /// that either world has forgotten is not compared.
     /// </summary>
     internal static string? FirstDifference(Engine expected, Engine actual)
     {

@@ -12,7 +12,7 @@ internal sealed class DatagramRing
     private int first;
     private int count;
 
-    /// <summary>A queue of that many slots of <see cref="IDatagramPort.MaxDatagramBytes"/> each.</summary>
+    /// <summary>Creates a queue of that many slots of <see cref="IDatagramPort.MaxDatagramBytes"/> each.</summary>
     internal DatagramRing(int slots)
     {
         bytes = new byte[slots * IDatagramPort.MaxDatagramBytes];
@@ -20,7 +20,7 @@ internal sealed class DatagramRing
         senders = new PeerAddress[slots];
     }
 
-    /// <summary>Copies a datagram in; false when every slot is taken.</summary>
+    /// <summary>Copies a datagram in; false if every slot is taken.</summary>
     internal bool TryPut(ReadOnlySpan<byte> datagram, PeerAddress from)
     {
         lock (gate)
@@ -39,7 +39,7 @@ internal sealed class DatagramRing
         }
     }
 
-    /// <summary>Copies the oldest datagram out; false when there is none.</summary>
+    /// <summary>Copies the oldest datagram out; false if there is none.</summary>
     internal bool TryTake(Span<byte> buffer, out int length, out PeerAddress from)
     {
         lock (gate)

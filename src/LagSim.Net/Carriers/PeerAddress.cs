@@ -4,11 +4,11 @@ using System.Net;
 
 namespace LagSim.Net.Carriers;
 
-/// <summary>Where datagrams go to or come from, as a value: an IP address and port, or a number in a virtual network.</summary>
+/// <summary>The source or destination of datagrams, as a value: an IP address and port, or a number in a virtual network.</summary>
 /// <remarks>Immutable, safe on any thread, never allocates to compare. <c>default</c> is no address.</remarks>
 public readonly struct PeerAddress : IEquatable<PeerAddress>
 {
-    /// <summary>How many bytes <see cref="Write"/> writes.</summary>
+    /// <summary>The number of bytes that <see cref="Write"/> writes.</summary>
     internal const int Bytes = 20;
 
     private readonly ulong high;
@@ -52,7 +52,7 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
         return new PeerAddress(high, low, (uint)(endpoint.Port + 1) | (v6 ? 1u << 31 : 0));
     }
 
-    /// <summary>The endpoint that <see cref="From"/> was given.</summary>
+    /// <summary>The endpoint given to <see cref="From"/>.</summary>
     /// <exception cref="InvalidOperationException">This is no address, or one of a virtual network.</exception>
     public IPEndPoint ToEndPoint()
     {
@@ -76,16 +76,16 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
         return new IPEndPoint(new IPAddress(bytes.Slice(0, v6 ? 16 : 4)), (int)((portAndFamily & 0x1FFFF) - 1));
     }
 
-    /// <summary>Whether the other is of the same <see cref="Machine"/>.</summary>
+    /// <summary>Whether the other address is of the same <see cref="Machine"/>.</summary>
     internal bool IsSameMachine(PeerAddress other) => Machine == other.Machine;
 
     /// <summary>
-    /// The same for all that one machine can send from: its IP address, whatever the port; of IPv6 the first 64 bits, for whoever has one such address has all
-    /// those of its network.
+    /// The part of the address that is the same for everything one machine can send from: its IP address, whatever the port; for IPv6 its
+    /// first 64 bits, since a host with one such address has all those of its network.
     /// </summary>
     internal PeerAddress Machine => portAndFamily >> 31 != 0 ? new(high, 0, 1u << 31) : new(high, low, 0);
 
-    /// <summary>All of it as bytes, for a hash.</summary>
+    /// <summary>Writes all of it as bytes, for a hash.</summary>
     internal void Write(Span<byte> destination)
     {
         System.Buffers.Binary.BinaryPrimitives.WriteUInt64LittleEndian(destination, high);

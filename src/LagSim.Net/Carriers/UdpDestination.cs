@@ -5,16 +5,17 @@ using System.Net.Sockets;
 
 namespace LagSim.Net.Carriers;
 
-/// <summary>What can be sent to, and from where: the rules for who takes an address from a user.</summary>
+/// <summary>Checks an address given by a user, and chooses the local address to reach it from.</summary>
 internal static class UdpDestination
 {
     /// <summary>
-    /// Whether it is the address of one machine, and a port from 1 on; what listens at "all addresses" can be reached at each of them, but not at that.
+    /// Whether it is the address of one machine, and a port from 1 on. A port that listens on "all addresses" can be reached at each of
+    /// them, but not at that.
     /// </summary>
     /// <param name="endpoint">The address and port.</param>
-    /// <param name="purpose">What for, as a verb; part of the sentence.</param>
-    /// <param name="error">If not, a sentence that names it and says what is allowed.</param>
-    /// <exception cref="ArgumentNullException">There is no endpoint.</exception>
+    /// <param name="purpose">The purpose, as a verb; part of the error sentence.</param>
+    /// <param name="error">If not, a sentence that names the address and says what is allowed.</param>
+    /// <exception cref="ArgumentNullException">The endpoint is null.</exception>
     public static bool IsOneMachine(IPEndPoint endpoint, string purpose, [NotNullWhen(false)] out string? error)
     {
         if (endpoint is null)
@@ -28,8 +29,8 @@ internal static class UdpDestination
         return !isNone;
     }
 
-    /// <summary>Of this machine's addresses the one, with any free port, from which that machine is reached: loopback reaches loopback only.</summary>
-    /// <exception cref="ArgumentNullException">There is no address.</exception>
+    /// <summary>Returns the local address, with any free port, from which a machine is reached: loopback reaches loopback only.</summary>
+    /// <exception cref="ArgumentNullException">The address is null.</exception>
     public static IPEndPoint Facing(IPAddress machine)
     {
         if (machine is null)

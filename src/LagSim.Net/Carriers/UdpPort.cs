@@ -8,15 +8,16 @@ using System.Threading;
 
 namespace LagSim.Net.Carriers;
 
-/// <summary>Datagrams over UDP, through <see cref="Socket"/>.</summary>
+/// <summary>A datagram port over UDP, through <see cref="Socket"/>.</summary>
 /// <remarks>
-/// <para>A background thread takes datagrams from the socket into a ring of <see cref="RingSlots"/>; when that is full, newer ones are dropped
-/// and counted. Bound to <see cref="IPAddress.IPv6Any"/> it also speaks IPv4. The scope of a link-local IPv6 address is not kept.</para>
+/// <para>A background thread takes datagrams from the socket into a ring of <see cref="RingSlots"/>; when that is full, newer ones are
+/// dropped and counted. Bound to <see cref="IPAddress.IPv6Any"/> it also speaks IPv4. The scope of a link-local IPv6 address is not
+/// kept.</para>
 /// <para>The counters may be read from any thread.</para>
 /// </remarks>
 public sealed class UdpPort : IDatagramPort
 {
-    /// <summary>How many datagrams can wait to be taken.</summary>
+    /// <summary>The number of datagrams that can wait to be taken.</summary>
     public const int RingSlots = 1024;
 
     private const int SioUdpConnReset = unchecked((int)0x9800000C);
@@ -34,9 +35,9 @@ public sealed class UdpPort : IDatagramPort
     private long receiveFailures;
 
     /// <summary>Opens a port and begins to receive.</summary>
-    /// <param name="bind">Where to listen; port 0 takes any free one, which <see cref="LocalAddress"/> then tells.</param>
+    /// <param name="bind">The address to listen on; port 0 takes any free one, which <see cref="LocalAddress"/> then returns.</param>
     /// <exception cref="ArgumentNullException"><paramref name="bind"/> is null.</exception>
-    /// <exception cref="IOException">The system does not give the endpoint, for instance because its port is in use.</exception>
+    /// <exception cref="IOException">The system refuses the endpoint, for instance because its port is in use.</exception>
     public UdpPort(IPEndPoint bind)
     {
         if (bind is null)
@@ -53,16 +54,18 @@ public sealed class UdpPort : IDatagramPort
     /// <inheritdoc/>
     public event Action? Arrived;
 
-    /// <summary>Where this port is reached; on this machine only, if it is bound to every address there is.</summary>
+    /// <summary>The address of this port; if it is bound to every address, it is reached there from this machine only.</summary>
     public PeerAddress LocalAddress { get; }
 
-    /// <summary>How many datagrams came in and were thrown away: too long, empty, or no room in the ring.</summary>
+    /// <summary>The number of received datagrams that were discarded: too long, empty, or no room in the ring.</summary>
     public long Dropped => Interlocked.Read(ref dropped);
 
-    /// <summary>How many datagrams the network would not take.</summary>
+    /// <summary>The number of datagrams that the network did not accept.</summary>
     public long SendFailures => Interlocked.Read(ref sendFailures);
 
-    /// <summary>How often the system reported trouble instead of a datagram; a report that nobody listens at the other end is not counted.</summary>
+    /// <summary>
+    /// How often the system reported an error instead of a datagram. A report that no process listens at the other end is not counted.
+    /// </summary>
     public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
 
     /// <inheritdoc/>
@@ -83,7 +86,7 @@ public sealed class UdpPort : IDatagramPort
         IPEndPoint endPoint = EndPointOf(to);
         try
         {
-            // Only when the system has room: a send that must wait for it would block.
+            // Only if the system has room: otherwise the send would block.
             if (CanReach(endPoint) && socket.Poll(0, SelectMode.SelectWrite))
             {
                 datagram.CopyTo(outgoing);
@@ -111,7 +114,7 @@ public sealed class UdpPort : IDatagramPort
         return ring.TryTake(buffer, out length, out from);
     }
 
-    /// <summary>Closes the port and ends its thread. What waits in the ring can still be taken. To be called from any other thread.</summary>
+    /// <summary>Closes the port and ends its thread. Datagrams in the ring can still be taken. Call it from any other thread.</summary>
     public void Dispose()
     {
         if (!stopping.IsSet)
@@ -132,7 +135,7 @@ public sealed class UdpPort : IDatagramPort
         {
             if (RuntimeInformation.IsOSPlatform(OSPlatform.Windows))
             {
-                // Windows would fail a receive because an earlier send reached nobody, and would let another program share the port.
+                // Windows would fail a receive because an earlier send reached no listener, and would let another program share the port.
                 opened.IOControl(SioUdpConnReset, new byte[sizeof(int)], null);
                 opened.ExclusiveAddressUse = true;
             }
@@ -186,7 +189,7 @@ public sealed class UdpPort : IDatagramPort
 
     private void Receive()
     {
-        // One byte more than may come, so that what is too long is seen to be.
+        // One byte more than allowed, to detect a datagram that is too long.
         byte[] incoming = new byte[IDatagramPort.MaxDatagramBytes + 1];
         EndPoint sender = new IPEndPoint(socket.AddressFamily == AddressFamily.InterNetwork ? IPAddress.Any : IPAddress.IPv6Any, 0);
         while (!stopping.IsSet)
@@ -211,7 +214,7 @@ public sealed class UdpPort : IDatagramPort
     {
         if (stopping.IsSet)
         {
-            return; // on some systems closing ends the wait as if something empty had come
+            return; // on some systems closing ends the wait with an empty datagram
         }
 
         if (datagram.Length is 0 or > IDatagramPort.MaxDatagramBytes || !ring.TryPut(datagram, PeerAddress.From(sender)))
@@ -230,13 +233,13 @@ public sealed class UdpPort : IDatagramPort
             case SocketError.MessageSize: // Windows: longer than the buffer
                 Interlocked.Increment(ref dropped);
                 break;
-            case SocketError.ConnectionReset or SocketError.ConnectionRefused: // ICMP: nobody listens where an earlier send went
+            case SocketError.ConnectionReset or SocketError.ConnectionRefused: // ICMP: no process listens where an earlier send went
                 break;
             default:
                 if (!stopping.IsSet)
                 {
                     Interlocked.Increment(ref receiveFailures);
-                    stopping.Wait(10); // trouble that stays must not take a core; closing ends the wait
+                    stopping.Wait(10); // a persistent error must not take a core; closing ends the wait
                 }
 
                 break;

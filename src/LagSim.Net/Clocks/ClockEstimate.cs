@@ -4,9 +4,10 @@ using LagSim.Time;
 namespace LagSim.Net.Clocks;
 
 /// <summary>
-/// How far another peer's clock is ahead of one's own, at any own time: an offset at one instant, the drift since, and how wrong both may be.
+/// An estimate of how far another peer's clock is ahead of this one at any local time: an offset at one instant, the drift since, and the
+/// errors of both.
 /// </summary>
-/// <remarks>Immutable, safe on any thread. Read with integers only. <c>default</c> says that the two clocks are the same.</remarks>
+/// <remarks>Immutable, safe on any thread. Evaluated with integers only. <c>default</c> says that the two clocks are equal.</remarks>
 internal readonly struct ClockEstimate
 {
     /// <summary>The most that two clocks drift apart, in parts per million: 500. Two crystals differ by some 100.</summary>
@@ -17,7 +18,7 @@ internal readonly struct ClockEstimate
     private readonly long drift;
     private readonly long driftBound;
 
-    /// <summary>An estimate without a bound on its error.</summary>
+    /// <summary>Creates an estimate without error bounds.</summary>
     /// <param name="at">See <see cref="At"/>.</param>
     /// <param name="offset">See <see cref="Offset"/>.</param>
     /// <param name="driftPartsPerMillion">See <see cref="DriftPartsPerMillion"/>; within <see cref="MaxDrift"/> either way.</param>
@@ -32,7 +33,7 @@ internal readonly struct ClockEstimate
         }
     }
 
-    /// <summary>An estimate with bounds; both drifts as fractions.</summary>
+    /// <summary>Creates an estimate with error bounds; both drifts as fractions.</summary>
     internal ClockEstimate(SimTime at, SimDuration offset, double drift, SimDuration errorBound, double driftBound)
     {
         At = at;
@@ -42,26 +43,26 @@ internal readonly struct ClockEstimate
         this.driftBound = (long)Math.Ceiling(driftBound * (1L << FractionBits));
     }
 
-    /// <summary>The own time at which <see cref="Offset"/> holds.</summary>
+    /// <summary>The local time at which <see cref="Offset"/> holds.</summary>
     public SimTime At { get; }
 
-    /// <summary>The other peer's clock minus one's own, at <see cref="At"/>.</summary>
+    /// <summary>The other peer's clock minus the local one, at <see cref="At"/>.</summary>
     public SimDuration Offset { get; }
 
-    /// <summary>The most that <see cref="Offset"/> is wrong by; zero where no bound was given.</summary>
+    /// <summary>The greatest error of <see cref="Offset"/>; zero if no bound was given.</summary>
     public SimDuration ErrorBound { get; }
 
-    /// <summary>How much faster the other clock runs, in parts per million of one's own; negative when it is slower.</summary>
+    /// <summary>How much faster the other clock runs, in parts per million of the local one; negative if it is slower.</summary>
     public double DriftPartsPerMillion => drift / UnitsPerMillionth;
 
-    /// <summary>The most that <see cref="DriftPartsPerMillion"/> is wrong by; zero where no bound was given.</summary>
+    /// <summary>The greatest error of <see cref="DriftPartsPerMillion"/>; zero if no bound was given.</summary>
     public double DriftErrorBound => driftBound / UnitsPerMillionth;
 
-    /// <summary>The other peer's clock minus one's own, when one's own reads <paramref name="ownTime"/>.</summary>
+    /// <summary>The other peer's clock minus the local one, when that reads <paramref name="ownTime"/>.</summary>
     /// <exception cref="OverflowException">The result is out of range.</exception>
     public SimDuration OffsetAt(SimTime ownTime) => Offset + Share(drift, ownTime - At);
 
-    /// <summary>The most that <see cref="OffsetAt"/> is wrong by: it grows with the distance from <see cref="At"/>.</summary>
+    /// <summary>The greatest error of <see cref="OffsetAt"/>: it grows with the distance from <see cref="At"/>.</summary>
     /// <exception cref="OverflowException">The result is out of range.</exception>
     public SimDuration ErrorBoundAt(SimTime ownTime)
     {
@@ -69,7 +70,9 @@ internal readonly struct ClockEstimate
         return age == SimDuration.Zero ? ErrorBound : ErrorBound + Share(driftBound, age < SimDuration.Zero ? -age : age) + SimDuration.OneTick;
     }
 
-    /// <summary>Rounded down, so that own time plus offset never goes back. In two parts, for the product of the whole does not fit.</summary>
+    /// <summary>
+    /// Rounded down, so that local time plus offset never goes back. Split in two, since the product of the whole would overflow.
+    /// </summary>
     private static SimDuration Share(long units, SimDuration span) =>
         SimDuration.FromTicks(((span.Ticks >> FractionBits) * units) + (((span.Ticks & ((1L << FractionBits) - 1)) * units) >> FractionBits));
 }

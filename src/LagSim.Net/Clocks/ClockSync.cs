@@ -3,37 +3,43 @@ using LagSim.Time;
 
 namespace LagSim.Net.Clocks;
 
-/// <summary>How far another peer's clock is ahead of one's own and how fast it drifts, from the four times of each exchange, as NTP takes them.</summary>
+/// <summary>
+/// Estimates how far another peer's clock is ahead of this one and how fast it drifts, from the four timestamps of each exchange, as NTP
+/// does.
+/// </summary>
 /// <remarks>
-/// <para>Of each second the exchange of the shortest round trip is kept, for what waited least in queues says most (NTP's clock filter,
-/// RFC 5905), for <see cref="Window"/>.</para>
-/// <para><b>Bounds.</b> Whatever the ways took, the other clock had not yet read t1 when the request left at t0, and had read t2 when the answer came at
-/// t3. So every exchange limits the offset from above at t0 and from below at t3, and every two limit the drift (Duda and others,
-/// "Estimating global time in distributed systems", 1987). <see cref="ClockEstimate.ErrorBound"/> is what all of them together leave: at most
-/// half the best round trip, plus what the drift may be wrong by since. It holds for every path, symmetric or not, as long as the drift is
-/// within <see cref="ClockEstimate.MaxDrift"/> and changes by no more than <see cref="Wander"/> over two windows, and readings are good to 1
-/// microsecond.</para>
-/// <para><b>Drift.</b> A weighted least-squares line through the middles of the kept exchanges. The weight falls with what a round trip has in excess of
-/// the shortest, as chrony's does: whatever makes an offset wrong shows there, so an outlier is known before the line is drawn. No drift, give or
-/// take 100 parts per million, counts as one more measurement: few or noisy exchanges move the drift little.</para>
-/// <para><b>Offset.</b> The middle of what the exchanges leave possible, each aged by the drift and twice its standard error.</para>
-/// <para><b>A clock that was stepped</b> (a laptop that slept) or changed its rate contradicts the exchanges before: no one line passes between all
-/// limits. Then all but the newest exchange is forgotten, and the estimate is right again to half a round trip at once. A step too small to contradict,
-/// less than a round trip, is gone when the window is; until then the bound may be wrong by it.</para>
-/// <para>A path that is slower one way than the other cannot be seen from two clocks: the same four times arise on an even path between clocks that
-/// differ by half the difference more or less. The offset is wrong by that half, which is never more than the bound.</para>
-/// <para>For one thread at a time. Deterministic. Bounded memory, no allocation after construction. An exchange costs a few passes over at most 60 others,
-/// however many came.</para>
+/// <para>The exchange with the shortest round trip of each second is kept for <see cref="Window"/>, since what waited least in queues is
+/// the most precise (NTP's clock filter, RFC 5905).</para>
+/// <para><b>Bounds.</b> Whatever the two directions took, the other clock had not yet read t1 when the request left at t0, and had read t2
+/// when the answer arrived at t3. So every exchange limits the offset from above at t0 and from below at t3, and every two limit the drift
+/// (Duda and others, "Estimating global time in distributed systems", 1987). <see cref="ClockEstimate.ErrorBound"/> is what all of them
+/// together leave: at most half the best round trip, plus the possible error of the drift since then. It holds for every path, symmetric or
+/// not, as long as the drift is within <see cref="ClockEstimate.MaxDrift"/> and changes by no more than <see cref="Wander"/> over two
+/// windows, and readings are good to 1 microsecond.</para>
+/// <para><b>Drift.</b> A weighted least-squares line through the midpoints of the kept exchanges. The weight falls with a round trip's
+/// excess over the shortest, as in chrony: whatever spoils an offset shows there, so outliers are known before the line is fitted. A prior
+/// of no drift, give or take 100 parts per million, counts as one more measurement: few or noisy exchanges move the drift little.</para>
+/// <para><b>Offset.</b> The midpoint of what the exchanges leave possible, each aged by the drift and twice its standard error.</para>
+/// <para><b>A clock that was stepped</b> (a laptop that slept) or changed its rate contradicts the earlier exchanges: no single line passes
+/// between all limits. All but the newest exchange are then forgotten, and the estimate is right again to half a round trip at once. A step
+/// too small to contradict, less than a round trip, has left the estimate after one window; until then the bound may be wrong by it.</para>
+/// <para>An asymmetric path cannot be detected from two clocks: the same four timestamps arise on a symmetric path between clocks that
+/// differ by half the asymmetry more or less. The offset is wrong by that half, which never exceeds the bound.</para>
+/// <para>For one thread at a time. Deterministic. Bounded memory, no allocation after construction. An exchange costs a few passes over at
+/// most 60 others, however many were added.</para>
 /// </remarks>
 internal sealed class ClockSync
 {
-    /// <summary>For how long an exchange counts: 60 s. The newest counts until there is a newer one.</summary>
+    /// <summary>How long an exchange counts: 60 s. The newest counts until there is a newer one.</summary>
     public static readonly SimDuration Window = SimDuration.FromSeconds(WindowSeconds);
 
-    /// <summary>An exchange that took longer than this, waiting at the other peer included, says nothing worth having.</summary>
+    /// <summary>The longest useful exchange, waiting at the other peer included; a longer one is refused.</summary>
     public static readonly SimDuration MaxExchange = SimDuration.FromSeconds(60);
 
-    /// <summary>By how much the drift may change over two windows, in parts per million: 5. An assumption: the bound rests on it, nothing checks it.</summary>
+    /// <summary>
+    /// How much the drift may change over two windows, in parts per million: 5. This is an assumption: the bound depends on it, and it is
+    /// not checked.
+    /// </summary>
     public const double Wander = 5;
 
     private const int WindowSeconds = 60;
@@ -41,12 +47,13 @@ internal sealed class ClockSync
     private const double Millionth = 1e-6;
     private const double MaxDrift = ClockEstimate.MaxDrift * Millionth;
     private const double PriorDrift = 100 * Millionth;
-    private const double ReadingError = 1e-6; // of one limit, in seconds: clocks of 10 MHz exist
+    private const double ReadingError = 1e-6; // of one limit, in seconds: some clocks tick at 10 MHz
     private const double PairError = 2 * ReadingError;
     private const int LeastToFit = 4;
-    private const int FitPasses = 2; // the weights depend on the typical excess, and that on the weights; a third pass changes nothing that counts
+    private const int FitPasses = 2; // the weights depend on the typical excess and vice versa; a third pass changes nothing that matters
 
-    // Readings beyond a quarter of the range of a time, 24 days, are refused: no difference of two offsets can overflow, 32 s of drift included.
+    // Readings beyond a quarter of the range of a time, 24 days, are refused, so that no difference of two offsets can overflow, 32 s of
+    // drift included.
     private const long MaxReading = (1L << 61) - (1L << 45);
 
     private readonly ClockExchange[] kept = new ClockExchange[WindowSeconds]; // the best of each second, oldest first
@@ -56,8 +63,8 @@ internal sealed class ClockSync
     private double drift;
     private double driftError = 2 * PriorDrift; // two standard errors
 
-    /// <summary>An estimate without samples.</summary>
-    /// <param name="readyAfter">How many samples make it <see cref="IsReady"/>, at least 1.</param>
+    /// <summary>Creates an estimate without samples.</summary>
+    /// <param name="readyAfter">The number of samples that make it <see cref="IsReady"/>, at least 1.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="readyAfter"/> is below 1.</exception>
     public ClockSync(int readyAfter = 8)
     {
@@ -69,32 +76,34 @@ internal sealed class ClockSync
         this.readyAfter = readyAfter;
     }
 
-    /// <summary>How many samples were taken in, including those that left the window since.</summary>
+    /// <summary>The number of accepted samples, including those that have left the window.</summary>
     public int SampleCount { get; private set; }
 
-    /// <summary>How many samples were refused as impossible.</summary>
+    /// <summary>The number of samples refused as impossible.</summary>
     public int RefusedCount { get; private set; }
 
-    /// <summary>How often a sample contradicted those before it, which were then forgotten: a clock was stepped or changed its rate.</summary>
+    /// <summary>
+    /// How often a sample contradicted the earlier ones, which were then forgotten: a clock was stepped or changed its rate.
+    /// </summary>
     public int RestartCount { get; private set; }
 
-    /// <summary>Whether there are enough samples to set a clock by.</summary>
+    /// <summary>Whether there are enough samples to set a clock.</summary>
     public bool IsReady => SampleCount >= readyAfter;
 
-    /// <summary>What is known of the other peer's clock, as of the newest sample; both clocks the same without samples.</summary>
+    /// <summary>The estimate of the other peer's clock as of the newest sample; without samples, that the two clocks are equal.</summary>
     public ClockEstimate Estimate { get; private set; }
 
     /// <summary>The shortest round trip in the window, without the time spent at the other peer; zero without samples.</summary>
     public SimDuration RoundTrip { get; private set; }
 
-    /// <summary>Takes in one exchange. The two own times are of one clock, the two other times of the other peer's.</summary>
+    /// <summary>Adds one exchange. The two own times are of this peer's clock, the two other times of the other peer's.</summary>
     /// <param name="ownSend">t0: when the request left.</param>
-    /// <param name="otherReceive">t1: when it arrived there.</param>
-    /// <param name="otherSend">t2: when the answer left there.</param>
-    /// <param name="ownReceive">t3: when it arrived.</param>
+    /// <param name="otherReceive">t1: when it arrived at the other peer.</param>
+    /// <param name="otherSend">t2: when the answer left the other peer.</param>
+    /// <param name="ownReceive">t3: when the answer arrived.</param>
     /// <returns>
-    /// False when the sample is impossible or absurd, and refused: a time beyond 24 days of its origin, an order that cannot be, a negative
-    /// round trip that no drift explains, or more than <see cref="MaxExchange"/> in all. Never throws.
+    /// False if the sample is refused as impossible or absurd: a time beyond 24 days of its origin, times out of order, a negative round
+    /// trip that no drift explains, or more than <see cref="MaxExchange"/> in all. Never throws.
     /// </returns>
     public bool Add(SimTime ownSend, SimTime otherReceive, SimTime otherSend, SimTime ownReceive)
     {
@@ -126,7 +135,7 @@ internal sealed class ClockSync
 
         if (count == 0)
         {
-            TryTake(exchange); // alone it contradicts nothing
+            TryTake(exchange); // a lone exchange contradicts nothing
         }
 
         last = ownReceive;
@@ -144,8 +153,8 @@ internal sealed class ClockSync
     }
 
     /// <summary>
-    /// Keeps the exchange if it is the best of its second, and estimates anew. False if it contradicts what is kept: the estimate is the old one, and what is
-    /// kept is of no use.
+    /// Keeps the exchange if it is the best of its second, and updates the estimate. False if it contradicts those kept: the estimate is
+    /// then unchanged, and the kept exchanges are useless.
     /// </summary>
     private bool TryTake(ClockExchange exchange)
     {
@@ -157,7 +166,7 @@ internal sealed class ClockSync
 
         if (count > 0 && Second(kept[count - 1].Back) == Second(exchange.Back))
         {
-            // Whichever stays, what both said of the drift does.
+            // Whichever stays keeps the drift limits of both.
             ref ClockExchange newest = ref kept[count - 1];
             double steepest = drift + driftError;
             ClockExchange other = newest;
@@ -221,12 +230,16 @@ internal sealed class ClockSync
         return true;
     }
 
-    /// <summary>What all exchanges leave possible for the offset at that own time, in seconds above a reference, if the drift is between the two.</summary>
-    /// <param name="at">The own time.</param>
+    /// <summary>
+    /// The range of offsets that all exchanges allow at a local time, in seconds above a reference, for a drift in a range.
+    /// </summary>
+    /// <param name="at">The local time.</param>
     /// <param name="reference">The reference.</param>
     /// <param name="leastDrift">The least drift, as a fraction.</param>
     /// <param name="mostDrift">The most drift, as a fraction.</param>
-    /// <param name="widening">How much wider the room of an exchange is made with its age: to both sides alike, so that its middle stays where it is.</param>
+    /// <param name="widening">
+    /// How much the range of an exchange widens with its age, equally to both sides, so that its midpoint stays.
+    /// </param>
     private (double Low, double High) Limits(SimTime at, SimDuration reference, double leastDrift, double mostDrift, double widening)
     {
         double low = double.NegativeInfinity, high = double.PositiveInfinity;
@@ -254,7 +267,7 @@ internal sealed class ClockSync
     {
         if (count < LeastToFit)
         {
-            return; // few round trips can be alike by chance, and would seem to know
+            return; // a few round trips can be alike by chance, and would look certain
         }
 
         double typical = double.PositiveInfinity; // excess of a round trip; all weigh the same before it is known
@@ -284,7 +297,7 @@ internal sealed class ClockSync
                 offsetSquares += weight * (offset - (offsets / sum)) * (offset - (offsets / sum));
             }
 
-            // Offsets that scatter more than their round trips told say less.
+            // Offsets that scatter more than their round trips suggested are worth less.
             double scatter = Math.Max(1, (offsetSquares - (products * products / timeSquares)) / (count - 2));
             double squares = (timeSquares / scatter) + (1 / (PriorDrift * PriorDrift));
             drift = Math.Min(Math.Max(products / scatter / squares, least), most);
@@ -306,6 +319,8 @@ internal sealed class ClockSync
         return excesses / sum;
     }
 
-    /// <summary>One over the variance of an offset. An excess e moves it by at most e / 2; typically half of that is its standard deviation.</summary>
+    /// <summary>
+    /// The inverse variance of an offset. An excess e shifts it by at most e / 2; typically half of that is its standard deviation.
+    /// </summary>
     private static double Weight(double excess, double typical) => 16 / ((typical + excess) * (typical + excess));
 }

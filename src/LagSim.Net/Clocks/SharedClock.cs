@@ -3,16 +3,21 @@ using LagSim.Time;
 
 namespace LagSim.Net.Clocks;
 
-/// <summary>The session's time, made from one's own clock: set at the start of a world, from then on bent gently towards each newer estimate.</summary>
+/// <summary>
+/// The session's time, derived from the local clock: set at the start of a world, and from then on slewed gently towards each newer
+/// estimate.
+/// </summary>
 /// <remarks>
-/// <para>While a world lasts it never steps and never goes back, as long as one's own clock does not. Where a session goes on with a fresh copy of the world
-/// (<see cref="Sessions.Session.Renewed"/>), it steps once, forwards or back, to the time of the copy's host. It runs with the drift of the newest estimate, so that
-/// it stays right between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than <see cref="FastAbove"/> off.</para>
-/// <para>How it runs does not depend on how often it is read, but for one tick a reading. Integers only; may be used from any thread.</para>
+/// <para>During a world it never steps and never goes back, as long as the local clock does not. When a session continues from a fresh
+/// snapshot (<see cref="Sessions.Session.Renewed"/>), it steps once, forwards or back, to the host's time. It runs with the drift of the
+/// newest estimate, so that it stays right between two of them; on top of that at most 0.5 % fast or slow, or 5 % while it is more than
+/// <see cref="FastAbove"/> off.</para>
+/// <para>How it runs does not depend on how often it is read, except for one tick per reading. Integers only; may be used from any
+/// thread.</para>
 /// </remarks>
 public sealed class SharedClock : IClock
 {
-    /// <summary>The error above which the clock is bent by 5 % rather than 0.5 %.</summary>
+    /// <summary>The error above which the clock is slewed by 5 % rather than 0.5 %.</summary>
     public static readonly SimDuration FastAbove = SimDuration.FromMilliseconds(10);
 
     private const long SlowShare = 200; // 0.5 %
@@ -22,13 +27,13 @@ public sealed class SharedClock : IClock
     private readonly object gate = new();
     private readonly IClock own;
     private ClockEstimate target;
-    private SimTime read; // own clock, when the remainder was last brought up to date
+    private SimTime read; // local clock, when the remainder was last updated
     private SimDuration remaining; // target minus offset
     private bool set;
-    private bool restarts; // the next estimate is taken at once
+    private bool restarts; // the next estimate is applied at once
 
-    /// <summary>A clock that is not set yet.</summary>
-    /// <param name="own">This machine's own clock, which no one adjusts.</param>
+    /// <summary>Creates a clock that is not set yet.</summary>
+    /// <param name="own">This machine's clock, which is never adjusted.</param>
     /// <exception cref="ArgumentNullException"><paramref name="own"/> is null.</exception>
     internal SharedClock(IClock own) => this.own = own ?? throw new ArgumentNullException(nameof(own));
 
@@ -63,7 +68,7 @@ public sealed class SharedClock : IClock
         }
     }
 
-    /// <summary>Shared time minus own time, as of the last reading or adjustment; zero before the clock is set.</summary>
+    /// <summary>Shared time minus local time, as of the last reading or adjustment; zero before the clock is set.</summary>
     public SimDuration Offset
     {
         get
@@ -75,7 +80,9 @@ public sealed class SharedClock : IClock
         }
     }
 
-    /// <summary>What of the newest estimate is still to be made good, as of the last reading or adjustment; positive when the clock is behind.</summary>
+    /// <summary>
+    /// The part of the newest estimate still to be slewed, as of the last reading or adjustment; positive if the clock is behind.
+    /// </summary>
     public SimDuration Remaining
     {
         get
@@ -90,15 +97,17 @@ public sealed class SharedClock : IClock
     private SimDuration CurrentOffset => target.OffsetAt(read) - remaining;
 
     /// <summary>
-    /// Gives the clock the newest estimate: the first sets it at once, as does the first for a fresh copy of the world, and any other one is approached.
+    /// Gives the clock the newest estimate. The first sets it at once, as does the first after <see cref="Restart"/>; later ones are
+    /// approached.
     /// </summary>
-    /// <param name="estimate">Shared time minus own time, within 48 days of zero, with its drift.</param>
+    /// <param name="estimate">Shared time minus local time, within 48 days of zero, with its drift.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="estimate"/> is further from zero by now.</exception>
     internal void Adjust(in ClockEstimate estimate)
     {
         lock (gate)
         {
-            SimTime now = set ? SimTime.Max(own.Now, read) : own.Now; // a clock that broke its promise and went back only stands still here
+            // If the local clock goes back despite its contract, this one only stands still.
+            SimTime now = set ? SimTime.Max(own.Now, read) : own.Now;
             SimDuration offset = estimate.OffsetAt(now);
             if (offset.Ticks is < -MaxOffset or >= MaxOffset)
             {
@@ -118,7 +127,7 @@ public sealed class SharedClock : IClock
         }
     }
 
-    /// <summary>Has the next estimate set the clock at once, as the first did: for a world that begins anew. Until then it runs on.</summary>
+    /// <summary>Makes the next estimate set the clock at once, for a world that begins again. Until then it runs on.</summary>
     internal void Restart()
     {
         lock (gate)
@@ -128,7 +137,7 @@ public sealed class SharedClock : IClock
     }
 
     /// <summary>Gives the clock an estimate without drift.</summary>
-    /// <param name="offset">Shared time minus own time, within 48 days of zero.</param>
+    /// <param name="offset">Shared time minus local time, within 48 days of zero.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="offset"/> is further from zero.</exception>
     internal void Adjust(SimDuration offset) => Adjust(new ClockEstimate(SimTime.Zero, offset));
 
@@ -140,7 +149,7 @@ public sealed class SharedClock : IClock
         read = now;
     }
 
-    /// <summary>By how much the offset moves towards the target in that much own time; towards it, never past it.</summary>
+    /// <summary>Returns how much the offset moves towards the target in that much local time, never past it.</summary>
     private static SimDuration Slew(SimDuration error, SimDuration elapsed)
     {
         SimDuration size = error < SimDuration.Zero ? -error : error;

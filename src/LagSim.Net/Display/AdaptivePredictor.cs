@@ -6,23 +6,26 @@ using LagSim.Time;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// Where a remote hand is now, told from samples that are as old as the link is slow: several predictors, weighted by how each has done lately over that very
-/// span.
+/// Predicts where a remote hand is now from samples as old as the link's delay: several predictors, weighted by how each has recently done
+/// over that very span.
 /// </summary>
 /// <remarks>
-/// <para>For display only: what it says depends on when the samples came, so it differs from peer to peer and must never enter a simulation.</para>
-/// <para>Mixed are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant velocity, and least squares over
-/// the last 200 ms that learn as they go. Each new sample shows what each would have said of it from the samples as old as now; that error, squared and
-/// forgotten within a second or two, gives the weights. So there is nothing to set: a calm hand is followed, a shaken one is not.</para>
-/// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best of them in hindsight. Nothing can promise an error below
-/// A L^2 / 2 for a hand that may accelerate by A (m/s^2) after what is known of it, L seconds ago: see <see cref="LeastWorstError"/>.</para>
-/// <para>It remembers 512 samples and so can learn for spans up to what those cover. Memory is fixed; nothing is allocated after construction. A sample costs
-/// some ten microseconds, a prediction far less; when the span changes for good by a quarter or more, one prediction goes through all it remembers anew. Not
-/// thread-safe.</para>
+/// <para>For display only: the prediction depends on when the samples arrived, so it differs from peer to peer and must never enter a
+/// simulation.</para>
+/// <para>The candidates are: hold (the hand stays), velocity that decays with a time constant of 20, 40, 80, 160 or 320 ms, constant
+/// velocity, and least squares over the last 200 ms that learn online. Each new sample is compared with what each candidate would have
+/// predicted from samples as old as now; that error, squared and forgotten within a second or two, gives the weights. So there is nothing
+/// to tune: a calm hand is followed, a shaken one is not.</para>
+/// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best candidate in hindsight. Nothing can
+/// promise an error below A L^2 / 2 for a hand that may accelerate by A (m/s^2) since its newest sample, L seconds ago: see
+/// <see cref="LeastWorstError"/>.</para>
+/// <para>It remembers 512 samples, so it can learn for spans up to what those cover. Memory is fixed; nothing is allocated after
+/// construction. A sample costs some ten microseconds, a prediction far less; when the span changes for good by a quarter or more, one
+/// prediction reprocesses all it remembers. Not thread-safe.</para>
 /// </remarks>
 public sealed class AdaptivePredictor
 {
-    /// <summary>How many samples are remembered.</summary>
+    /// <summary>The number of samples remembered.</summary>
     public const int RememberedSamples = 512;
 
     private const int Damped = 5;
@@ -32,7 +35,7 @@ public sealed class AdaptivePredictor
     private const double ErrorMemory = 0.8; // s, to 1/e
     private const double LearningMemory = 4; // s, to 1/e
     private const double Sharpness = 8; // a quarter more squared error is e^-2 of the weight
-    private const double ErrorFloor = 1e-8; // m^2: below a tenth of a millimetre all are as good
+    private const double ErrorFloor = 1e-8; // m^2: below a tenth of a millimetre all are equally good
     private const double HorizonMemory = 0.5; // s, to 1/e
     private const double HorizonTolerance = 0.25;
 
@@ -48,35 +51,35 @@ public sealed class AdaptivePredictor
     private readonly Vector3D[] inputs = new Vector3D[OnlineLeastSquares.Inputs];
     private readonly double[] errors = new double[Learned + 1];
     private readonly double[] weights = new double[Learned + 1];
-    private SimDuration horizon; // what errors and weights are for
-    private double askedSeconds; // what is asked for, in the mean
+    private SimDuration horizon; // the span that errors and weights apply to
+    private double askedSeconds; // the mean span that is asked for
     private SimTime lastAsked;
     private bool wasAsked;
 
-    /// <summary>A predictor that has heard of no hand.</summary>
+    /// <summary>Creates a predictor without samples.</summary>
     public AdaptivePredictor() => Forget();
 
-    /// <summary>What is mixed, by name, in the order in which <see cref="WeightOf"/> counts them.</summary>
+    /// <summary>The names of the candidates, in the order of <see cref="WeightOf"/>.</summary>
     public static IReadOnlyList<string> Candidates { get; } =
         Array.AsReadOnly(new[] { "hold", "damped 20 ms", "damped 40 ms", "damped 80 ms", "damped 160 ms", "damped 320 ms", "velocity", "least squares" });
 
-    /// <summary>How far beyond the newest sample a prediction goes at most; what is asked for later is told to be where it was then.</summary>
+    /// <summary>The longest span beyond the newest sample for a prediction; a later time gets the prediction for that span.</summary>
     public static SimDuration MaxHorizon { get; } = SimDuration.FromSeconds(1);
 
-    /// <summary>Whether a sample has been heard; before that nothing can be told.</summary>
+    /// <summary>Whether there is a sample; before that nothing can be predicted.</summary>
     public bool HasSamples => history.Count > 0;
 
-    /// <summary>The instant of the newest sample.</summary>
-    /// <exception cref="InvalidOperationException">There is none.</exception>
+    /// <summary>The time of the newest sample.</summary>
+    /// <exception cref="InvalidOperationException">There is no sample.</exception>
     public SimTime NewestSample => HasSamples ? history.Newest.Time : throw new InvalidOperationException("This predictor has heard no sample.");
 
     /// <summary>
-    /// The least error in metres that any predictor can promise for a hand that accelerates by at most <paramref name="acceleration"/> (m/s^2, at least 0),
-    /// <paramref name="delay"/> (at least 0) after its newest sample: A L^2 / 2.
+    ///  The least error in metres that any predictor can promise for a hand that accelerates by at most <paramref name="acceleration"/>
+    /// (m/s^2, at least 0), <paramref name="delay"/> (at least 0) after its newest sample: A L^2 / 2.
     /// </summary>
     /// <remarks>
-    /// Two hands that were the same up to that sample can part with A one way and A the other, and be A L^2 apart: whatever is said, it is
-    /// wrong by half of that for one of them.
+    /// Two hands that moved the same up to that sample can part with acceleration A in opposite directions, and be A L^2 apart. Any
+    /// prediction is wrong by half of that for one of them.
     /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">A value is negative or not finite.</exception>
     public static double LeastWorstError(double acceleration, SimDuration delay)
@@ -100,10 +103,10 @@ public sealed class AdaptivePredictor
     /// <exception cref="ArgumentOutOfRangeException">There is no such candidate.</exception>
     public double WeightOf(int candidate) => weights[Checked(candidate)];
 
-    /// <summary>A sample of the hand has come.</summary>
+    /// <summary>Adds a sample of the hand.</summary>
     /// <param name="time">When the hand was there.</param>
     /// <param name="position">Metres, finite.</param>
-    /// <param name="velocity">Metres per second, finite, as the sender knows it.</param>
+    /// <param name="velocity">Metres per second, finite, as measured by the sender.</param>
     /// <returns>False if it is not newer than the newest; nothing changed then.</returns>
     /// <exception cref="ArgumentOutOfRangeException">A value is not finite; nothing changed.</exception>
     public bool Add(SimTime time, Vector3D position, Vector3D velocity)
@@ -128,8 +131,10 @@ public sealed class AdaptivePredictor
         return true;
     }
 
-    /// <summary>Where the hand is likely to be.</summary>
-    /// <param name="now">When. At or before the newest sample it is where the hand was, on a straight line between two samples.</param>
+    /// <summary>Predicts where the hand is.</summary>
+    /// <param name="now">
+    /// The time. At or before the newest sample the result is where the hand was, on a straight line between two samples.
+    /// </param>
     /// <param name="position">Metres.</param>
     /// <returns>False if there is no sample, or <paramref name="now"/> is before all that is remembered.</returns>
     public bool TryPredict(SimTime now, out Vector3D position)
@@ -152,8 +157,8 @@ public sealed class AdaptivePredictor
         return true;
     }
 
-    /// <summary>Where one candidate alone would have the hand; for comparison. Changes nothing, and asks for no other span than is learned for.</summary>
-    /// <param name="now">When.</param>
+    /// <summary>Predicts with one candidate alone, for comparison. Changes nothing, not even the span that is learned for.</summary>
+    /// <param name="now">The time.</param>
     /// <param name="candidate">Its place in <see cref="Candidates"/>.</param>
     /// <param name="position">Metres.</param>
     /// <returns>As <see cref="TryPredict(SimTime, out Vector3D)"/>.</returns>
@@ -172,14 +177,14 @@ public sealed class AdaptivePredictor
 
     private double SecondsAfterNewest(SimTime now) => Math.Min(HandHistory.Seconds(history.Newest.Time, now), MaxHorizon.ToSeconds());
 
-    /// <summary>An instant that is so much earlier, or the first there is.</summary>
+    /// <summary>The instant that much earlier, or the first there is.</summary>
     private static SimTime Before(SimTime time, SimDuration span) => time > SimTime.MinValue + span ? time - span : SimTime.MinValue;
 
     private static int Checked(int candidate) => candidate >= 0 && candidate <= Learned
         ? candidate
         : throw new ArgumentOutOfRangeException(nameof(candidate), candidate, $"There are candidates 0 to {Learned}.");
 
-    /// <summary>The way that a candidate foretells from a sample on.</summary>
+    /// <summary>The displacement that a candidate predicts from a sample on.</summary>
     private static Vector3D Way(in HandHistory.Sample from, int candidate, double seconds) => candidate switch
     {
         0 => Vector3D.Zero,
@@ -188,7 +193,7 @@ public sealed class AdaptivePredictor
         _ => from.Learned * seconds,
     };
 
-    /// <summary>Sees that what is learned is for about the span that is asked for. A single frame more or less is not worth learning anew.</summary>
+    /// <summary>Keeps the learned span near the requested one. A single frame more or less is not worth relearning.</summary>
     private void Aim(SimTime now)
     {
         double seconds = SecondsAfterNewest(now);
@@ -224,7 +229,7 @@ public sealed class AdaptivePredictor
         }
     }
 
-    /// <summary>What sample <paramref name="n"/> shows to who knew nothing later than the horizon before it.</summary>
+    /// <summary>Learns from sample <paramref name="n"/> what was predictable from the samples up to the horizon before it.</summary>
     private void Learn(int n)
     {
         ref HandHistory.Sample sample = ref history[n];
@@ -268,7 +273,7 @@ public sealed class AdaptivePredictor
         }
     }
 
-    /// <summary>The velocities at a sample and over some spans before it; false where not so much is remembered.</summary>
+    /// <summary>Computes the velocities at a sample and over some spans before it; false if the history is too short.</summary>
     private bool TryInputs(int n)
     {
         ref readonly HandHistory.Sample sample = ref history[n];

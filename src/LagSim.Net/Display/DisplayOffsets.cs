@@ -6,18 +6,20 @@ using LagSim.Time;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// Hides from the eye that a late event has moved a body: the world is always where it is, and what is drawn is off by what it has changed, less and less so.
+/// Smooths the visible jumps that late events cause: the world is always exact, and each body is drawn with an offset from it that decays.
 /// </summary>
 /// <remarks>
-/// <para>Call <see cref="Update"/> once a frame with the newest render snapshot and the frame's time, then <see cref="TryRead"/> for each body to draw. For display
-/// only: what is drawn differs from peer to peer and must never enter a simulation.</para>
-/// <para>A correction is the difference between where the body was shown at the time of the frame before and where the new render snapshot has it at that same time.
-/// So motion is none, however fast, nor is what a player does now; only a rewritten past is. It is added to the body's offset, and the offset decays
-/// exponentially, small ones faster (<see cref="DisplayOptions"/>), in the same curve whatever the frame rate.</para>
-/// <para>An offset is given up at once where it would have the body drawn inside a plane, a static sphere or another body as that is drawn; where it is too
-/// large to be smoothed; where the body is put elsewhere; and as far as a bounce hides it.</para>
-/// <para>For one world: who joins another makes another. A frame costs two readings of the render snapshot a body, and for each body with an offset one look at every
-/// other. Memory grows with the bodies of the render snapshot; otherwise nothing is allocated. Not thread-safe: for the thread that reads render snapshots.</para>
+/// <para>Call <see cref="Update"/> once a frame with the newest render snapshot and the frame's time, then <see cref="TryRead"/> for each
+/// body to draw. For display only: what is drawn differs from peer to peer and must never enter a simulation.</para>
+/// <para>A correction is the difference between where the body was shown at the previous frame's time and where the new render snapshot has
+/// it at that same time. So motion causes none, however fast, nor does a player's current action; only a rewritten past does. The
+/// correction is added to the body's offset, and the offset decays exponentially, small ones faster (<see cref="DisplayOptions"/>), along
+/// the same curve whatever the frame rate.</para>
+/// <para>An offset is dropped at once if it would draw the body inside a plane, a static sphere or another body as drawn; if it is too
+/// large to be smoothed; if the body is moved elsewhere; and as far as a bounce hides it.</para>
+/// <para>For one world: make a new one when you join another. A frame costs two reads of the render snapshot per body, and for each body
+/// with an offset a check against every other. Memory grows with the bodies of the render snapshot; otherwise nothing is allocated. Not
+/// thread-safe: for the thread that reads render snapshots.</para>
 /// </remarks>
 /// <example>
 /// Each frame:
@@ -47,9 +49,9 @@ public sealed class DisplayOffsets
     private long lastNumber;
     private SimTime lastTime;
 
-    /// <summary>Offsets for render snapshots of a world of the scene; all zero to begin with.</summary>
-    /// <param name="scene">Has what bodies must not be drawn inside of.</param>
-    /// <param name="options">How corrections are hidden; null takes the defaults.</param>
+    /// <summary>Creates offsets for render snapshots of a world of the scene; all zero to begin with.</summary>
+    /// <param name="scene">The scene, with what bodies must not be drawn inside of.</param>
+    /// <param name="options">How corrections are hidden; null for the defaults.</param>
     /// <exception cref="ArgumentNullException"><paramref name="scene"/> is null.</exception>
     public DisplayOffsets(Scene scene, DisplayOptions? options = null)
     {
@@ -57,16 +59,18 @@ public sealed class DisplayOffsets
         this.options = options ?? new DisplayOptions();
     }
 
-    /// <summary>How often late events have moved what was shown, each body counted.</summary>
+    /// <summary>How often late events have moved what was shown, counting each body.</summary>
     public long Corrections { get; private set; }
 
-    /// <summary>The largest of these, in metres.</summary>
+    /// <summary>The largest of these corrections, in metres.</summary>
     public double LargestJump { get; private set; }
 
     /// <summary>Begins a frame.</summary>
     /// <param name="snapshot">The newest render snapshot.</param>
-    /// <param name="now">The time to show. If it is before that of the last frame, or the render snapshot is an older one, all begins anew without offsets.</param>
-    /// <returns>False if the render snapshot does not cover that time; then nothing changed and bodies are read as in the last frame.</returns>
+    /// <param name="now">
+    /// The time to show. If it is before that of the last frame, or the render snapshot is an older one, all offsets are reset.
+    /// </param>
+    /// <returns>False if the render snapshot does not cover that time; then nothing changed and bodies read as in the last frame.</returns>
     /// <exception cref="ArgumentNullException"><paramref name="snapshot"/> is null.</exception>
     public bool Update(RenderSnapshot snapshot, SimTime now)
     {
@@ -95,7 +99,7 @@ public sealed class DisplayOffsets
 
         while (DropWhatIsInside())
         {
-            // What is dropped is drawn elsewhere, where another's offset may now be too much.
+            // A body whose offset was dropped is drawn elsewhere, where another's offset may now be too much.
         }
 
         lastSnapshot = snapshot;
@@ -104,7 +108,7 @@ public sealed class DisplayOffsets
         return true;
     }
 
-    /// <summary>How a body is to be drawn in this frame.</summary>
+    /// <summary>Reads how to draw a body in this frame.</summary>
     /// <returns>False if the body is unknown or not there.</returns>
     public bool TryRead(BodyId body, out DrawnBody drawn)
     {
@@ -128,7 +132,7 @@ public sealed class DisplayOffsets
         return isThere;
     }
 
-    /// <summary>Has an entry for each body of the render snapshot, in its order.</summary>
+    /// <summary>Keeps one entry for each body of the render snapshot, in its order.</summary>
     private void Follow(RenderSnapshot snapshot)
     {
         int known = 0;
@@ -189,7 +193,7 @@ public sealed class DisplayOffsets
         entry.Radius = isThere ? snapshot.RadiusOf(entry.Body) : 0;
     }
 
-    /// <summary>What the new render snapshot says of the last frame's time, held against what was shown then.</summary>
+    /// <summary>Compares the new render snapshot at the last frame's time with what was shown then.</summary>
     private void Correct(ref Entry entry, RenderSnapshot snapshot)
     {
         if (!snapshot.TryRead(entry.Body, lastTime, out BodyState then))
@@ -287,7 +291,7 @@ public sealed class DisplayOffsets
         return false;
     }
 
-    /// <summary>Whether a gap is one that the offset is to blame for.</summary>
+    /// <summary>Whether the offset is to blame for a penetration.</summary>
     private bool IsDeeper(double drawn, double real) => drawn < Math.Min(real, 0) - options.Penetration;
 
     private struct Entry

@@ -3,25 +3,31 @@ using LagSim.Time;
 
 namespace LagSim.Net.Display;
 
-/// <summary>How corrections are hidden from the eye.</summary>
+/// <summary>How visible corrections are smoothed.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class DisplayOptions
 {
-    /// <summary>Options, each with its default.</summary>
-    /// <param name="fastest">The time constant by which the smallest corrections decay, 1 ms to 10 s; default 80 ms.</param>
-    /// <param name="slowest">That of the largest, from <paramref name="fastest"/> to 10 s; default 300 ms.</param>
+    /// <summary>Creates options, each with its default.</summary>
+    /// <param name="fastest">The time constant with which the smallest corrections decay, 1 ms to 10 s; default 80 ms.</param>
+    /// <param name="slowest">The time constant of the largest corrections, from <paramref name="fastest"/> to 10 s; default 300 ms.</param>
     /// <param name="smallCorrection">
-    /// Up to what size corrections count as smallest: above 0 m; default 0.05 m. In between the time constant grows in proportion.
+    /// The size up to which corrections count as smallest: above 0 m; default 0.05 m. In between the time constant grows in proportion.
     /// </param>
-    /// <param name="largeCorrection">From what size on they count as largest: above <paramref name="smallCorrection"/>; default 1 m.</param>
-    /// <param name="maxSpeed">How fast an offset shrinks at most, in m/s, above 0; default 10 m/s.</param>
-    /// <param name="snapDistance">What is off by more than that, in metres, is not smoothed but shown at once: at least 0; default 5 m.</param>
+    /// <param name="largeCorrection">
+    /// The size from which corrections count as largest: above <paramref name="smallCorrection"/>; default 1 m.
+    /// </param>
+    /// <param name="maxSpeed">The greatest speed at which an offset shrinks, in m/s, above 0; default 10 m/s.</param>
+    /// <param name="snapDistance">
+    /// The size in metres above which a correction is shown at once instead of smoothed: at least 0; default 5 m.
+    /// </param>
     /// <param name="hiding">
-    /// A bounce hides an offset of its change of velocity times this, 0 to 1 s; default 50 ms. The eye does not see where exactly a ball that changes by 10 m/s
-    /// was, half a metre more or less.
+    /// A bounce hides an offset of its velocity change times this, 0 to 1 s; default 50 ms. The eye cannot tell within half a metre where a
+    /// ball was that changes by 10 m/s.
     /// </param>
-    /// <param name="penetration">How deep an offset may let a body be drawn inside another thing, in metres, at least 0; default 1 mm.</param>
-    /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
+    /// <param name="penetration">
+    /// How deep an offset may let a body be drawn inside something else, in metres, at least 0; default 1 mm.
+    /// </param>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
     public DisplayOptions(
         SimDuration? fastest = null,
         SimDuration? slowest = null,
@@ -50,22 +56,22 @@ public sealed class DisplayOptions
     /// <summary>The time constant of the largest corrections.</summary>
     public SimDuration Slowest { get; }
 
-    /// <summary>Up to what size corrections count as smallest, in metres.</summary>
+    /// <summary>The size up to which corrections count as smallest, in metres.</summary>
     public double SmallCorrection { get; }
 
-    /// <summary>From what size on corrections count as largest, in metres.</summary>
+    /// <summary>The size from which corrections count as largest, in metres.</summary>
     public double LargeCorrection { get; }
 
-    /// <summary>How fast an offset shrinks at most, in m/s.</summary>
+    /// <summary>The greatest speed at which an offset shrinks, in m/s.</summary>
     public double MaxSpeed { get; }
 
-    /// <summary>What is off by more is shown at once; metres.</summary>
+    /// <summary>The size above which a correction is shown at once, in metres.</summary>
     public double SnapDistance { get; }
 
-    /// <summary>What a bounce hides, as metres for each m/s by which it changes the velocity.</summary>
+    /// <summary>The offset that a bounce hides, in metres for each m/s of velocity change.</summary>
     public SimDuration Hiding { get; }
 
-    /// <summary>How deep an offset may let a body be drawn inside another thing, in metres.</summary>
+    /// <summary>How deep an offset may let a body be drawn inside something else, in metres.</summary>
     public double Penetration { get; }
 
     private static SimDuration Span(SimDuration value, SimDuration least, SimDuration most, string name) => value >= least && value <= most

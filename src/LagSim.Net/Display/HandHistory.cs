@@ -36,7 +36,7 @@ internal sealed class HandHistory
         return (span < 0 ? (double)to.Ticks - from.Ticks : span) / SimDuration.TicksPerSecond;
     }
 
-    /// <summary>The last sample at or before an instant; -1 if there is none.</summary>
+    /// <summary>The index of the last sample at or before an instant; -1 if there is none.</summary>
     internal int LastAt(SimTime time)
     {
         int low = 0;
@@ -57,7 +57,10 @@ internal sealed class HandHistory
         return low - 1;
     }
 
-    /// <summary>Where the hand was at an instant between the oldest and the newest sample: on the straight line between the two around it.</summary>
+    /// <summary>
+    /// Interpolates the hand's position at an instant between the oldest and the newest sample, on the straight line between the two around
+    /// it.
+    /// </summary>
     internal bool TryPositionAt(SimTime time, out Vector3D position)
     {
         int before = LastAt(time);
@@ -96,7 +99,7 @@ internal sealed class HandHistory
 
         internal Vector3D Velocity { get; }
 
-        /// <summary>The mean velocity over the horizon that the least squares foretold when this sample was the newest; m/s.</summary>
+        /// <summary>The mean velocity over the horizon that the least squares predicted when this sample was the newest; m/s.</summary>
         internal Vector3D Learned { get; set; }
     }
 }

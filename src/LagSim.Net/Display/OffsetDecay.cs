@@ -3,12 +3,12 @@ using System;
 namespace LagSim.Net.Display;
 
 /// <summary>
-/// How an offset shrinks with time: as exp(-t / tau), but never faster than the largest speed. In closed form, so that frames of any length give the same
-/// curve.
+/// The decay of an offset: exp(-t / tau), but never faster than the greatest speed. In closed form, so that frames of any length give the
+/// same curve.
 /// </summary>
 internal static class OffsetDecay
 {
-    private const double Nothing = 1e-6; // m: below that no offset is left
+    private const double Nothing = 1e-6; // m: a smaller offset is dropped
 
     /// <summary>The time constant in seconds for an offset of that size in metres.</summary>
     internal static double TimeConstant(DisplayOptions options, double size)
@@ -18,10 +18,10 @@ internal static class OffsetDecay
         return fastest + ((options.Slowest.ToSeconds() - fastest) * Math.Min(Math.Max(part, 0), 1));
     }
 
-    /// <summary>What is left of a size in metres after a time in seconds.</summary>
+    /// <summary>The remaining size in metres after a time in seconds.</summary>
     internal static double After(double size, double timeConstant, double maxSpeed, double seconds)
     {
-        double slowBelow = maxSpeed * timeConstant; // where the exponential is as fast as the largest speed
+        double slowBelow = maxSpeed * timeConstant; // where the exponential is as fast as the greatest speed
         if (size > slowBelow)
         {
             double untilThen = (size - slowBelow) / maxSpeed;

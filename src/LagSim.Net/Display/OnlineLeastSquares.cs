@@ -3,18 +3,20 @@ using LagSim.Scenes;
 
 namespace LagSim.Net.Display;
 
-/// <summary>Which mixture of a hand's recent velocities has best foretold its mean velocity over the horizon: least squares that forget.</summary>
+/// <summary>
+/// Predicts a hand's mean velocity over the horizon as a weighted sum of its recent velocities, learned by least squares with forgetting.
+/// </summary>
 /// <remarks>
-/// The normal equations themselves are kept and decay, and are solved anew for each sample, with a term that draws the weights to zero. So nothing winds up
-/// while the hand rests, as it does in the usual recursion: what is known then fades, and the answer becomes that it stays. All axes
-/// share the weights, so that the answer turns with the hand.
+/// The normal equations themselves are kept and decay, and are solved again for each sample, with a ridge term that draws the weights to
+/// zero. So nothing winds up while the hand rests, as in recursive least squares: the data fades, and the prediction becomes that the hand
+/// stays. All axes share the weights, so the prediction is independent of direction.
 /// </remarks>
 internal sealed class OnlineLeastSquares
 {
-    /// <summary>How many velocities there are to mix.</summary>
+    /// <summary>The number of input velocities.</summary>
     internal const int Inputs = 5;
 
-    private const double Prior = 0.002; // m^2/s^2: what a trembling hand shows is not to be learned from
+    private const double Prior = 0.002; // m^2/s^2: do not learn from the trembling of a hand
 
     private readonly double[] moments = new double[Inputs * Inputs];
     private readonly double[] products = new double[Inputs];
@@ -28,7 +30,7 @@ internal sealed class OnlineLeastSquares
         Array.Clear(weights, 0, weights.Length);
     }
 
-    /// <summary>Lets what is known fade to so much of it.</summary>
+    /// <summary>Lets the accumulated data fade to this fraction.</summary>
     internal void Fade(double kept)
     {
         for (int i = 0; i < moments.Length; i++)
@@ -42,7 +44,7 @@ internal sealed class OnlineLeastSquares
         }
     }
 
-    /// <summary>These velocities were followed by that mean velocity.</summary>
+    /// <summary>Learns that these velocities were followed by that mean velocity.</summary>
     internal void Learn(Vector3D[] inputs, in Vector3D came)
     {
         for (int i = 0; i < Inputs; i++)
@@ -58,7 +60,7 @@ internal sealed class OnlineLeastSquares
         Solve();
     }
 
-    /// <summary>What these velocities are likely to be followed by.</summary>
+    /// <summary>Predicts the mean velocity that follows these velocities.</summary>
     internal Vector3D Foretell(Vector3D[] inputs)
     {
         Vector3D sum = default;
@@ -70,7 +72,7 @@ internal sealed class OnlineLeastSquares
         return sum;
     }
 
-    /// <summary>By Cholesky: the moments with the prior on their diagonal are positive definite.</summary>
+    /// <summary>Solves by Cholesky: with the prior on the diagonal the moments are positive definite.</summary>
     private void Solve()
     {
         for (int i = 0; i < Inputs; i++)
@@ -83,7 +85,7 @@ internal sealed class OnlineLeastSquares
                     sum -= factor[(i * Inputs) + k] * factor[(j * Inputs) + k];
                 }
 
-                // Rounding can leave less than the prior where two inputs are the same.
+                // Rounding can leave less than the prior when two inputs are equal.
                 factor[(i * Inputs) + j] = i == j ? Math.Sqrt(Math.Max(sum, 0.5 * Prior)) : sum / factor[(j * Inputs) + j];
             }
         }

@@ -1,9 +1,9 @@
 namespace LagSim.Net.Recordings;
 
-/// <summary>What a <see cref="RecordingComparison"/> found.</summary>
+/// <summary>The outcome of a <see cref="RecordingComparison"/>.</summary>
 public enum ComparisonOutcome
 {
-    /// <summary>Everything that both cover is the same; there is at least one committed state that both hold.</summary>
+    /// <summary>Everything that both contain is equal, including at least one committed state.</summary>
     Agrees,
 
     /// <summary>The scenes differ: the recordings are of different worlds.</summary>
@@ -15,12 +15,15 @@ public enum ComparisonOutcome
     /// <summary>An entry of the log differs, in its event or its verdict.</summary>
     EventDiffers,
 
-    /// <summary>The log is the same where both cover it, and a committed state differs.</summary>
+    /// <summary>The log is the same where both contain it, and a committed state differs.</summary>
     StateDiffers,
 
-    /// <summary>There is no committed time that both cover, whatever entries of the log are the same, or one of them has no sound header.</summary>
+    /// <summary>No committed time is in both, whichever log entries are equal, or one of them has no valid header.</summary>
     NothingInCommon,
 
-    /// <summary>The fold versions differ: the libraries that recorded make different states of the same scene and events, so no hash of one says anything of the other's.</summary>
+    /// <summary>
+    /// The fold versions differ: the two libraries produce different states from the same scene and events, so their hashes cannot be
+    /// compared.
+    /// </summary>
     FoldVersionDiffers,
 }

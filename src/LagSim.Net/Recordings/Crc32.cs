@@ -3,16 +3,18 @@ using System.Runtime.InteropServices;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>The CRC-32 of IEEE 802.3, as in zip and PNG: reflected polynomial 0xEDB88320. It finds damage, not intent.</summary>
+/// <summary>
+/// The CRC-32 of IEEE 802.3, as in zip and PNG: reflected polynomial 0xEDB88320. It detects accidental damage, not tampering.
+/// </summary>
 internal static class Crc32
 {
     private static readonly uint[] Table = MakeTable();
 
-    /// <summary>The checksum of what came before, followed by these bytes. That of nothing is 0.</summary>
+    /// <summary>Continues a checksum with these bytes. The checksum of no bytes is 0.</summary>
     internal static uint Append(uint before, ReadOnlySpan<byte> bytes)
     {
         uint crc = ~before;
-        // As a writable span: the indexer of a read-only one cannot be linked by some Mono runtimes (docs/ARCHITECTURE.md).
+        // A writable span, because the indexer of a read-only one cannot be linked by some Mono runtimes (docs/ARCHITECTURE.md).
         foreach (byte next in MemoryMarshal.CreateSpan(ref MemoryMarshal.GetReference(bytes), bytes.Length))
         {
             crc = Table[(byte)(crc ^ next)] ^ (crc >> 8);

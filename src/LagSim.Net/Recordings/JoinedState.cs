@@ -5,16 +5,17 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>What a peer that joined late began with, in place of the part of the log that it never got.</summary>
+/// <summary>The initial state of a peer that joined late, in place of the part of the log that it never got.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal sealed class JoinedState
 {
-    /// <summary>A state of these.</summary>
+    /// <summary>Creates a state.</summary>
     /// <param name="firstIndex">See <see cref="FirstIndex"/>.</param>
     /// <param name="snapshot">See <see cref="Snapshot"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The index is 0.</exception>
     /// <exception cref="ArgumentException">
-    /// The snapshot is further than 48 days from the origin, of its start or before, or longer than <see cref="RecordingFormat.MaxSnapshotBytes"/>.
+    /// The snapshot is further than 48 days from the origin, at its start or before, or longer than
+    /// <see cref="RecordingFormat.MaxSnapshotBytes"/>.
     /// </exception>
     public JoinedState(uint firstIndex, WorldSnapshot? snapshot)
     {
@@ -45,8 +46,8 @@ internal sealed class JoinedState
     public uint FirstIndex { get; }
 
     /// <summary>
-    /// The world it went on from; every accepted event before <see cref="Time"/> is in it, wherever it stands in the log. Null: it began from the
-    /// scene, and nothing before <see cref="FirstIndex"/> was accepted.
+    /// The world it began from, including every accepted event before <see cref="Time"/>, wherever it is in the log. Null if it began from
+    /// the scene; then nothing before <see cref="FirstIndex"/> was accepted.
     /// </summary>
     public WorldSnapshot? Snapshot { get; }
 

@@ -1,15 +1,15 @@
 namespace LagSim.Net.Recordings;
 
-/// <summary>What a record of a recording holds. The numbers stand in files: never renumber.</summary>
+/// <summary>The content of a record. The numbers are stored in files: never renumber.</summary>
 internal enum RecordKind : byte
 {
-    /// <summary>Who recorded, and which session. The first record.</summary>
+    /// <summary>The peer that recorded, and its session. The first record.</summary>
     Header = 1,
 
     /// <summary>The scene. The second record.</summary>
     Scene = 2,
 
-    /// <summary>The state with which a late client began. The third record, or none.</summary>
+    /// <summary>The initial state of a late client. The third record, or none.</summary>
     Joined = 3,
 
     /// <summary>An entry of the host's log.</summary>
@@ -18,6 +18,6 @@ internal enum RecordKind : byte
     /// <summary>The hashes of a committed state.</summary>
     Committed = 5,
 
-    /// <summary>Why the recording ends. The last record; missing where the process was killed or the file was cut.</summary>
+    /// <summary>Why the recording ends. The last record; missing if the process was killed or the file was truncated.</summary>
     End = 6,
 }

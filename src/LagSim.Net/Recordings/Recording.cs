@@ -7,11 +7,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>What a peer wrote down of a session: the scene, the host's log, and the hashes of its committed states.</summary>
+/// <summary>A recording of a session by one peer: the scene, the host's log, and the hashes of the peer's committed states.</summary>
 /// <remarks>
-/// <para>A file that was cut or damaged is read up to the damage: what stands before is here, and <see cref="Damage"/> says where it ends and
-/// why. A file without damage and without <see cref="EndReason"/> is of a process that was killed or still writes, or was cut where a record ends. None of
-/// these <see cref="IsWhole"/>, and what is here of any of them counts.</para>
+/// <para>A truncated or damaged file is read up to the damage: everything before it is here, and <see cref="Damage"/> says where it ends
+/// and why. A file without damage and without <see cref="EndReason"/> is from a process that was killed or still writes, or was truncated
+/// where a record ends. None of these <see cref="IsWhole"/>, and what was read from any of them is valid.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class Recording
@@ -38,40 +38,44 @@ public sealed class Recording
         Damage = damage;
     }
 
-    /// <summary>Who recorded, which session, and when it started; null when the file is damaged before the header's end.</summary>
+    /// <summary>The peer that recorded, its session, and the start; null if the file is damaged before the header's end.</summary>
     public RecordingHeader? Header { get; }
 
-    /// <summary>The scene; null when it could not be read: see <see cref="SceneError"/>.</summary>
+    /// <summary>The scene; null if it could not be read: see <see cref="SceneError"/>.</summary>
     public Scene? Scene { get; }
 
     /// <summary>
-    /// Why there is no <see cref="Scene"/>, as a sentence; null when there is one. That it needs an acceleration which is not here is no
-    /// damage: the rest of the file is read, and can be compared.
+    /// Why there is no <see cref="Scene"/>, as a sentence; null if there is one. A missing acceleration is not damage: the rest of the file
+    /// is read, and can be compared.
     /// </summary>
     public string? SceneError { get; }
 
-    /// <summary>What the peer began with, if it joined late; else null, and the log here begins with entry 1.</summary>
+    /// <summary>The initial state of a peer that joined late; otherwise null, and the log begins with entry 1.</summary>
     internal JoinedState? Joined { get; }
 
-    /// <summary>The host's log in its order, without a gap.</summary>
+    /// <summary>The host's log in order, without gaps.</summary>
     public IReadOnlyList<LogEntry> Entries { get; }
 
     /// <summary>The committed states, by ascending time.</summary>
     public IReadOnlyList<CommittedState> Committed { get; }
 
-    /// <summary>Why the recording ends, as a sentence; null when it does not say.</summary>
+    /// <summary>Why the recording ends, as a sentence; null if it does not say.</summary>
     public string? EndReason { get; }
 
-    /// <summary>Where the file can no longer be read; null when all of it was.</summary>
+    /// <summary>Where the file can no longer be read; null if all of it was.</summary>
     public RecordingDamage? Damage { get; }
 
     /// <summary>Whether nothing is missing: the file has its end record, and no damage.</summary>
     public bool IsWhole => EndReason is not null && Damage is null;
 
-    /// <summary>The time of the last committed state, up to which the recording can be run again and compared; null when it has none.</summary>
+    /// <summary>
+    /// The time of the last committed state, up to which the recording can be replayed and compared; null if it has none.
+    /// </summary>
     public SimTime? HoldsUpTo => CommittedArray.Length > 0 ? CommittedArray[^1].Time : null;
 
-    /// <summary>How far it holds and what it lacks, as the rest of a sentence that begins with what it is called: <c>holds 3 log entries, and ...</c></summary>
+    /// <summary>
+    /// How far it goes and what it lacks, as the rest of a sentence whose subject is the recording: <c>holds 3 log entries, and ...</c>
+    /// </summary>
     public string Extent
     {
         get
@@ -90,17 +94,21 @@ public sealed class Recording
     internal CommittedState[] CommittedArray { get; }
 
     /// <summary>Reads a recording to its end or to its first damage. No content of a file makes it throw.</summary>
-    /// <param name="stream">A stream that can be read, from where it stands to its end. It stays open.</param>
-    /// <param name="known">The accelerations that are there for the scene to use; null for none.</param>
-    /// <remarks>Memory: a few times the bytes that are there, whatever they announce. Cost of the scene: see <see cref="Wire.SceneFormat"/>.</remarks>
-    /// <exception cref="ArgumentNullException">There is no stream.</exception>
+    /// <param name="stream">A readable stream, read from its current position to its end. It stays open.</param>
+    /// <param name="known">The accelerations available to the scene; null for none.</param>
+    /// <remarks>
+    /// Memory: a few times the bytes that are there, whatever they announce. For the cost of the scene see <see cref="Wire.SceneFormat"/>.
+    /// </remarks>
+    /// <exception cref="ArgumentNullException">The stream is null.</exception>
     /// <exception cref="IOException">The stream itself cannot be read.</exception>
     public static Recording Read(Stream stream, IReadOnlyList<IAcceleration>? known = null) =>
         new RecordingReader(stream ?? throw new ArgumentNullException(nameof(stream)), known).Read();
 
-    /// <summary>Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration})"/> does; also one that is still being written.</summary>
+    /// <summary>
+    /// Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration})"/> does; also one that is still being written.
+    /// </summary>
     /// <param name="path">The file.</param>
-    /// <param name="known">The accelerations that are there for the scene to use; null for none.</param>
+    /// <param name="known">The accelerations available to the scene; null for none.</param>
     /// <exception cref="IOException">The file cannot be opened or read.</exception>
     /// <exception cref="UnauthorizedAccessException">The file may not be read.</exception>
     public static Recording Read(string path, IReadOnlyList<IAcceleration>? known = null)

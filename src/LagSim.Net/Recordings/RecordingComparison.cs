@@ -6,7 +6,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Two recordings of one session held against each other: the first thing in which they differ, or that they agree.</summary>
+/// <summary>The result of comparing two recordings of one session: the first difference, or that they agree.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class RecordingComparison
 {
@@ -19,49 +19,49 @@ public sealed class RecordingComparison
         Message = message;
     }
 
-    /// <summary>What was found.</summary>
+    /// <summary>The outcome.</summary>
     public ComparisonOutcome Outcome { get; }
 
-    /// <summary>How many entries of the log are the same in both.</summary>
+    /// <summary>The number of log entries that are equal in both.</summary>
     public int EntriesCompared { get; }
 
-    /// <summary>How many committed states are the same in both, up to the first that is not.</summary>
+    /// <summary>The number of committed states that are equal in both, up to the first that is not.</summary>
     public int StatesCompared { get; }
 
-    /// <summary>The time of the last of these; null for none.</summary>
+    /// <summary>The time of the last equal state; null if there is none.</summary>
     public SimTime? AgreedUpTo { get; }
 
-    /// <summary>Of <see cref="ComparisonOutcome.EventDiffers"/> the first recording's entry; else null.</summary>
+    /// <summary>For <see cref="ComparisonOutcome.EventDiffers"/>, the first recording's entry; otherwise null.</summary>
     public LogEntry? FirstEntry { get; private set; }
 
-    /// <summary>Of <see cref="ComparisonOutcome.EventDiffers"/> the second recording's entry; else null.</summary>
+    /// <summary>For <see cref="ComparisonOutcome.EventDiffers"/>, the second recording's entry; otherwise null.</summary>
     public LogEntry? SecondEntry { get; private set; }
 
-    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the first recording's committed state; else null.</summary>
+    /// <summary>For <see cref="ComparisonOutcome.StateDiffers"/>, the first recording's committed state; otherwise null.</summary>
     public CommittedState? FirstState { get; private set; }
 
-    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the second recording's committed state; else null.</summary>
+    /// <summary>For <see cref="ComparisonOutcome.StateDiffers"/>, the second recording's committed state; otherwise null.</summary>
     public CommittedState? SecondState { get; private set; }
 
-    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the first recording run again up to that time; else null.</summary>
+    /// <summary>For <see cref="ComparisonOutcome.StateDiffers"/>, the first recording replayed up to that time; otherwise null.</summary>
     public RecordingReplay? FirstReplay { get; private set; }
 
-    /// <summary>Of <see cref="ComparisonOutcome.StateDiffers"/> the second recording run again up to that time; else null.</summary>
+    /// <summary>For <see cref="ComparisonOutcome.StateDiffers"/>, the second recording replayed up to that time; otherwise null.</summary>
     public RecordingReplay? SecondReplay { get; private set; }
 
-    /// <summary>The result for people: what was found, up to where they agree, and how far each of them holds.</summary>
+    /// <summary>The result as text: the outcome, up to where the recordings agree, and the extent of each.</summary>
     public string Message { get; }
 
     /// <summary>
-    /// Compares scenes, starts, fold versions, the entries of the log that both hold, and the committed states of the times that both hold, in this order.
-    /// Where a state differs, both are run again to see which departs from its own scene and events.
+    /// Compares scenes, starts, fold versions, the log entries that both contain, and the committed states at times that both contain, in
+    /// this order. Where a state differs, both are replayed to see which departs from its own scene and events.
     /// </summary>
     /// <param name="first">One recording.</param>
-    /// <param name="second">The other; of another peer as a rule.</param>
-    /// <param name="cancellation">Ends the replays.</param>
-    /// <remarks>Cost: O(n) in the records; where a state differs, two replays.</remarks>
-    /// <exception cref="ArgumentNullException">A recording is missing.</exception>
-    /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
+    /// <param name="second">The other, usually of another peer.</param>
+    /// <param name="cancellation">Cancels the replays.</param>
+    /// <remarks>Cost: O(n) in the records; two replays if a state differs.</remarks>
+    /// <exception cref="ArgumentNullException">A recording is null.</exception>
+    /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
     public static RecordingComparison Of(Recording first, Recording second, CancellationToken cancellation = default)
     {
         _ = first ?? throw new ArgumentNullException(nameof(first));
@@ -114,7 +114,7 @@ public sealed class RecordingComparison
             return OfStates(first, second, entries, states, agreed, mine, theirs, cancellation);
         }
 
-        // The same events say nothing of what a peer made of them: without a state that was compared there is no agreement.
+        // Equal events say nothing about the states that a peer derived from them: without a compared state there is no agreement.
         string log = entries == 0 ? "no log entry and no committed time in common" : $"the same in {Words.Count(entries, "common log entry")}, and no"
             + " committed time in common";
         return states == 0
@@ -154,7 +154,7 @@ public sealed class RecordingComparison
         };
     }
 
-    /// <summary>How many entries of the same index are equal, up to the first pair that is not.</summary>
+    /// <summary>Counts the entries of equal index that are equal, up to the first pair that is not.</summary>
     private static int SameEntries(Recording first, Recording second, out LogEntry? one, out LogEntry? other)
     {
         one = other = null;
@@ -165,7 +165,7 @@ public sealed class RecordingComparison
             return 0;
         }
 
-        // Both are without a gap, so a difference of places is one for all entries.
+        // Neither has gaps, so one offset holds for all entries.
         long begin = Math.Max(a[0].Index, b[0].Index);
         long end = Math.Min(a[^1].Index, b[^1].Index);
         for (long index = begin; index <= end; index++)
@@ -183,7 +183,10 @@ public sealed class RecordingComparison
         return (int)Math.Max(0, end - begin + 1);
     }
 
-    /// <summary>How many committed states of the same time are equal, up to the first pair that is not, and the time of the last of these.</summary>
+    /// <summary>
+    /// Counts the committed states of equal time that are equal, up to the first pair that is not, and returns the time of the last equal
+    /// one.
+    /// </summary>
     private static int SameStates(Recording first, Recording second, out SimTime? last, out CommittedState? one, out CommittedState? other)
     {
         last = null;
@@ -218,7 +221,8 @@ public sealed class RecordingComparison
     }
 
     /// <summary>
-    /// The first body in which the worlds differ, if both recordings are what their replays are; hashes, which are all that a recording has, name none.
+    /// Names the first body in which the worlds differ, if both recordings match their replays. A recording holds only hashes, which name
+    /// no body.
     /// </summary>
     private static string FirstBody(RecordingReplay first, RecordingReplay second)
     {

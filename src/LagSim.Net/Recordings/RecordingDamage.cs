@@ -2,7 +2,7 @@ using System.Globalization;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Where a recording can no longer be read, and why. What stands before is sound.</summary>
+/// <summary>Where a recording can no longer be read, and why. Everything before is valid.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class RecordingDamage
 {
@@ -12,10 +12,10 @@ public sealed class RecordingDamage
         Reason = reason;
     }
 
-    /// <summary>The byte of the file at which the first unsound record begins, counted from 0.</summary>
+    /// <summary>The byte offset in the file at which the first invalid record begins, counted from 0.</summary>
     public long Offset { get; }
 
-    /// <summary>What is wrong there, as a sentence.</summary>
+    /// <summary>The error found there, as a sentence.</summary>
     public string Reason { get; }
 
     /// <summary>Both, as a sentence.</summary>

@@ -3,16 +3,16 @@ using System.Runtime.InteropServices;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Opens a file for a recording, so that others may read it meanwhile and no other process writes it too.</summary>
+/// <summary>Opens a recording's file such that others may read it meanwhile but no other process writes it.</summary>
 internal static class RecordingFileStream
 {
-    /// <summary>The file, empty.</summary>
-    /// <exception cref="IOException">It cannot be made or written, or another process is writing a recording to it.</exception>
+    /// <summary>Opens the file, empty.</summary>
+    /// <exception cref="IOException">It cannot be created or written, or another process is writing a recording to it.</exception>
     internal static FileStream Open(string path)
     {
         using (FileStream before = new(path, FileMode.OpenOrCreate, FileAccess.Write, FileShare.Read))
         {
-            ThrowIfLocked(before); // before what it holds is cut off
+            ThrowIfLocked(before); // before its content is truncated
         }
 
         FileStream file = new(path, FileMode.Create, FileAccess.Write, FileShare.Read);
@@ -28,7 +28,10 @@ internal static class RecordingFileStream
         }
     }
 
-    /// <summary>Locks a file for this process. Windows holds others to what they may share; Linux holds only those who ask for locks, so that everybody can read.</summary>
+    /// <summary>
+    /// Locks a file for this process. Windows enforces the sharing mode; Linux affects only processes that ask for locks, so any process
+    /// can read.
+    /// </summary>
     private static void ThrowIfLocked(FileStream file)
     {
         if (!RuntimeInformation.IsOSPlatform(OSPlatform.Linux) || !file.CanSeek)

@@ -4,19 +4,19 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>The numbers of a recording's file. The layout stands in <c>docs/RECORDINGS.md</c>; all sizes are in bytes.</summary>
+/// <summary>The constants of the recording file format. The layout is in <c>docs/RECORDINGS.md</c>; all sizes are in bytes.</summary>
 public static class RecordingFormat
 {
-    /// <summary>How the name of a recording ends.</summary>
+    /// <summary>The file name extension of a recording.</summary>
     public const string Extension = ".lagsim";
 
-    /// <summary>The version of the records. Scene and events in them are in that of the wire, <see cref="WireFormat.Version"/>.</summary>
+    /// <summary>The version of the records. The scene and events in them use that of the wire, <see cref="WireFormat.Version"/>.</summary>
     public const byte Version = 4;
 
-    /// <summary>The longest snapshot that a recording holds, that of a late client: 64 MiB.</summary>
+    /// <summary>The longest snapshot of a late client in a recording: 64 MiB.</summary>
     public const int MaxSnapshotBytes = 1 << 26;
 
-    /// <summary>The longest reason of an end, in UTF-8.</summary>
+    /// <summary>The longest end reason, in UTF-8.</summary>
     public const int MaxReasonBytes = 4000;
 
     internal const int PrefixBytes = 10; // magic, version, version of the wire
@@ -26,11 +26,11 @@ public static class RecordingFormat
     internal const int CommittedBytes = 24;
     internal const int CrcBytes = 4;
 
-    /// <summary>The version of this library, as a recording names it; without the source revision.</summary>
+    /// <summary>The version of this library, as stored in recordings; without the source revision.</summary>
     internal static string LibraryVersion { get; } =
         (typeof(RecordingFormat).Assembly.GetCustomAttribute<AssemblyInformationalVersionAttribute>()?.InformationalVersion ?? "0").Split('+')[0];
 
-    /// <summary>The first eight bytes: <c>LagSim</c> and an end of line that a careless transfer as text would change.</summary>
+    /// <summary>The first eight bytes: <c>LagSim</c> and a line end that a transfer in text mode would change.</summary>
     internal static ReadOnlySpan<byte> Magic => new byte[] { 0x4C, 0x61, 0x67, 0x53, 0x69, 0x6D, 0x0D, 0x0A };
 
     /// <summary>The longest content of a record.</summary>
@@ -44,7 +44,7 @@ public static class RecordingFormat
         _ => MaxReasonBytes,
     };
 
-    /// <summary>What a record is called in sentences, with its article.</summary>
+    /// <summary>The name of a record in sentences, with its article.</summary>
     internal static string NameOf(RecordKind kind) => kind switch
     {
         RecordKind.Header => "a header",

@@ -2,7 +2,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Who recorded, and which session.</summary>
+/// <summary>Identifies a recording: the peer that made it, and its session.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class RecordingHeader
 {
@@ -25,7 +25,8 @@ public sealed class RecordingHeader
     public ulong SceneHash { get; }
 
     /// <summary>
-    /// The <see cref="Simulation.FoldVersion"/> of the library that recorded, 1 to 65,535. A library of another one makes other states of the same scene and events.
+    /// The <see cref="Simulation.FoldVersion"/> of the library that recorded, 1 to 65,535. A library with another one produces different
+    /// states from the same scene and events.
     /// </summary>
     public int FoldVersion { get; }
 

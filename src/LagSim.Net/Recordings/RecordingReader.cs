@@ -11,8 +11,8 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Reads the bytes of a recording, which may be anyone's, record by record up to the first that is not sound.</summary>
-/// <remarks>Room for a record grows with what has been read of it, never with what it announces.</remarks>
+/// <summary>Reads the bytes of a recording, which may come from anyone, record by record up to the first invalid one.</summary>
+/// <remarks>The buffer for a record grows with what has been read of it, never with its announced length.</remarks>
 internal sealed class RecordingReader
 {
     private const int FirstBufferBytes = 256;
@@ -91,7 +91,7 @@ internal sealed class RecordingReader
         return damage is null;
     }
 
-    /// <summary>Reads the next record into the buffer; false at the end of the file and at damage.</summary>
+    /// <summary>Reads the next record into the buffer; false at the end of the file or at damage.</summary>
     private bool ReadRecord(out RecordKind kind, out int length)
     {
         recordAt = offset;
@@ -142,7 +142,7 @@ internal sealed class RecordingReader
         return sum == BinaryPrimitives.ReadUInt32LittleEndian(buffer.AsSpan(length)) || Damaged($"The checksum of {name} is wrong.");
     }
 
-    /// <summary>Reads the length of a record, whose kind is in the buffer, and begins its checksum.</summary>
+    /// <summary>Reads the length of a record whose kind is in the buffer, and begins its checksum.</summary>
     private bool ReadLength(string name, int most, out int length, out uint crc)
     {
         const int longest = 4;
@@ -311,7 +311,7 @@ internal sealed class RecordingReader
         }
     }
 
-    /// <summary>Whether all fields of a record were there, in range, and followed by nothing.</summary>
+    /// <summary>Whether all fields of a record are there, in range, and followed by nothing.</summary>
     private bool IsSound(ref WireReader reader, string what) => reader.Finish(out WireRefusal refusal) || Damaged(refusal switch
     {
         WireRefusal.TooShort => $"{what} ends before its last field.",

@@ -10,10 +10,13 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>A recording run again: its scene with the events that were accepted, and every committed state checked against its hashes.</summary>
+/// <summary>
+/// The result of replaying a recording: its scene with the accepted events, and every committed state checked against its hashes.
+/// </summary>
 /// <remarks>
-/// <para>By the invariant the state is a fold of the scene over the accepted events, so a replay gives the recorded hashes whatever the
-/// network did, or the peer that recorded departed from it. Of a peer that joined late it goes on from the snapshot that the peer went on from.</para>
+/// <para>By the invariant the state is a fold of the scene over the accepted events. So a replay gives the recorded hashes whatever the
+/// network did, unless the recording peer departed from the invariant. For a peer that joined late it starts from the same snapshot as that
+/// peer.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class RecordingReplay
@@ -32,43 +35,45 @@ public sealed class RecordingReplay
         Message = message;
     }
 
-    /// <summary>What was found.</summary>
+    /// <summary>The outcome.</summary>
     public ReplayOutcome Outcome { get; }
 
-    /// <summary>How many accepted events were put into the world.</summary>
+    /// <summary>The number of accepted events applied to the world.</summary>
     public int EventsApplied { get; }
 
-    /// <summary>How many committed states have the hashes that were recorded.</summary>
+    /// <summary>The number of committed states whose hashes match the recorded ones.</summary>
     public int StatesChecked { get; }
 
-    /// <summary>The time of the last committed state that has the hashes that were recorded; null for none.</summary>
+    /// <summary>The time of the last committed state that matches; null if none does.</summary>
     public SimTime? AgreedUpTo { get; }
 
-    /// <summary>The first committed state that differs, as it was recorded; else the last that was checked, or null for none.</summary>
+    /// <summary>The first committed state that differs, as recorded; otherwise the last that was checked, or null if none was.</summary>
     public CommittedState? Expected { get; }
 
-    /// <summary>The same as the replay has it.</summary>
+    /// <summary>The replay's version of it.</summary>
     public CommittedState? Actual { get; }
 
-    /// <summary>The result for people: one or several sentences, and how far the recording holds if it was run.</summary>
+    /// <summary>The result as text: one or several sentences, and the extent of the recording if it was replayed.</summary>
     public string Message { get; }
 
-    /// <summary>The world as it was left, at the time of <see cref="Actual"/> if that is not null; null if it could not be run.</summary>
+    /// <summary>
+    /// The world as the replay left it, at the time of <see cref="Actual"/> if that is not null; null if it could not be run.
+    /// </summary>
     internal Simulation? World { get; private set; }
 
-    /// <summary>Runs a recording again, up to its last committed state or to the first that differs.</summary>
-    /// <param name="recording">What to run. Of one that is not whole that which it holds is run.</param>
-    /// <param name="cancellation">Ends the run between two instants of the world.</param>
+    /// <summary>Replays a recording, up to its last committed state or to the first that differs.</summary>
+    /// <param name="recording">The recording. If it is not whole, what there is of it is replayed.</param>
+    /// <param name="cancellation">Cancels the replay between two instants of the world.</param>
     /// <remarks>
-    /// Events enter by time, each just before it happens, and what lies behind is forgotten: the memory is that of the world at one instant.
-    /// Cost: that of the simulation. A scene may ask for more events than anyone can wait for, hence the cancellation.
+    /// Events are applied in time order, each just before it happens, and history is dropped at once, so the memory is that of the world at
+    /// one instant. Cost: that of the simulation. A scene may need more simulation than anyone can wait for, hence the cancellation.
     /// </remarks>
-    /// <exception cref="ArgumentNullException">There is no recording.</exception>
-    /// <exception cref="OperationCanceledException">The token asked for an end.</exception>
+    /// <exception cref="ArgumentNullException">The recording is null.</exception>
+    /// <exception cref="OperationCanceledException">The token was cancelled.</exception>
     public static RecordingReplay Run(Recording recording, CancellationToken cancellation = default) =>
         Run(recording ?? throw new ArgumentNullException(nameof(recording)), SimTime.MaxValue, cancellation);
 
-    /// <summary>The same, no further than to the committed states of <paramref name="until"/>.</summary>
+    /// <summary>Replays a recording no further than to the committed states of <paramref name="until"/>.</summary>
     internal static RecordingReplay Run(Recording recording, SimTime until, CancellationToken cancellation)
     {
         int applied = 0;
@@ -135,8 +140,8 @@ public sealed class RecordingReplay
     private static string Holds(Recording recording) => " The recording " + recording.Extent;
 
     /// <summary>
-    /// Which bodies the difference can be of. Hashes do not tell, but up to the last state that agrees all was the same, so it came about in what has happened
-    /// since.
+    /// Names the bodies that the difference can stem from. Hashes do not show it, but everything agreed up to the last equal state, so the
+    /// difference arose in what happened since.
     /// </summary>
     private static string WhoseDoing(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
     {
@@ -173,12 +178,14 @@ public sealed class RecordingReplay
             throw new SceneException(recording.SceneError ?? "It has no scene.");
         }
 
-        // Nothing comes late here, so no history is needed; what lies behind is forgotten at once.
+        // Nothing is late here, so no history is needed, and it is dropped at once.
         SimulationOptions options = new(header.Start, SimDuration.OneTick, cancellation: cancellation);
         return recording.Joined?.Snapshot is WorldSnapshot snapshot ? new Simulation(scene, snapshot, options) : new Simulation(scene, options);
     }
 
-    /// <summary>The accepted entries that are not in a snapshot, by the time of their events and then by their place in the log.</summary>
+    /// <summary>
+    /// Returns the accepted entries that are not in a snapshot, by the time of their events and then by their place in the log.
+    /// </summary>
     private static int[] AcceptedByTime(Recording recording)
     {
         LogEntry[] entries = recording.EntryArray;

@@ -11,9 +11,10 @@ namespace LagSim.Net.Recordings;
 
 /// <summary>Writes a recording while its peer takes part in a session.</summary>
 /// <remarks>
-/// <para>Every committed state is flushed to the operating system, so that a process that is killed leaves a file that can be read up to there.</para>
-/// <para>For one thread at a time. Writing entries and states allocates nothing. What the stream throws reaches the caller; a record may then
-/// be half written, so nothing more can be.</para>
+/// <para>Every committed state is flushed to the operating system, so that a killed process leaves a file that is readable up to
+/// there.</para>
+/// <para>For one thread at a time. Writing entries and states allocates nothing. Exceptions from the stream reach the caller; a record may
+/// then be half written, so nothing more can be.</para>
 /// </remarks>
 internal sealed class RecordingWriter : IDisposable
 {
@@ -28,14 +29,16 @@ internal sealed class RecordingWriter : IDisposable
     private bool isFailed;
     private bool isDisposed;
 
-    /// <summary>Begins a recording: header, scene and what a late client began with are written at once.</summary>
-    /// <param name="stream">Where to; it must be writable and belongs to the writer, unless <paramref name="leaveOpen"/> says otherwise.</param>
+    /// <summary>Begins a recording, and writes header, scene and any joined state at once.</summary>
+    /// <param name="stream">The stream to write to; the writer owns it, unless <paramref name="leaveOpen"/> says otherwise.</param>
     /// <param name="peer">The number of the peer that records; 0 is the host.</param>
     /// <param name="scene">The session's scene.</param>
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
-    /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
+    /// <param name="joined">The initial state of a peer that joined late; null for one that has the log from entry 1 on.</param>
     /// <param name="leaveOpen">Whether the stream stays open when the writer is disposed.</param>
-    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
+    /// <exception cref="ArgumentException">
+    /// The scene or the start cannot be encoded, or the joined state is of a world with another start.
+    /// </exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public RecordingWriter(Stream stream, byte peer, Scene scene, SimTime start, JoinedState? joined = null, bool leaveOpen = false)
     {
@@ -67,14 +70,16 @@ internal sealed class RecordingWriter : IDisposable
         stream.Flush();
     }
 
-    /// <summary>Begins a recording in a file, which is made or replaced.</summary>
+    /// <summary>Begins a recording in a file, which is created or replaced.</summary>
     /// <param name="path">The file; its name should end with <see cref="RecordingFormat.Extension"/>. Others may read it meanwhile.</param>
     /// <param name="peer">The number of the peer that records; 0 is the host.</param>
     /// <param name="scene">The session's scene.</param>
     /// <param name="start">The shared time at which the session started, within 48 days of the origin.</param>
-    /// <param name="joined">What a peer that joined late began with; null for one that has the log from entry 1 on.</param>
-    /// <exception cref="ArgumentException">The scene or the start cannot travel, or the joined state is of a world with another start.</exception>
-    /// <exception cref="IOException">The file cannot be made or written, or another process is writing it.</exception>
+    /// <param name="joined">The initial state of a peer that joined late; null for one that has the log from entry 1 on.</param>
+    /// <exception cref="ArgumentException">
+    /// The scene or the start cannot be encoded, or the joined state is of a world with another start.
+    /// </exception>
+    /// <exception cref="IOException">The file cannot be created or written, or another process is writing it.</exception>
     /// <exception cref="UnauthorizedAccessException">The file may not be written.</exception>
     public static RecordingWriter Create(string path, byte peer, Scene scene, SimTime start, JoinedState? joined = null)
     {
@@ -91,11 +96,13 @@ internal sealed class RecordingWriter : IDisposable
     }
 
     /// <summary>Writes the next entry of the host's log.</summary>
-    /// <param name="index">Its place in the log: one more than that of the entry before, and at first 1 or the joined state's first.</param>
-    /// <param name="verdict">What the host said; not <see cref="Verdict.Pending"/>.</param>
+    /// <param name="index">
+    /// Its place in the log: one more than that of the entry before; for the first entry 1, or the joined state's first index.
+    /// </param>
+    /// <param name="verdict">The host's verdict; not <see cref="Verdict.Pending"/>.</param>
     /// <param name="what">The event.</param>
     /// <exception cref="ArgumentOutOfRangeException">It is not the next entry, or not a verdict.</exception>
-    /// <exception cref="ArgumentException">The event cannot travel: see <see cref="EventFormat.IsWellFormed"/>.</exception>
+    /// <exception cref="ArgumentException">The event cannot be encoded: see <see cref="EventFormat.IsWellFormed"/>.</exception>
     /// <exception cref="InvalidOperationException">The recording has ended, or failed before.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public void WriteEntry(uint index, Verdict verdict, in ExternalEvent what)
@@ -146,8 +153,8 @@ internal sealed class RecordingWriter : IDisposable
         hasCommitted = true;
     }
 
-    /// <summary>Ends the recording and flushes. Without it readers tell that the recording is not whole: its writer was ended, or the file is cut.</summary>
-    /// <param name="reason">Why, as a sentence for people; what is longer than <see cref="RecordingFormat.MaxReasonBytes"/> is cut.</param>
+    /// <summary>Ends the recording and flushes. Without it readers report that the recording is not whole.</summary>
+    /// <param name="reason">The reason, as a sentence for people; cut at <see cref="RecordingFormat.MaxReasonBytes"/>.</param>
     /// <exception cref="InvalidOperationException">The recording has ended, or failed before.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public void WriteEnd(string reason)
@@ -165,7 +172,7 @@ internal sealed class RecordingWriter : IDisposable
         isEnded = true;
     }
 
-    /// <summary>Closes the stream. A recording that was not ended stays without an end.</summary>
+    /// <summary>Closes the stream. A recording without <see cref="WriteEnd"/> stays without an end.</summary>
     /// <exception cref="IOException">What was not flushed cannot be written.</exception>
     public void Dispose()
     {
@@ -208,10 +215,10 @@ internal sealed class RecordingWriter : IDisposable
         return bytes;
     }
 
-    /// <summary>One record: kind, length, content, checksum of all three.</summary>
+    /// <summary>Writes one record: kind, length, content, checksum of all three.</summary>
     private void Write(RecordKind kind, ReadOnlySpan<byte> bytes)
     {
-        isFailed = true; // until it is whole
+        isFailed = true; // until it is complete
         int at = 0;
         frame[at++] = (byte)kind;
         int rest = bytes.Length;

@@ -6,22 +6,26 @@ using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Records a session as one peer has it: its log, and the hashes of its committed states.</summary>
+/// <summary>Records a session as seen by one peer: its log, and the hashes of its committed states.</summary>
 /// <remarks>
-/// <para>It listens to the session and writes on the session's thread, to a file that is made once there is a world. A disk that fails
-/// does not end the session: the recording ends where it did, and <see cref="Failure"/> and <see cref="Failed"/> tell. When a fresh copy takes the place of the
-/// world, the recording ends with that reason and another begins, in a file named after the first: of <c>game.lagsim</c>, <c>game.2.lagsim</c>.</para>
-/// <para>To be made before the session's first step, and disposed of on its thread or once that has stopped.</para>
+/// <para>It subscribes to the session and writes on the session's thread, to a file that is created once there is a world. A disk failure
+/// does not end the session: the recording just ends there, and <see cref="Failure"/> and <see cref="Failed"/> report it. When a fresh
+/// snapshot replaces the world, the recording ends with that reason and another begins, in a file named after the first: after
+/// <c>game.lagsim</c>, <c>game.2.lagsim</c>.</para>
+/// <para>Create it before the session's first step, and dispose it on the session's thread or once that has stopped.</para>
 /// </remarks>
 public sealed class SessionRecorder : IDisposable
 {
-    /// <summary>So many lines of a host's log can come before the world's start, all refused; from a peer that does nothing else.</summary>
+    /// <summary>
+    /// The number of log entries that can wait for the world's start. All of them are refusals, and only a peer that does nothing else
+    /// causes that many.
+    /// </summary>
     internal const int MaxWaiting = 1 << 16;
 
     private readonly Session session;
-    private readonly Func<int, (Stream Stream, string? File)> open; // by which recording of the session it is, from 1
+    private readonly Func<int, (Stream Stream, string? File)> open; // takes the number of the recording within the session, from 1
     private int count;
-    private volatile string[] files = Array.Empty<string>(); // replaced, never changed, so that any thread may read it
+    private volatile string[] files = Array.Empty<string>(); // replaced, never modified, so that any thread may read it
     private readonly SimDuration length;
     private readonly List<LogEntry> waiting = new();
     private RecordingWriter? writer;
@@ -31,11 +35,11 @@ public sealed class SessionRecorder : IDisposable
     /// <summary>Records a session that has no world yet.</summary>
     /// <param name="session">The session.</param>
     /// <param name="path">
-    /// The file, which is made or replaced once there is a world; its name should end with <see cref="RecordingFormat.Extension"/>. That it cannot be
-    /// made is a <see cref="Failure"/> like any other.
+    /// The file, which is created or replaced once there is a world; its name should end with <see cref="RecordingFormat.Extension"/>.
+    /// Failing to create it is a <see cref="Failure"/> like any other.
     /// </param>
-    /// <param name="length">Committed states later after the session's start than this are left out; null takes in all.</param>
-    /// <exception cref="InvalidOperationException">The session has a world already: what happened before would be missing.</exception>
+    /// <param name="length">Committed states later than this after the session's start are left out; null includes all.</param>
+    /// <exception cref="InvalidOperationException">The session has a world already: earlier events would be missing.</exception>
     public SessionRecorder(Session session, string path, SimDuration? length = null)
         : this(session, length, Opener(path ?? throw new ArgumentNullException(nameof(path))))
     {
@@ -63,7 +67,8 @@ public sealed class SessionRecorder : IDisposable
     }
 
     /// <summary>
-    /// Raised once, on the session's thread, when nothing more can be recorded; with the same sentence as <see cref="Failure"/>. Handlers must not throw.
+    /// Raised once, on the session's thread, when nothing more can be recorded, with the sentence of <see cref="Failure"/>. Handlers must
+    /// not throw.
     /// </summary>
     public event Action<string>? Failed;
 
@@ -71,12 +76,12 @@ public sealed class SessionRecorder : IDisposable
     public string? Failure => failure;
 
     /// <summary>
-    /// The files written so far, in order: none before there is a world, then the one that was asked for, and one more for each fresh copy that took the place
-    /// of the world. From any thread.
+    /// The files written so far, in order: none before there is a world, then the requested one, and one more for each fresh snapshot that
+    /// replaced the world. From any thread.
     /// </summary>
     public IReadOnlyList<string> Files => files;
 
-    /// <summary>Ends the recording with the session's reason to end, and closes the file.</summary>
+    /// <summary>Ends the recording with the session's end reason, and closes the file.</summary>
     public void Dispose()
     {
         if (isDisposed)
@@ -191,7 +196,7 @@ public sealed class SessionRecorder : IDisposable
         }
         catch (Exception cause) when (cause is IOException or UnauthorizedAccessException)
         {
-            Fail(cause.Message); // what was still to be written is not
+            Fail(cause.Message); // what was not yet written is lost
         }
     }
 }

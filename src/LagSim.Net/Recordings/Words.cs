@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Recordings;
 
-/// <summary>Small help for sentences.</summary>
+/// <summary>Helpers for building sentences.</summary>
 internal static class Words
 {
     /// <summary><c>1 log entry</c>, <c>2 log entries</c>.</summary>

@@ -5,10 +5,10 @@ using LagSim.Events;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>Requests to do something, made once and used again and again, so that asking allocates nothing.</summary>
+/// <summary>A pool of action requests, reused so that asking allocates nothing.</summary>
 internal sealed class ActionRequests
 {
-    /// <summary>How many requests later an answer that nobody awaits is forgotten.</summary>
+    /// <summary>The number of requests after which an answer that was not awaited is forgotten.</summary>
     internal const int Kept = 64;
 
     private readonly object gate = new();
@@ -17,7 +17,7 @@ internal sealed class ActionRequests
 
     private readonly Action<PlayerAction, Exception> refused;
 
-    /// <param name="refused">Told of each that is refused, on the session's thread, before the answer is there.</param>
+    /// <param name="refused">Called for each refused action, on the session's thread, before its answer is set.</param>
     internal ActionRequests(Action<PlayerAction, Exception> refused)
     {
         this.refused = refused;
@@ -27,7 +27,7 @@ internal sealed class ActionRequests
         }
     }
 
-    /// <summary>A request that is not answered yet. One that is still in use is left to whoever has it, and another takes its place.</summary>
+    /// <summary>Returns a request to use. One that is still in use is left to its caller and replaced in the pool.</summary>
     internal ActionRequest Take(in PlayerAction action)
     {
         lock (gate)
@@ -45,17 +45,17 @@ internal sealed class ActionRequests
     }
 }
 
-/// <summary>One action that the session's thread is asked to do, and its answer.</summary>
-/// <param name="refused">Told if it is refused, on the session's thread, before the answer is there.</param>
+/// <summary>One action for the session's thread to perform, and its answer.</summary>
+/// <param name="refused">Called if it is refused, on the session's thread, before the answer is set.</param>
 internal sealed class ActionRequest(Action<PlayerAction, Exception> refused) : IPeerRequest, IValueTaskSource<ExternalEvent>
 {
-    private readonly object gate = new(); // of what tells whether it can be used again
+    private readonly object gate = new(); // guards the fields that decide whether it can be reused
     private ManualResetValueTaskSourceCore<ExternalEvent> core = new() { RunContinuationsAsynchronously = true };
     private PlayerAction action;
     private bool isAsked;
     private bool isAwaited;
 
-    /// <summary>What the caller gets; valid until the request is used again.</summary>
+    /// <summary>The caller's task; valid until the request is reused.</summary>
     internal ValueTask<ExternalEvent> Task
     {
         get
@@ -67,7 +67,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused) : I
         }
     }
 
-    /// <summary>Starts anew with another action; false while the last one is not answered, or somebody waits for its answer.</summary>
+    /// <summary>Starts over with another action; false while the last one has no answer, or its answer is being awaited.</summary>
     internal bool TryBegin(in PlayerAction next)
     {
         lock (gate)
@@ -98,7 +98,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused) : I
             }
             finally
             {
-                core.SetException(failure); // whatever a handler did, whoever awaits the answer gets it
+                core.SetException(failure); // the awaiting caller gets it, whatever a handler did
             }
         }
         finally

@@ -5,10 +5,10 @@ using LagSim.Scenes;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// How a client takes part: who it was before, what it can supply, and what <see cref="SessionOptions"/> has for every peer.
+/// How a client takes part: its former identity, the accelerations it can supply, and the <see cref="SessionOptions"/> of every peer.
 /// </summary>
 /// <remarks>
-/// Immutable, safe on any thread. Validated when the session is made, with a sentence that names the value and what is allowed.
+/// Immutable, safe on any thread. Validated when the session is made, with an exception that names the value and what is allowed.
 /// </remarks>
 /// <example>
 /// A client that comes back as the player it was:
@@ -22,7 +22,7 @@ public sealed record ClientOptions : SessionOptions
 {
     private readonly IReadOnlyList<IAcceleration>? accelerations;
 
-    /// <summary>A client that takes what its host has.</summary>
+    /// <summary>Creates the defaults: a new player that takes the host's scene.</summary>
     public ClientOptions()
     {
     }
@@ -33,17 +33,17 @@ public sealed record ClientOptions : SessionOptions
     }
 
     /// <summary>
-    /// What shows the host that this is a player it had before, from <see cref="ClientSession.Pass"/> of then; default none. With one a
-    /// client asks for <see cref="SessionOptions.RejoinTime"/> to be let in, as one does that lost its host.
+    /// Proves to the host that this client is a player it had before: the <see cref="ClientSession.Pass"/> of that earlier session; default
+    /// none. With a pass, a client asks to be let in for <see cref="SessionOptions.RejoinTime"/>, just like one that lost its host.
     /// </summary>
     /// <remarks>
-    /// A host that does not know it, or no longer, gives the client a number as it gives anybody; one that was started anew the same
-    /// number, if it is free: without proof, and for its first <see cref="SessionOptions.RejoinTime"/> alone.
+    /// A host that does not know the pass gives the client a number as it would any other. A host that was restarted gives it its old
+    /// number without proof if that is free, but only for its first <see cref="SessionOptions.RejoinTime"/>.
     /// </remarks>
     public PlayerPass Pass { get; init; }
 
-    /// <summary>The accelerations that this program can supply to a scene that it gets from the host; default none.</summary>
-    /// <remarks>None may be null. The list is copied: what is put into it later changes nothing.</remarks>
+    /// <summary>The accelerations that this program can supply to the host's scene; default none.</summary>
+    /// <remarks>None may be null. The list is copied: later changes to it have no effect.</remarks>
     public IReadOnlyList<IAcceleration>? Accelerations
     {
         get => accelerations;
@@ -51,9 +51,10 @@ public sealed record ClientOptions : SessionOptions
     }
 
     /// <summary>
-    /// The same options, if they are a client's; else those of a client that has the settings which both sides have, and defaults.
+    /// Returns <paramref name="options"/> if they are a client's, otherwise client options with the same shared settings and defaults for
+    /// the rest.
     /// </summary>
-    /// <exception cref="ArgumentNullException">There are none.</exception>
+    /// <exception cref="ArgumentNullException">The options are null.</exception>
     public static ClientOptions From(SessionOptions options) =>
         options as ClientOptions ?? new ClientOptions(options ?? throw new ArgumentNullException(nameof(options)));
 

@@ -8,17 +8,17 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>A peer that joins a host's session, at its start or at any time later.</summary>
+/// <summary>A peer that joins a host's session, at its start or at any later time.</summary>
 /// <remarks>
-/// It sets its clock by the host's before its first tick, and fetches scene and committed state from it. Its own events show at once; one
-/// that the host refuses is taken back. When it loses its host, or its world turns out to be wrong, it asks by itself to be let in again,
-/// as the same player, and goes on from a fresh copy (<see cref="SessionState.Rejoining"/>). Its address may change at any time.
+/// It sets its clock by the host's before its first tick, and downloads the scene and the committed state. Its own events show at once; one
+/// that the host refuses is retracted. If it loses its host, or its world turns out to be wrong, it asks to be let in again as the same
+/// player, and continues from a fresh snapshot (<see cref="SessionState.Rejoining"/>). Its address may change at any time.
 /// </remarks>
 public sealed class ClientSession : Session
 {
     /// <summary>
-    /// So many own events can wait for the host's verdict; <see cref="Session.Do"/> throws while they do. 16,384: at the rate that a host
-    /// takes by default, more than half a minute without an answer.
+    /// The number of own events that can wait for the host's verdict, after which <see cref="Session.Do"/> throws: 16,384. At the default
+    /// rate that a host processes, that is more than half a minute without an answer.
     /// </summary>
     public const int MaxUnconfirmedEvents = 1 << 14;
 
@@ -28,13 +28,13 @@ public sealed class ClientSession : Session
     private readonly HandlerList<Action> regained;
     private readonly HandlerList<Action<Divergence>> diverged;
 
-    /// <summary>Asks to be let in, from the first step on.</summary>
-    /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
-    /// <param name="port">What carries datagrams; not disposed with the session.</param>
-    /// <param name="clock">This machine's own clock.</param>
+    /// <summary>Creates a client that asks to be let in, from its first step on.</summary>
+    /// <param name="scene">The scene that the host is expected to have; null accepts any.</param>
+    /// <param name="port">The carrier of datagrams; not disposed with the session.</param>
+    /// <param name="clock">This machine's clock.</param>
     /// <param name="options">How to take part.</param>
-    /// <param name="host">Where the host is.</param>
-    /// <param name="nonce">A number chosen at random; an answer must bear it.</param>
+    /// <param name="host">The host's address.</param>
+    /// <param name="nonce">A random number; an answer must carry it.</param>
     public ClientSession(Scene? scene, IDatagramPort port, IClock clock, ClientOptions options, PeerAddress host, ulong nonce)
         : this(new ClientProtocol(new SessionParts(scene, port, clock, options, SessionState.Joining), options, host, nonce))
     {
@@ -55,7 +55,7 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread when this peer lost its host, or its world, and asks to be let in again: with why.
+    /// Raised on the session's thread when this peer has lost its host or its world and asks to be let in again, with the reason.
     /// <see cref="Session.Renewed"/> follows, or <see cref="Regained"/>, or the session ends.
     /// </summary>
     public event Action<string>? Interrupted
@@ -65,8 +65,8 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread each time that the host gives this peer a number, with what shows that it is this player:
-    /// <see cref="Pass"/>. That is before there is a world, so a program that keeps it at once can come back whenever it is killed.
+    /// Raised on the session's thread each time that the host gives this peer a number, with its <see cref="Pass"/>. That is before there
+    /// is a world, so a program that saves the pass at once can come back even if it is killed.
     /// </summary>
     public event Action<PlayerPass>? PassGiven
     {
@@ -75,7 +75,7 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread when a host that had fallen silent was heard again before it disconnected this peer: all goes on.
+    /// Raised on the session's thread when a silent host answers again before it has disconnected this peer; the session continues.
     /// </summary>
     public event Action? Regained
     {
@@ -84,8 +84,7 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, when it is found out what the first differing committed state comes from, or that this cannot
-    /// be.
+    /// Raised on the session's thread, once, when the cause of the first differing committed state is known, or known to be out of reach.
     /// </summary>
     public event Action<Divergence>? Diverged
     {
@@ -94,24 +93,25 @@ public sealed class ClientSession : Session
     }
 
     /// <summary>
-    /// The first committed state that was not the host's, and what is known of it by now; null while there is none. From any thread.
+    /// The first committed state that differed from the host's, with what is known about it so far; null while there is none. From any
+    /// thread.
     /// </summary>
     public Divergence? Divergence => client.Finder.First;
 
-    /// <summary>How late the host accepts an event, as it said; zero before it has.</summary>
+    /// <summary>How late the host accepts an event, as announced by the host; zero before that.</summary>
     public SimDuration History => client.Connection.History;
 
-    /// <summary>What is known of the distance between the two clocks.</summary>
+    /// <summary>The estimate of the offset between the two clocks.</summary>
     internal ClockSync ClockSync => client.Seat.Clock;
 
     /// <summary>
-    /// What shows a host that this is the player it was, for another session of this program: see <see cref="ClientOptions.Pass"/>. Null
+    /// Proves to a host that this is the same player, for another session of this program: see <see cref="ClientOptions.Pass"/>. Null
     /// before the host gave a number. From any thread.
     /// </summary>
     public PlayerPass? Pass => client.Seat.Pass;
 
     /// <summary>
-    /// How many own events wait for the host's verdict, at most <see cref="MaxUnconfirmedEvents"/>. On the session's thread.
+    /// The number of own events that wait for the host's verdict, at most <see cref="MaxUnconfirmedEvents"/>. On the session's thread.
     /// </summary>
     public int UnconfirmedEvents
     {

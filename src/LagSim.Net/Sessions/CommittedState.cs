@@ -4,11 +4,14 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>The hashes of a peer's world at a time that no late event can change any more: the same on every peer, or they differ for good.</summary>
+/// <summary>
+/// The hashes of a peer's world at a time that no late event can change any more. They are equal on every peer, or the peers differ for
+/// good.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct CommittedState : IEquatable<CommittedState>
 {
-    /// <summary>A state of these.</summary>
+    /// <summary>Creates a committed state.</summary>
     public CommittedState(SimTime time, ulong stateHash, ulong eventHash)
     {
         Time = time;

@@ -5,7 +5,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// The first committed state of a client that is not the host's: since when, and which event of a player makes the difference, in both versions.
+/// A client's first committed state that differs from the host's: since when, and which player event makes the difference, in both
+/// versions.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class Divergence
@@ -36,37 +37,40 @@ public sealed class Divergence
     }
 
     /// <summary>
-    /// The newest committed time at which the states were the same; before any, the tick before this peer's world begins. What differs came after it.
+    /// The newest committed time at which the states agreed; before any, the tick before this peer's world begins. The cause lies after it.
     /// </summary>
     public SimTime After { get; }
 
-    /// <summary>The committed time at which they are not.</summary>
+    /// <summary>The committed time at which they differ.</summary>
     public SimTime At { get; }
 
-    /// <summary><see cref="CommittedState.StateHash"/> of this peer then.</summary>
+    /// <summary>This peer's <see cref="CommittedState.StateHash"/> at that time.</summary>
     public ulong OwnHash { get; }
 
-    /// <summary>The same as the host told it.</summary>
+    /// <summary>The host's hash, as it reported it.</summary>
     public ulong HostHash { get; }
 
     /// <summary>
-    /// The accepted events stamped between the two times that have had their effect in this peer's world, by stamp; of a session with very many the newest.
+    /// The accepted events stamped between the two times that took effect in this peer's world, by stamp; in a very busy session only the
+    /// newest.
     /// </summary>
     public IReadOnlyList<LogEntry> Events { get; }
 
-    /// <summary>What has been found out.</summary>
+    /// <summary>The finding so far.</summary>
     public DivergenceFinding Finding { get; }
 
     /// <summary>
-    /// With <see cref="DivergenceFinding.EventDiffers"/> the first event that differs as the host has it; null if the host has no such event.
+    /// With <see cref="DivergenceFinding.EventDiffers"/>, the host's version of the first event that differs; null if the host has no such
+    /// event.
     /// </summary>
     public LogEntry? HostVersion { get; }
 
-    /// <summary>The same as it stands here, whatever the verdict that came here; null if this peer has never heard of it.</summary>
+    /// <summary>This peer's version of it, whatever its verdict here; null if this peer never received it.</summary>
     public LogEntry? OwnVersion { get; }
 
     /// <summary>
-    /// Whether <see cref="OwnVersion"/> has had its effect in this peer's world. One that was accepted and has not came too late for the history here.
+    /// Whether <see cref="OwnVersion"/> took effect in this peer's world. An accepted event without effect came too late for the history
+    /// here.
     /// </summary>
     public bool HasOwnEffect { get; }
 

@@ -7,12 +7,15 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// Says when the others must hear of a hand that holds a body: when what they foretell of it from the last keyframe is off by more than a set distance.
+/// Decides when to send a keyframe for a hand that holds a body: when the other peers' extrapolation from the last keyframe is off by more
+/// than a set distance.
 /// </summary>
 /// <remarks>
-/// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth follows surprise. The same samples give the same keyframes. For one
-/// hand from one grab to its release, on one thread. What is done is stamped when it is done, so a keyframe is to be done at once.</para>
-/// <para>As <c>if (sender.TrySample(now, hand, speed, out PlayerAction keyframe)) { session.Do(keyframe); }</c>, each frame, from the grab on.</para>
+/// <para>It replays <see cref="HandPath"/>, by which every peer extrapolates, so bandwidth is spent only on surprises. The same samples
+/// give the same keyframes. For one hand from a grab to its release, on one thread. Actions are stamped when they are done, so perform a
+/// keyframe at once.</para>
+/// <para>Use it as <c>if (sender.TrySample(now, hand, speed, out PlayerAction keyframe)) { session.Do(keyframe); }</c>, each frame, from
+/// the grab on.</para>
 /// </remarks>
 public sealed class HandSender
 {
@@ -23,31 +26,32 @@ public sealed class HandSender
     private Vector3D sentPosition;
     private Vector3D sentVelocity;
 
-    /// <summary>For a hand that takes this body now.</summary>
-    /// <param name="body">What it holds.</param>
-    /// <param name="options">How far off, how often; copied.</param>
-    /// <exception cref="ArgumentOutOfRangeException">An option is out of its range.</exception>
+    /// <summary>Creates a sender for a hand that grabs this body now.</summary>
+    /// <param name="body">The held body.</param>
+    /// <param name="options">The tolerance and rates; copied.</param>
+    /// <exception cref="ArgumentOutOfRangeException">An option is out of range.</exception>
     public HandSender(BodyId body, HandSenderOptions? options = null)
     {
         this.body = body;
         this.options = (options ?? new HandSenderOptions()).Checked();
     }
 
-    /// <summary>How many keyframes were due so far.</summary>
+    /// <summary>The number of keyframes that were due so far.</summary>
     public long Keyframes { get; private set; }
 
     /// <summary>
-    /// The greatest distance in metres by which a sample was off from what the others foretold, those included that a keyframe was due for; of the first none.
+    /// The greatest distance in metres between a sample and the other peers' prediction of it, samples that caused a keyframe included; the
+    /// first sample has no prediction.
     /// </summary>
     public double GreatestError { get; private set; }
 
-    /// <summary>Takes where the hand is, and says whether the others must hear of it.</summary>
-    /// <param name="time">When, in shared time; not before the sample before.</param>
+    /// <summary>Takes a sample of the hand, and returns whether a keyframe must be sent.</summary>
+    /// <param name="time">The time of the sample, in shared time; not before the previous sample.</param>
     /// <param name="position">The hand's point, in metres.</param>
-    /// <param name="velocity">Its velocity, in m/s, as well as it is known: the better, the fewer keyframes.</param>
-    /// <param name="keyframe">What to do in the session now, if it is due; else the default.</param>
-    /// <returns>Whether a keyframe is due: for the first sample always.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The time is before that of the sample for which a keyframe was due last.</exception>
+    /// <param name="velocity">Its velocity, in m/s, as accurate as possible: the better, the fewer keyframes.</param>
+    /// <param name="keyframe">The action to perform in the session now, if one is due; otherwise the default.</param>
+    /// <returns>Whether a keyframe is due; always true for the first sample.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before that of the last sample for which a keyframe was due.</exception>
     public bool TrySample(SimTime time, in Vector3D position, in Vector3D velocity, out PlayerAction keyframe)
     {
         if (hasSent && time < sent)

@@ -4,18 +4,18 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>How closely the others are to follow a hand, and at what rate of keyframes.</summary>
+/// <summary>How closely other peers follow a hand, and at what rate of keyframes.</summary>
 public sealed class HandSenderOptions
 {
-    /// <summary>By how many metres the others may be off without a keyframe, above zero; default 0.01.</summary>
+    /// <summary>The error in metres that other peers may have without a keyframe, above zero; default 0.01.</summary>
     public double Distance { get; set; } = 0.01;
 
-    /// <summary>The least time between two keyframes, however far off the others are: 1 ms to <see cref="Longest"/>, default 50 ms.</summary>
+    /// <summary>The least time between two keyframes, however large the error: 1 ms to <see cref="Longest"/>, default 50 ms.</summary>
     public SimDuration Shortest { get; set; } = SimDuration.FromMilliseconds(50);
 
     /// <summary>
-    /// The longest time without a keyframe, however still the hand keeps: up to half of <see cref="HandPath.Lasts"/>, after which the hold would end by itself, so
-    /// that one may be late; default 400 ms.
+    /// The longest time without a keyframe, however still the hand is: up to half of <see cref="HandPath.Lasts"/>, after which a hold ends
+    /// by itself, so that one keyframe may be late; default 400 ms.
     /// </summary>
     public SimDuration Longest { get; set; } = SimDuration.FromMilliseconds(400);
 

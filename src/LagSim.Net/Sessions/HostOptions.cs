@@ -7,10 +7,10 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// How a host takes part: whom it lets in, what players may cost, and what <see cref="SessionOptions"/> has for every peer.
+/// How a host takes part: which clients it lets in, what players may cost, and the <see cref="SessionOptions"/> of every peer.
 /// </summary>
 /// <remarks>
-/// Immutable, safe on any thread. Validated when the session is made, with a sentence that names the value and what is allowed.
+/// Immutable, safe on any thread. Validated when the session is made, with an exception that names the value and what is allowed.
 /// </remarks>
 /// <example>
 /// A host for two players who know a secret, and may be 400 ms late:
@@ -32,7 +32,7 @@ public sealed record HostOptions : SessionOptions
     private readonly int? perAddress;
     private readonly IReadOnlyDictionary<byte, string>? playerKeys = NoKeys;
 
-    /// <summary>A host that begins at once, whoever joins later.</summary>
+    /// <summary>Creates the defaults: the session begins at once, and clients may join at any time.</summary>
     public HostOptions()
     {
     }
@@ -43,13 +43,13 @@ public sealed record HostOptions : SessionOptions
     }
 
     /// <summary>
-    /// Keys of players by number, 1 to <see cref="SessionOptions.MaxClients"/>; default none. Who gives such a key as its
-    /// <see cref="SessionOptions.ConnectKey"/> has that number, whenever it comes, and takes it over from whoever still holds it; nobody
-    /// else gets it.
+    /// Keys of players by number, 1 to <see cref="SessionOptions.MaxClients"/>; default none. A client that presents such a key as its
+    /// <see cref="SessionOptions.ConnectKey"/> always gets that number, taking it over from any client that holds it; no other client gets
+    /// it.
     /// </summary>
     /// <remarks>
-    /// Without, numbers go by order of arrival and are given again, and with them what a scene grants to a number. The dictionary is
-    /// copied: what is put into it later changes nothing.
+    /// Without keys, numbers go by order of arrival and are reused, and with them whatever a scene grants to a number. The dictionary is
+    /// copied: later changes to it have no effect.
     /// </remarks>
     public IReadOnlyDictionary<byte, string> PlayerKeys
     {
@@ -59,9 +59,9 @@ public sealed record HostOptions : SessionOptions
 
     /// <summary>
     /// How many clients may be in from one address, whatever their ports, 1 to <see cref="SessionOptions.MaxClients"/>; default half of the
-    /// places, or <see cref="ExpectedClients"/> if that is more. So nobody takes all places from one machine. Players behind one NAT share
-    /// an address.
+    /// places, or <see cref="ExpectedClients"/> if that is more.
     /// </summary>
+    /// <remarks>It keeps one machine from taking every place. Players behind one NAT share an address.</remarks>
     public int MaxClientsPerAddress
     {
         get => perAddress ?? Math.Max(MaxClients / 2, ExpectedClients);
@@ -69,39 +69,41 @@ public sealed record HostOptions : SessionOptions
     }
 
     /// <summary>
-    /// How many events a second are taken from each client, 1 to 100,000; default 500. What is more is taken later. Thousands need a larger
-    /// <see cref="PlayerBudget"/>, or none.
+    /// How many events per second are processed from each client, 1 to 100,000; default 500. Excess events are deferred. Thousands need a
+    /// larger <see cref="PlayerBudget"/>, or none.
     /// </summary>
     public int MaxEventsPerSecond { get; init; } = 500;
 
     /// <summary>
-    /// What a player's acts may cost, in work to simulate what comes of them; default <see cref="PlayerBudget.Default"/>, and null for no
-    /// limit. Who has used up half of it has its acts refused (<see cref="Wire.Verdict.NoRight"/>) but for removals and releases; who has
-    /// used it up is sent away as by <see cref="HostSession.Kick"/>, nobody is let in from its machine for a minute, what it spawned is
-    /// removed as of before the work began, and what else it moved and much of the work was for is stopped. See
-    /// <see cref="HostSession.PlayerExpelled"/>. While the world is 150 ms late, half of it is all there is.
+    /// The simulation work that a player's actions may cause; default <see cref="PlayerBudget.Default"/>, null for no limit. See the
+    /// remarks for what happens to a player that exceeds it.
     /// </summary>
     /// <remarks>
-    /// An event on a body in free flight that comes late counts 12 units and more. The default of <see cref="MaxEventsPerSecond"/> is far
-    /// from the budget; who permits thousands a second raises it in proportion.
+    /// <para>At half the budget, a player's actions are refused (<see cref="Wire.Verdict.NoRight"/>) except removals and releases. At the
+    /// full budget the player is expelled as by <see cref="HostSession.Kick"/>, and no client from its machine is let in for a minute. What
+    /// it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are stopped; see
+    /// <see cref="HostSession.PlayerExpelled"/>. While the world is 150 ms late, the budget is halved.</para>
+    /// <para>A late event on a body in free flight counts 12 units or more. The default <see cref="MaxEventsPerSecond"/> stays far from the
+    /// budget; if you allow thousands a second, raise the budget in proportion.</para>
     /// </remarks>
     public PlayerBudget? PlayerBudget { get; init; } = PlayerBudget.Default;
 
     /// <summary>
-    /// How many clients the start waits for, 0 to 8; default 0. Before the start there is no world, and nothing can be done.
+    /// How many clients to wait for before the start, 0 to 8; default 0. Before the start there is no world, and no action is possible.
     /// </summary>
     public int ExpectedClients { get; init; }
 
-    /// <summary>How long after all expected clients are ready the scene starts, 0 to 60 s; default 500 ms.</summary>
+    /// <summary>The delay between all expected clients being ready and the start of the scene, 0 to 60 s; default 500 ms.</summary>
     public SimDuration StartLead { get; init; } = SimDuration.FromMilliseconds(500);
 
-    /// <summary>What those who are coming in can have.</summary>
+    /// <summary>The limits on clients that are still joining.</summary>
     internal DoorLimits Door { get; init; } = new();
 
     /// <summary>
-    /// The same options, if they are a host's; else those of a host that has the settings which both sides have, and defaults.
+    /// Returns <paramref name="options"/> if they are a host's, otherwise host options with the same shared settings and defaults for the
+    /// rest.
     /// </summary>
-    /// <exception cref="ArgumentNullException">There are none.</exception>
+    /// <exception cref="ArgumentNullException">The options are null.</exception>
     public static HostOptions From(SessionOptions options) =>
         options as HostOptions ?? new HostOptions(options ?? throw new ArgumentNullException(nameof(options)));
 

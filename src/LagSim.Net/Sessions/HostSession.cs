@@ -10,12 +10,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>
-/// The peer that others join. It alone says yes or no to each event, once, and keeps the log in which all verdicts stand in order.
-/// </summary>
+/// <summary>The peer that others join. It alone accepts or refuses each event, once, and keeps the log of all verdicts in order.</summary>
 /// <remarks>
-/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent client stalls nobody. It
-/// plays itself, by <see cref="Session.Do"/>, or only serves. It keeps nothing of who has not shown, by a cookie, that it is where it says.
+/// Its clock is the session's. The watermark, before which it accepts nothing, follows that clock, so a silent client stalls no peer. It
+/// can play itself, by <see cref="Session.Do"/>, or only serve. It keeps no state for a client that has not proved its address by a cookie.
 /// </remarks>
 public sealed class HostSession : Session
 {
@@ -26,14 +24,14 @@ public sealed class HostSession : Session
     private readonly HandlerList<Action<byte, SimTime>> clientDiverged;
 
     /// <summary>Opens a session and waits for clients.</summary>
-    /// <param name="scene">The scene that all share.</param>
-    /// <param name="port">What carries datagrams; not disposed with the session.</param>
-    /// <param name="clock">This machine's own clock.</param>
+    /// <param name="scene">The scene that all peers share.</param>
+    /// <param name="port">The carrier of datagrams; not disposed with the session.</param>
+    /// <param name="clock">This machine's clock.</param>
     /// <param name="options">How to take part.</param>
     /// <param name="sessionId">
-    /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets a
-    /// session id that nobody else can tell: it goes with every datagram, and what is still on its way from or to a former client is not
-    /// taken for that of a later one.
+    /// A number that no other session on these machines has; choose it at random. From it and a secret of this host each join gets an
+    /// unguessable session id, which every datagram carries, so that datagrams of a former client are not mistaken for those of a later
+    /// one.
     /// </param>
     public HostSession(Scene scene, IDatagramPort port, IClock clock, HostOptions options, ulong sessionId)
         : this(new HostProtocol(
@@ -58,9 +56,7 @@ public sealed class HostSession : Session
             clientDiverged.Raise((peer, time), static (handler, told) => handler(told.peer, told.time));
     }
 
-    /// <summary>
-    /// Raised on the session's thread for each client that has a copy of scene and state and got its number, with its link.
-    /// </summary>
+    /// <summary>Raised on the session's thread for each client that has its snapshot and got its number, with its link.</summary>
     public event Action<LinkTraffic>? ClientCame
     {
         add => clientCame.Add(value);
@@ -68,8 +64,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, for each client that left, fell silent, was told to go, or came anew from the same address,
-    /// with what went over its link in all. Not for those who are there when the session ends.
+    /// Raised on the session's thread, once, for each client that left, fell silent, was sent away, or joined again from the same address,
+    /// with the total traffic of its link. Not raised for clients that are there when the session ends.
     /// </summary>
     public event Action<LinkTraffic>? ClientGone
     {
@@ -78,8 +74,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread when a player is sent away because its acts cost more than <see cref="HostOptions.PlayerBudget"/>,
-    /// with why, and what was removed. <see cref="ClientGone"/> is raised too.
+    /// Raised on the session's thread when a player is expelled because its actions cost more than <see cref="HostOptions.PlayerBudget"/>,
+    /// with the cost and the removed bodies. <see cref="ClientGone"/> is raised too.
     /// </summary>
     public event Action<PlayerExpulsion>? PlayerExpelled
     {
@@ -88,7 +84,7 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread for each client, once, that says its committed state at that time is not this host's.
+    /// Raised on the session's thread, once for each client that reports that its committed state at that time differs from this host's.
     /// </summary>
     public event Action<byte, SimTime>? ClientDiverged
     {
@@ -96,7 +92,7 @@ public sealed class HostSession : Session
         remove => clientDiverged.Remove(value);
     }
 
-    /// <summary>How many clients there are now, without those that are still coming in. On the session's thread.</summary>
+    /// <summary>The number of clients that are in, without those still joining. On the session's thread.</summary>
     public int ClientCount
     {
         get
@@ -110,13 +106,11 @@ public sealed class HostSession : Session
     /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is
     /// behind. It never goes back.
     /// </summary>
-    /// <remarks>
-    /// What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.
-    /// </remarks>
+    /// <remarks>While a host is stuck, what it has not simulated can still be changed, above all by removing what it is stuck on.</remarks>
     public SimTime Watermark => host.Watermark.Now;
 
     /// <summary>
-    /// What the players' acts cost so far, by ascending number, of those for whom anything was charged. On the session's thread.
+    /// The cost of the players' actions so far, by ascending number, for those that were charged anything. On the session's thread.
     /// </summary>
     public IReadOnlyList<PlayerCost> Costs
     {
@@ -127,14 +121,14 @@ public sealed class HostSession : Session
         }
     }
 
-    /// <summary>How much of the log is kept: what is not settled, and what some client has not acknowledged.</summary>
+    /// <summary>The number of log entries kept: those not settled, and those that some client has not acknowledged.</summary>
     internal int KeptLogEntries => host.Log.Lines.Kept;
 
-    /// <summary>How many are coming in.</summary>
+    /// <summary>The number of clients still joining.</summary>
     internal int ComingCount => host.Roster.All.Count - host.Roster.SeatedCount;
 
     /// <summary>
-    /// Has the next step write to every client, which otherwise may wait for the keep-alive: they learn sooner what is committed.
+    /// Sends an update to every client on the next step instead of at the keep-alive, so that they learn sooner what is committed.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     public void Flush()
@@ -143,16 +137,14 @@ public sealed class HostSession : Session
         host.Flush();
     }
 
-    /// <summary>
-    /// Sends a player away. It is told so, and its session ends. Its number becomes free and its pass void; it may join again as a new
-    /// player.
-    /// </summary>
+    /// <summary>Sends a player away. It is notified, and its session ends.</summary>
     /// <remarks>
-    /// What it did stays, and so do the bodies that it spawned: see <see cref="RemoveBodiesOf"/>. On the session's thread.
+    /// Its number becomes free and its pass void; it may join again as a new player. Its actions and spawned bodies stay: see
+    /// <see cref="RemoveBodiesOf"/>. On the session's thread.
     /// </remarks>
     /// <param name="player">The player's number.</param>
-    /// <returns>False if nobody has that number now.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    /// <returns>False if no client has that number now.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     public bool Kick(byte player)
     {
         host.Parts.Owner.ThrowIfForeign();
@@ -161,13 +153,13 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Sends away all players from the machine of one, as <see cref="Kick"/> does, and lets nobody in from there as long as this session
-    /// lasts. A machine is an IP address, of IPv6 its first 64 bits: everybody who shares it is shut out.
+    /// Sends away all players from one player's machine, as <see cref="Kick"/> does, and lets no client in from there for as long as this
+    /// session lasts. A machine is an IP address, of IPv6 its first 64 bits; everyone who shares it is shut out.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
-    /// <returns>The machine, for <see cref="Unban"/>; null if nobody has that number now.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    /// <returns>The machine, for <see cref="Unban"/>; null if no client has that number now.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     public PeerAddress? Ban(byte player)
     {
         host.Parts.Owner.ThrowIfForeign();
@@ -184,10 +176,9 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Lets players in again from a machine: one that was banned, or one that is shut out for a while because a player from there cost too
-    /// much.
+    /// Lets players in again from a machine that was banned, or that is shut out for a while because a player from there cost too much.
     /// </summary>
-    /// <param name="machine">What <see cref="Ban"/> gave, or any address of the machine.</param>
+    /// <param name="machine">The result of <see cref="Ban"/>, or any address of the machine.</param>
     /// <returns>False if it was not shut out.</returns>
     /// <remarks>On the session's thread.</remarks>
     public bool Unban(PeerAddress machine)
@@ -196,15 +187,14 @@ public sealed class HostSession : Session
         return host.Door.ShutOuts.LetInAgain(machine.Machine, host.Parts.Clock.Now);
     }
 
-    /// <summary>
-    /// Removes all bodies that were spawned under a player's number, whether or not somebody has it now. The removals are events of this
-    /// host, so all peers see them at the same simulated time: now, or where the world stands if that is behind, and of a body whose spawn
-    /// is still to come when it is spawned.
-    /// </summary>
-    /// <remarks>On the session's thread. Cost: a removal for each.</remarks>
+    /// <summary>Removes all bodies that were spawned under a player's number, whether or not a client has it now.</summary>
+    /// <remarks>
+    /// The removals are events of this host, so all peers see them at the same simulated time: now, or where the world stands if that is
+    /// behind, or at its spawn for a body whose spawn is still to come. On the session's thread. Cost: one removal for each body.
+    /// </remarks>
     /// <param name="player">The player's number.</param>
-    /// <returns>How many are removed.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">It is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    /// <returns>The number of bodies removed.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
     /// <exception cref="InvalidOperationException">The session is not running.</exception>
     public int RemoveBodiesOf(byte player)
     {

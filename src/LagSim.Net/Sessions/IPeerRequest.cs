@@ -1,11 +1,11 @@
 namespace LagSim.Net.Sessions;
 
-/// <summary>What a session's thread is asked, and answers between two steps.</summary>
+/// <summary>A request to a session's thread, answered between two steps.</summary>
 internal interface IPeerRequest
 {
     /// <summary>Answers it, on the session's thread. Does not throw.</summary>
     void Answer(Session session);
 
-    /// <summary>Answers that there will be no answer.</summary>
+    /// <summary>Completes it without an answer.</summary>
     void Cancel();
 }

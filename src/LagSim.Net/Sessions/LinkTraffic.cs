@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>What went over the link to one other peer so far, and how long it takes there and back.</summary>
+/// <summary>The traffic over the link to one other peer so far, and its round trip.</summary>
 /// <remarks>A copy: immutable, safe on any thread.</remarks>
 public sealed class LinkTraffic
 {
@@ -22,27 +22,27 @@ public sealed class LinkTraffic
     /// <summary>The other peer's number; 0 is the host.</summary>
     public byte Peer { get; }
 
-    /// <summary>Where it is.</summary>
+    /// <summary>The other peer's address.</summary>
     public PeerAddress Address { get; }
 
-    /// <summary>How many datagrams were sent there.</summary>
+    /// <summary>The number of datagrams sent to it.</summary>
     public long DatagramsSent { get; }
 
-    /// <summary>How many bytes, of datagrams alone: without what UDP and IP add, 28 bytes each over IPv4.</summary>
+    /// <summary>The number of bytes sent in datagrams, without UDP and IP headers, 28 bytes each over IPv4.</summary>
     public long BytesSent { get; }
 
-    /// <summary>How many valid datagrams came from there.</summary>
+    /// <summary>The number of valid datagrams received from it.</summary>
     public long DatagramsReceived { get; }
 
-    /// <summary>How many bytes those had.</summary>
+    /// <summary>The number of bytes received in those.</summary>
     public long BytesReceived { get; }
 
     /// <summary>The newest round trip, without the time spent at the other peer; zero before there is one.</summary>
     public SimDuration RoundTrip { get; }
 
     /// <summary>
-    /// How much of the round trips of late is waiting in a queue, in one direction or the other; zero where there is none worth speaking of. While there is one,
-    /// this end repeats nothing and puts more into each datagram.
+    /// How much of recent round trips was spent waiting in a queue, in either direction; zero where that is negligible. While there is a
+    /// queue, this end repeats nothing and puts more into each datagram.
     /// </summary>
     public SimDuration Queueing { get; }
 }

@@ -5,11 +5,11 @@ using LagSim.Scenes;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>An entry of the host's log: an event, and what the host said about it.</summary>
+/// <summary>An entry of the host's log: an event and the host's verdict on it.</summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no entry.</remarks>
 public readonly struct LogEntry : IEquatable<LogEntry>
 {
-    /// <summary>An entry of these.</summary>
+    /// <summary>Creates an entry.</summary>
     public LogEntry(uint index, Verdict verdict, in ExternalEvent what)
     {
         Index = index;
@@ -20,7 +20,7 @@ public readonly struct LogEntry : IEquatable<LogEntry>
     /// <summary>Its place in the log, counted from 1.</summary>
     public uint Index { get; }
 
-    /// <summary>What the host said.</summary>
+    /// <summary>The host's verdict.</summary>
     public Verdict Verdict { get; }
 
     /// <summary>The event.</summary>

@@ -5,8 +5,8 @@ using LagSim.Net.Sessions.Core;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>Tells what went wrong on a session's thread and ends nothing: handlers that throw, and actions that are refused.</summary>
-/// <remarks>Where nobody listens it is written to <see cref="Trace"/>, so nothing is lost.</remarks>
+/// <summary>Reports failures on a session's thread that end nothing: handlers that throw, and actions that are refused.</summary>
+/// <remarks>Without a handler they are written to <see cref="Trace"/>, so none is lost.</remarks>
 internal sealed class PeerFailures(SessionOwner owner)
 {
     internal event Action<Exception>? HandlerFailed;
@@ -23,7 +23,7 @@ internal sealed class PeerFailures(SessionOwner owner)
         Refused.Raise((Action: action, Why: why), static (handler, told) => handler(told.Action, told.Why));
     }
 
-    /// <summary>Tells all who listen, whatever one of them throws.</summary>
+    /// <summary>Notifies all handlers, even if one of them throws.</summary>
     internal void TellFailure(Exception failure)
     {
         Delegate[] handlers = HandlerFailed?.GetInvocationList() ?? Array.Empty<Delegate>();

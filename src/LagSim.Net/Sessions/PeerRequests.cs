@@ -3,29 +3,29 @@ using System.Collections.Concurrent;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>What a session's thread was asked and has not answered yet. From any thread, but for <see cref="AnswerAll"/>.</summary>
-/// <param name="session">Answers them.</param>
-/// <param name="wake">Wakes its thread.</param>
+/// <summary>The unanswered requests to a session's thread. From any thread, except <see cref="AnswerAll"/>.</summary>
+/// <param name="session">The session that answers them.</param>
+/// <param name="wake">Wakes the session's thread.</param>
 internal sealed class PeerRequests(Session session, Action wake)
 {
     private readonly ConcurrentQueue<IPeerRequest> waiting = new();
     private volatile bool isOver;
 
-    /// <summary>Whether nothing is answered any more.</summary>
+    /// <summary>Whether requests are no longer answered.</summary>
     internal bool AreOver => isOver;
 
-    /// <summary>Asks, and wakes the session's thread.</summary>
+    /// <summary>Adds a request and wakes the session's thread.</summary>
     internal void Add(IPeerRequest request)
     {
         waiting.Enqueue(request);
         wake();
         if (isOver)
         {
-            AnswerAll(); // the thread has ended meanwhile, and nobody else will
+            AnswerAll(); // the thread has ended meanwhile
         }
     }
 
-    /// <summary>Answers all, on the session's thread; or cancels them once that is over.</summary>
+    /// <summary>Answers all requests, on the session's thread; cancels them once that has ended.</summary>
     internal void AnswerAll()
     {
         while (waiting.TryDequeue(out IPeerRequest? request))
@@ -41,7 +41,7 @@ internal sealed class PeerRequests(Session session, Action wake)
         }
     }
 
-    /// <summary>The thread has ended: who still waits for an answer, or asks later, gets none.</summary>
+    /// <summary>Called when the thread has ended: pending and later requests are cancelled.</summary>
     internal void Close()
     {
         isOver = true;

@@ -12,11 +12,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>A session on a thread of its own, in real time: woken by datagrams, by actions, and when something is due.</summary>
+/// <summary>Runs a session on its own thread, in real time. It wakes for datagrams, for actions, and when something is due.</summary>
 /// <remarks>
-/// Every member may be called from any thread, but <see cref="Latest"/> from one only, the one that draws, and neither that nor
-/// <see cref="WaitUntilRunning"/> from the session's own. What a handler of a session's event throws is told by
-/// <see cref="HandlerFailed"/>, and ends nothing.
+/// Members are safe on any thread, with two exceptions: only the drawing thread may call <see cref="Latest"/>, and neither that nor
+/// <see cref="WaitUntilRunning"/> may be called on the session's own thread. An exception thrown by a handler of a session's event is
+/// reported by <see cref="HandlerFailed"/>, and ends nothing.
 /// </remarks>
 /// <example>
 /// A host in one program and a client in another; each draws a frame and kicks the ball:
@@ -41,21 +41,21 @@ public sealed class PeerThread : IDisposable
     private readonly SessionOwner owner;
     private readonly PeerFailures failures;
     private readonly WorldThread thread;
-    private readonly ManualResetEventSlim decided = new(); // running or ended
+    private readonly ManualResetEventSlim decided = new(); // set once running or ended
     private readonly bool ownsPort;
-    private volatile bool isOwner; // from the start on
+    private volatile bool isOwner; // from Start on
     private volatile bool isDisposed;
-    private int hasEnded; // 1 once it has
-    private int hasClosed; // 1 once the port is
-    private Action<LateEventStrategy>? warmUp; // null once it is done; the session's thread alone
+    private int hasEnded; // 1 once End has run
+    private int hasClosed; // 1 once the port is closed
+    private Action<LateEventStrategy>? warmUp; // null once done; for the session's thread only
 
-    /// <summary>Gives the session a thread; it is not started yet. The port is not disposed with it.</summary>
+    /// <summary>Gives the session a thread, which is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
         : this(session, port, name, ownsPort: false, SessionWarmup.Once)
     {
     }
 
-    // Before its first step the thread calls warmUp, with the session's strategy.
+    // The thread calls warmUp with the session's strategy before its first step.
     internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<LateEventStrategy> warmUp)
     {
         this.ownsPort = ownsPort;
@@ -71,12 +71,12 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>
-    /// Raised on the session's thread when a handler of one of the session's events threw, with what it threw. The other handlers are
-    /// called, and nothing ends.
+    /// Raised on the session's thread with the exception that a handler of a session's event threw. The other handlers are still called,
+    /// and nothing ends.
     /// </summary>
     /// <remarks>
-    /// Where nobody listens it is written to <see cref="System.Diagnostics.Trace"/>, and so is what a handler of this event throws. While the thread ends,
-    /// it may be raised by whoever disposes it.
+    /// Without a handler the exception is written to <see cref="System.Diagnostics.Trace"/>, and so is one that a handler of this event
+    /// throws. While the thread ends, the event may be raised on the thread that disposes it.
     /// </remarks>
     public event Action<Exception>? HandlerFailed
     {
@@ -85,25 +85,28 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>
-    /// Raised on the session's thread for each action of <see cref="Do"/> that was refused, whether or not the answer is awaited, and
-    /// before it is there: the action, and the exception. The host's verdict on a client's event comes later, by
-    /// <see cref="Session.Logged"/>. What the end of the thread left unanswered is cancelled, and not told here.
+    /// Raised on the session's thread for each action of <see cref="Do"/> that was refused, with the action and the exception; before the
+    /// returned task completes, and whether or not it is awaited. The host's verdict on a client's event comes later, by
+    /// <see cref="Session.Logged"/>.
     /// </summary>
-    /// <remarks>Where nobody listens, the refusal is written to <see cref="System.Diagnostics.Trace"/>.</remarks>
+    /// <remarks>
+    /// What the end of the thread left unanswered is cancelled, not reported. Without a handler, refusals go to
+    /// <see cref="System.Diagnostics.Trace"/>.
+    /// </remarks>
     public event Action<PlayerAction, Exception>? Refused
     {
         add => failures.Refused.Add(value);
         remove => failures.Refused.Remove(value);
     }
 
-    /// <summary>Opens a session over UDP, on a thread that is started. Disposing it leaves the session and closes the port.</summary>
-    /// <param name="scene">The scene that all share.</param>
-    /// <param name="udpPort">Where others reach it, 0 to 65,535; 0 takes any free port, which <see cref="LocalAddress"/> tells.</param>
-    /// <param name="options">How to take part; default begins at once, whoever joins later.</param>
-    /// <param name="bind">The address to listen at; default every IPv4 address this machine has.</param>
-    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
-    /// <exception cref="System.IO.IOException">The system does not give the port, for instance because it is in use.</exception>
-    /// <exception cref="ArgumentException">The port or an option is out of its range, or the scene is too large to be shared.</exception>
+    /// <summary>Opens a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
+    /// <param name="scene">The scene that all peers share.</param>
+    /// <param name="udpPort">The port to listen on, 0 to 65,535; 0 takes any free port, which <see cref="LocalAddress"/> returns.</param>
+    /// <param name="options">How to take part; the default begins at once, and clients may join at any time.</param>
+    /// <param name="bind">The address to listen on; default every IPv4 address of this machine.</param>
+    /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
+    /// <exception cref="System.IO.IOException">The system refuses the port, for instance because it is in use.</exception>
+    /// <exception cref="ArgumentException">The port or an option is out of range, or the scene is too large to be shared.</exception>
     public static PeerThread Host(
         Scene scene, int udpPort = 0, HostOptions? options = null, IPAddress? bind = null, Action<HostSession>? setUp = null)
     {
@@ -116,12 +119,12 @@ public sealed class PeerThread : IDisposable
         return Host(scene, new UdpPort(new IPEndPoint(bind ?? IPAddress.Any, udpPort)), options, setUp);
     }
 
-    /// <summary>Opens a session over a carrier, on a thread that is started. Disposing it leaves the session and disposes the carrier.</summary>
-    /// <param name="scene">The scene that all share.</param>
-    /// <param name="carrier">What carries datagrams; from now on the thread's own. It is disposed too where this throws.</param>
-    /// <param name="options">How to take part; default begins at once, whoever joins later.</param>
-    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
-    /// <exception cref="ArgumentException">An option is out of its range, or the scene is too large to be shared.</exception>
+    /// <summary>Opens a session over a carrier, on a started thread. Disposing it leaves the session and disposes the carrier.</summary>
+    /// <param name="scene">The scene that all peers share.</param>
+    /// <param name="carrier">The carrier of datagrams. The thread owns it from now on, and it is disposed even if this throws.</param>
+    /// <param name="options">How to take part; the default begins at once, and clients may join at any time.</param>
+    /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
+    /// <exception cref="ArgumentException">An option is out of range, or the scene is too large to be shared.</exception>
     public static PeerThread Host(
         Scene scene, IDatagramPort carrier, HostOptions? options = null, Action<HostSession>? setUp = null) => Begin(
             carrier,
@@ -129,13 +132,13 @@ public sealed class PeerThread : IDisposable
             "LagSim host",
             setUp);
 
-    /// <summary>Joins a session over UDP, on a thread that is started. Disposing it leaves the session and closes the port.</summary>
-    /// <param name="host">Where the host is: the address of one machine, and a port from 1 on.</param>
+    /// <summary>Joins a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
+    /// <param name="host">The host's address: that of one machine, and a port from 1 on.</param>
     /// <param name="options">How to take part.</param>
-    /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
-    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
-    /// <exception cref="System.IO.IOException">The system gives no port.</exception>
-    /// <exception cref="ArgumentException">That is no machine's address, or an option is out of its range.</exception>
+    /// <param name="scene">The scene that the host is expected to have; null accepts any.</param>
+    /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
+    /// <exception cref="System.IO.IOException">The system has no free port.</exception>
+    /// <exception cref="ArgumentException">The address is not that of one machine, or an option is out of range.</exception>
     public static PeerThread Join(IPEndPoint host, ClientOptions? options = null, Scene? scene = null, Action<ClientSession>? setUp = null)
     {
         if (!UdpDestination.IsOneMachine(host, "join", out string? error))
@@ -147,13 +150,13 @@ public sealed class PeerThread : IDisposable
         return Join(new UdpPort(UdpDestination.Facing(address.ToEndPoint().Address)), address, options, scene, setUp);
     }
 
-    /// <summary>Joins a session over a carrier, on a thread that is started. Disposing it leaves the session and disposes the carrier.</summary>
-    /// <param name="carrier">What carries datagrams; from now on the thread's own. It is disposed too where this throws.</param>
-    /// <param name="host">Where the host is, as the carrier knows it.</param>
+    /// <summary>Joins a session over a carrier, on a started thread. Disposing it leaves the session and disposes the carrier.</summary>
+    /// <param name="carrier">The carrier of datagrams. The thread owns it from now on, and it is disposed even if this throws.</param>
+    /// <param name="host">The host's address, in the carrier's terms.</param>
     /// <param name="options">How to take part.</param>
-    /// <param name="scene">The scene that the host is expected to have; null takes the host's, whichever it is.</param>
-    /// <param name="setUp">Called with the session before its thread starts, to subscribe to its events: so nothing is missed.</param>
-    /// <exception cref="ArgumentException">An option is out of its range.</exception>
+    /// <param name="scene">The scene that the host is expected to have; null accepts any.</param>
+    /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
+    /// <exception cref="ArgumentException">An option is out of range.</exception>
     public static PeerThread Join(
         IDatagramPort carrier,
         PeerAddress host,
@@ -165,14 +168,14 @@ public sealed class PeerThread : IDisposable
             "LagSim client",
             setUp);
 
-    /// <summary>Where this peer's port is reached; where it listens at every address, others use one of the machine's own.</summary>
+    /// <summary>The address of this peer's port. If it listens on every address, other peers use one of the machine's own.</summary>
     public PeerAddress LocalAddress => port.LocalAddress;
 
-    /// <summary>The session. While the thread runs, read of it only what it says may be read from any thread.</summary>
+    /// <summary>The session. While the thread runs, read only the members that are documented as safe from any thread.</summary>
     public Session Session { get; }
 
-    /// <summary>Where the peer stands.</summary>
-    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    /// <summary>The state of the session.</summary>
+    /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
     public SessionState State
     {
         get
@@ -182,11 +185,11 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>Waits until there is a running world, or the session has ended.</summary>
-    /// <param name="timeout">How long at most.</param>
-    /// <returns>Whether it runs; if not, <see cref="Session.EndReason"/> tells why if it has ended.</returns>
+    /// <summary>Waits until the world is running or the session has ended.</summary>
+    /// <param name="timeout">The longest time to wait.</param>
+    /// <returns>Whether it is running; if the session has ended instead, <see cref="Session.EndReason"/> says why.</returns>
     /// <exception cref="InvalidOperationException">
-    /// The thread ended by an exception, the inner one; or this is the session's own thread, which would wait for itself.
+    /// The thread ended with an exception, the inner one; or this is the session's own thread, which would wait for itself.
     /// </exception>
     public bool WaitUntilRunning(TimeSpan timeout)
     {
@@ -195,14 +198,14 @@ public sealed class PeerThread : IDisposable
         return State == SessionState.Running;
     }
 
-    /// <summary>What tells of contacts, as the session's options gave it; null for nobody, and before there is a world.</summary>
+    /// <summary>The contact notices given in the session's options; null if none were, and before there is a world.</summary>
     public ContactNotices? Contacts => Session.World?.Contacts;
 
-    /// <summary>How many steps the thread has done.</summary>
+    /// <summary>The number of steps done so far.</summary>
     public long Steps => thread.Steps;
 
-    /// <summary>Starts the thread; once. Until this is disposed, what is for the session's thread throws on any other.</summary>
-    /// <exception cref="InvalidOperationException">It has been started already, or another thread runs the session.</exception>
+    /// <summary>Starts the thread, once. Until this is disposed, members for the session's thread throw on any other.</summary>
+    /// <exception cref="InvalidOperationException">It was started before, or another thread runs the session.</exception>
     /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
     public void Start()
     {
@@ -225,11 +228,11 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>
-    /// The newest render snapshot of the world, for the one thread that draws; null before there is a world. A frame reads it at
+    /// The newest render snapshot of the world, for the drawing thread; null before there is a world. A frame reads it at
     /// <see cref="Session.DisplayTime"/>.
     /// </summary>
     /// <exception cref="InvalidOperationException">
-    /// The thread ended by an exception, the inner one; or this is the session's own thread, which is not the one that draws.
+    /// The thread ended with an exception, the inner one; or this is the session's own thread, which is not the one that draws.
     /// </exception>
     public RenderSnapshot? Latest()
     {
@@ -238,28 +241,29 @@ public sealed class PeerThread : IDisposable
         return Session.World?.RenderSnapshots.Latest();
     }
 
-    /// <summary>Does something to the shared world as soon as the session's thread gets to it, which is at once unless it is at work.
-    /// Asked before <see cref="Start"/>, it waits for the thread. From any thread. Cost: wakes the thread, and allocates nothing while
-    /// fewer than 64 answers are outstanding.</summary>
+    /// <summary>
+    /// Performs an action as soon as the session's thread gets to it: at once unless it is busy, or after <see cref="Start"/>.
+    /// </summary>
+    /// <remarks>From any thread. Cost: wakes the thread; allocates nothing while fewer than 64 answers are outstanding.</remarks>
     /// <returns>
-    /// The stamped event, or the exception that <see cref="Session.Do"/> throws: <see cref="Refused"/> tells that too. What the host makes
-    /// of the event is heard later, by <see cref="Session.Logged"/>. Await it at once, once, or let it go: an answer that nobody awaits is
-    /// forgotten some 60 calls later.
+    /// The stamped event, or the exception that <see cref="Session.Do"/> throws, which <see cref="Refused"/> reports too. The host's
+    /// verdict on the event comes later, by <see cref="Session.Logged"/>. Await the task at once and once, or discard it: an answer that is
+    /// not awaited is forgotten some 60 calls later.
     /// </returns>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
-    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
     public ValueTask<ExternalEvent> Do(PlayerAction action)
     {
         ThrowIfOver();
         ActionRequest request = actions.Take(action);
-        ValueTask<ExternalEvent> answer = request.Task; // before it is asked: answered, it may be used again
+        ValueTask<ExternalEvent> answer = request.Task; // taken first: once answered, the request may be reused
         requests.Add(request);
         return answer;
     }
 
-    /// <summary>Asks the session something on its own thread; answered once that is started, cancelled if it is disposed before.</summary>
+    /// <summary>Runs a function on the session's thread, once it is started; cancelled if that is disposed first.</summary>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
-    /// <exception cref="InvalidOperationException">The thread ended by an exception, the inner one.</exception>
+    /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
     {
         ThrowIfOver();
@@ -268,10 +272,12 @@ public sealed class PeerThread : IDisposable
         return request.Task;
     }
 
-    /// <summary>Stops the thread, in the middle of its work if it is at some, and waits for it. One that <c>Host</c> or <c>Join</c> made
-    /// leaves its session and closes its port; any other does not say goodbye, <see cref="Session.Leave"/> does.</summary>
+    /// <summary>
+    /// Stops the thread, even in the middle of a step, and waits for it. One made by <c>Host</c> or <c>Join</c> leaves its session and
+    /// closes its port; any other sends no goodbye, <see cref="Session.Leave"/> does.
+    /// </summary>
     /// <remarks>
-    /// From any thread, and more than once. On the session's own, in a handler, it returns at once, and all this is done after the step.
+    /// From any thread, and more than once. In a handler, on the session's own thread, it returns at once and takes effect after the step.
     /// </remarks>
     public void Dispose()
     {
@@ -279,8 +285,8 @@ public sealed class PeerThread : IDisposable
         thread.Dispose();
         if (!IsOwnThread)
         {
-            End(thread.Fault); // of a thread that was never started; else its thread has done so
-            ClosePort(); // that of a thread that had failed is still open
+            End(thread.Fault); // for a thread never started; a started one has done it itself
+            ClosePort(); // a thread that failed has left it open
         }
     }
 
@@ -304,7 +310,7 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>On this thread and not the game's, and before anything is answered, so that an action waits for it at worst once.</summary>
+    /// <summary>Warms up on this thread, not the game's, before any answer, so that an action waits for it once at most.</summary>
     private void WarmUp()
     {
         if (Session.WarmsUpFor is LateEventStrategy strategy)
@@ -335,7 +341,7 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>What its thread does again and again; for that thread alone, or whoever has not started it.</summary>
+    /// <summary>One step of the thread's loop; for that thread only, or for the caller if it was never started.</summary>
     internal SimDuration Step()
     {
         owner.Enter();
@@ -350,8 +356,8 @@ public sealed class PeerThread : IDisposable
         return wait;
     }
 
-    /// <summary>What there is to do after the last step, once: on the thread that did it, or of a thread never started on whoever disposes it.</summary>
-    /// <param name="fault">What ended it; whatever went wrong here, the others need not wait for the time-out.</param>
+    /// <summary>The cleanup after the last step, once: on the session's thread, or on the disposing one if never started.</summary>
+    /// <param name="fault">What ended the thread. Even then it says goodbye, so that other peers need not wait for the timeout.</param>
     private void End(Exception? fault)
     {
         if (Interlocked.Exchange(ref hasEnded, 1) != 0)
@@ -362,7 +368,7 @@ public sealed class PeerThread : IDisposable
         port.Arrived -= thread.Wake;
         if (isOwner)
         {
-            owner.Enter(); // disposed before its first step, it has not done so yet
+            owner.Enter(); // if disposed before its first step, the thread has not entered yet
         }
 
         if (fault is not (null or OperationCanceledException) || (ownsPort && isDisposed))
@@ -373,7 +379,7 @@ public sealed class PeerThread : IDisposable
             }
             catch (Exception failure) when (failure is not OutOfMemoryException)
             {
-                failures.TellFailure(failure); // beside what ended the thread, which is told whoever relies on it
+                failures.TellFailure(failure); // reported in addition to the exception that ended the thread
             }
         }
 

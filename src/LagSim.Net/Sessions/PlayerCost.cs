@@ -1,6 +1,6 @@
 namespace LagSim.Net.Sessions;
 
-/// <summary>What a player cost a host so far.</summary>
+/// <summary>The work that a player has cost a host so far.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct PlayerCost
 {
@@ -14,9 +14,9 @@ public readonly struct PlayerCost
     /// <summary>The player's number.</summary>
     public byte Player { get; }
 
-    /// <summary>All work that was charged to that number, in units of about a microsecond.</summary>
+    /// <summary>The work charged to that number in all, in units of about a microsecond.</summary>
     public double Work { get; }
 
-    /// <summary>The most that was spent at a time of <see cref="PlayerBudget.WorkAtOnce"/>; 0 without a budget.</summary>
+    /// <summary>The most that was ever spent of <see cref="PlayerBudget.WorkAtOnce"/>; 0 without a budget.</summary>
     public double MostAtOnce { get; }
 }

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// That a host sent a player away, or removed what one who is gone had left, because it cost more than
+/// Reports that a host expelled a player, or removed what a departed one left behind, because it cost more than
 /// <see cref="HostOptions.PlayerBudget"/>.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
@@ -25,22 +25,22 @@ public sealed class PlayerExpulsion
             + $" and {stopped} {(stopped == 1 ? "other that it moved is" : "others that it moved are")} stopped.";
     }
 
-    /// <summary>Whose number it is; 0 for players who are gone and whose number another has by now.</summary>
+    /// <summary>The player's number; 0 for departed players whose number has another holder by now.</summary>
     public byte Player { get; }
 
-    /// <summary>Whether somebody had that number, and was sent away.</summary>
+    /// <summary>Whether a client had that number, and was sent away.</summary>
     public bool WasThere { get; }
 
-    /// <summary>What the player's acts took since it last was within its budget for long, in units of about a microsecond.</summary>
+    /// <summary>The work of the player's actions since it last was within its budget for long, in units of about a microsecond.</summary>
     public double Work { get; }
 
-    /// <summary>How many bodies that it had spawned are removed.</summary>
+    /// <summary>The number of its spawned bodies that are removed.</summary>
     public int BodiesRemoved { get; }
 
-    /// <summary>How many bodies that were not its own are stopped, because it had moved them and much of the work was for them.</summary>
+    /// <summary>The number of other bodies that are stopped, because it had moved them and much of the work was for them.</summary>
     public int BodiesStopped { get; }
 
-    /// <summary>The simulated time as of which they are: before the work began, or as far back as anything can still be changed.</summary>
+    /// <summary>The simulated time of the removals: before the work began, or as far back as can still be changed.</summary>
     public SimTime From { get; }
 
     /// <summary>All of it as a sentence, for a log.</summary>

@@ -4,11 +4,14 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>What shows a host that one is a player it had before: the player's number, and a secret that the host gave with it.</summary>
+/// <summary>
+/// Proves to a host that a client is a player it had before: the player's number, and a secret that the host gave with it.
+/// </summary>
 /// <remarks>
-/// <para>A client gets one with its number (<see cref="ClientSession.Pass"/>), and uses it by itself when it lost its host. A program that wants to come back
-/// after a restart keeps it, as text, and gives it in <see cref="ClientOptions.Pass"/>. It is good with the host that gave it, until that host ends or has given the number to
-/// somebody else. Whoever has it can take the player's place, so it is kept like a password. It travels unencrypted once, when it is given.</para>
+/// <para>A client gets one with its number (<see cref="ClientSession.Pass"/>), and uses it by itself when it has lost its host. A program
+/// that wants to come back after a restart saves it as text and sets it as <see cref="ClientOptions.Pass"/>. It is valid only with the host
+/// that gave it, until that host ends or gives the number to another client. Anyone who has it can take the player's place, so keep it like
+/// a password. It travels unencrypted once, when it is given.</para>
 /// <para>Immutable, safe on any thread. <c>default</c> is no pass.</para>
 /// </remarks>
 public readonly struct PlayerPass : IEquatable<PlayerPass>
@@ -26,7 +29,7 @@ public readonly struct PlayerPass : IEquatable<PlayerPass>
 
     internal Token128 Secret { get; }
 
-    /// <summary>Reads what <see cref="ToString"/> wrote.</summary>
+    /// <summary>Parses the text that <see cref="ToString"/> returns.</summary>
     /// <param name="text">A number from 1 to 255, a hyphen, and 32 hexadecimal digits.</param>
     /// <param name="pass">The pass, if it is one.</param>
     /// <returns>False for anything else; never throws.</returns>
@@ -46,7 +49,7 @@ public readonly struct PlayerPass : IEquatable<PlayerPass>
         return true;
     }
 
-    /// <summary>What parses numbers takes them for the end of one.</summary>
+    /// <summary>Checks for a null character, which number parsers accept as the end of the text.</summary>
     private static bool HasNull(string digits) => digits.IndexOf('\0') >= 0;
 
     /// <summary>Same number and secret.</summary>

@@ -16,19 +16,20 @@ using LagSim.Timelines;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// One peer's part in a shared world: it talks through a datagram port, keeps the shared time, and keeps a world ahead of it.
+/// One peer's part in a shared world: it exchanges datagrams over a port, keeps the shared time, and simulates a world ahead of it.
 /// </summary>
 /// <remarks>
-/// For one thread, in real time (<see cref="PeerThread"/> gives it one) or in virtual time, where the harness steps it. From any thread may
-/// be read: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>, and which
-/// <see cref="World"/> it is; of the world itself only its render snapshots, its counts of late steps, and when it started. While a
-/// <see cref="PeerThread"/> runs it, what is for the session's thread throws an <see cref="InvalidOperationException"/> on any other. A
-/// handler of an event that throws ends nothing then, and <see cref="PeerThread.HandlerFailed"/> tells; where there is no such thread, what
-/// it throws goes through to whoever calls <see cref="Step"/>, or what else raised the event.
+/// <para>For one thread, in real time (<see cref="PeerThread"/> provides one) or in virtual time, where the harness steps it. Safe to read
+/// from any thread: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>,
+/// and the reference <see cref="World"/>; of the world itself only its render snapshots, its counts of late steps, and its start.</para>
+/// <para>While a <see cref="PeerThread"/> runs the session, members for the session's thread throw an
+/// <see cref="InvalidOperationException"/> on any other. An exception from a handler then ends nothing, and
+/// <see cref="PeerThread.HandlerFailed"/> reports it; without such a thread it propagates to the caller of <see cref="Step"/>, or of
+/// whatever member raised the event.</para>
 /// </remarks>
 public abstract class Session
 {
-    /// <summary>The version of the wire format: peers of different versions do not talk to each other, and say so.</summary>
+    /// <summary>The version of the wire format. Peers of different versions refuse each other with that reason.</summary>
     public const byte WireVersion = WireFormat.Version;
 
     private readonly SessionParts parts;
@@ -52,7 +53,7 @@ public abstract class Session
         this.protocol = protocol;
         loop = new SessionLoop(parts, protocol);
         watch = parts.Options.Cancellation.Register(static session => ((Session)session!).Interrupt(), this);
-        parts.Status.Ended += () => watch.Dispose(); // a token of the whole program would keep all sessions there ever were
+        parts.Status.Ended += () => watch.Dispose(); // a long-lived token would otherwise keep every session alive
         parts.Start.Begun += () => begun.Raise(0, static (handler, _) => handler());
         parts.Start.Renewed += why => renewed.Raise(why, static (handler, told) => handler(told));
         parts.Status.Ended += () => ended.Raise(0, static (handler, _) => handler());
@@ -60,9 +61,7 @@ public abstract class Session
         parts.Commits.Committed += state => stateCommitted.Raise(state, static (handler, told) => handler(told));
     }
 
-    /// <summary>
-    /// Raised on the session's thread, once, when there is a <see cref="World"/> and nothing has happened in it yet.
-    /// </summary>
+    /// <summary>Raised on the session's thread, once, when <see cref="World"/> exists and nothing has happened in it yet.</summary>
     public event Action? Begun
     {
         add => begun.Add(value);
@@ -70,8 +69,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Raised on the session's thread each time that a fresh copy of the host's world has taken the place of <see cref="World"/>, which is
-    /// another object from then on, with why. What this peer did that the host had not validated is in neither.
+    /// Raised on the session's thread each time that a fresh snapshot replaces <see cref="World"/>, which is a different object from then
+    /// on, with the reason. The new world lacks this peer's actions that the host had not validated.
     /// </summary>
     public event Action<string>? Renewed
     {
@@ -79,16 +78,14 @@ public abstract class Session
         remove => renewed.Remove(value);
     }
 
-    /// <summary>Raised on the thread that ended the session, once; <see cref="EndReason"/> tells why.</summary>
+    /// <summary>Raised on the thread that ended the session, once; <see cref="EndReason"/> says why.</summary>
     public event Action? Ended
     {
         add => ended.Add(value);
         remove => ended.Remove(value);
     }
 
-    /// <summary>
-    /// Raised on the session's thread for every line of the log, in order, once it has taken effect here.
-    /// </summary>
+    /// <summary>Raised on the session's thread for every log entry, in order, once it has taken effect here.</summary>
     public event Action<LogEntry>? Logged
     {
         add => logged.Add(value);
@@ -105,7 +102,7 @@ public abstract class Session
         remove => stateCommitted.Remove(value);
     }
 
-    /// <summary>The scene that all peers share; null for a client that has not heard of it. From any thread.</summary>
+    /// <summary>The scene that all peers share; null for a client that has not received it. From any thread.</summary>
     public Scene? Scene => parts.World.Scene;
 
     /// <summary>The session's time; readable once <see cref="SharedClock.IsSet"/>, from any thread.</summary>
@@ -118,34 +115,38 @@ public abstract class Session
     public SimDuration DisplayDelay => parts.World.DisplayDelay;
 
     /// <summary>
-    /// What a frame that is drawn now reads of a render snapshot: shared time less <see cref="DisplayDelay"/>. In the first moments, when
-    /// that lies before the world this peer has, the earliest instant of it, so that the world stands still until it can be shown on its
-    /// way. From any thread, once there is a <see cref="World"/>.
+    /// The time at which to read a render snapshot for a frame drawn now: shared time less <see cref="DisplayDelay"/>. From any thread,
+    /// once there is a <see cref="World"/>.
     /// </summary>
+    /// <remarks>
+    /// At first, while that lies before this peer's world, it is the earliest instant of that world, which therefore stands still until it
+    /// can be shown in motion.
+    /// </remarks>
     public SimTime DisplayTime => parts.World.DisplayTime;
 
-    /// <summary>Where the peer stands. From any thread.</summary>
+    /// <summary>The state of the session. From any thread.</summary>
     public SessionState State => parts.Status.State;
 
     /// <summary>
-    /// Why the session ended, as a sentence; null while it goes on. From any thread: it is there once <see cref="State"/> says so.
+    /// Why the session ended, as a sentence; null until then. From any thread: it is set once <see cref="State"/> says that the session
+    /// ended.
     /// </summary>
     public string? EndReason => parts.Status.EndReason;
 
-    /// <summary>What ended the session. From any thread, as <see cref="EndReason"/>.</summary>
+    /// <summary>The cause of the session's end. From any thread, as <see cref="EndReason"/>.</summary>
     public SessionEnd EndedBy => parts.Status.EndedBy;
 
     /// <summary>This peer's number; 0 is the host. Meaningful once joined.</summary>
     public byte Peer => parts.Self.Number;
 
     /// <summary>
-    /// The world, from the moment its start is known; the same from then on, but for a client that got a fresh copy
-    /// (<see cref="Renewed"/>). From any thread, but see the remarks for what is in it.
+    /// The world, once its start is known. It stays the same object, except for a client that gets a fresh snapshot
+    /// (<see cref="Renewed"/>). From any thread, but see the remarks for its members.
     /// </summary>
     public LiveWorld? World => parts.World.Live;
 
     /// <summary>
-    /// What the world went on from, for a client that came late enough; null where it began with the scene. On the session's thread.
+    /// The snapshot that the world began from, for a client that joined late; null if it began with the scene. On the session's thread.
     /// </summary>
     public WorldSnapshot? BegunFrom
     {
@@ -160,8 +161,8 @@ public abstract class Session
     public CommittedState? Committed => parts.Commits.Newest;
 
     /// <summary>
-    /// How many lines of the host's log this peer was not told, because every accepted event in them is in <see cref="BegunFrom"/>; the
-    /// next is the first that <see cref="Logged"/> tells. On the session's thread.
+    /// The number of entries of the host's log that this peer was not sent, because <see cref="BegunFrom"/> includes every accepted event
+    /// in them; <see cref="Logged"/> begins with the next. On the session's thread.
     /// </summary>
     public uint LogStart
     {
@@ -173,7 +174,7 @@ public abstract class Session
     }
 
     /// <summary>
-    /// What went over each link so far; of a host in the order in which its clients came. On the session's thread; see
+    /// The traffic over each link so far; for a host in the order in which its clients came. On the session's thread; see
     /// <see cref="PeerThread.Ask"/>.
     /// </summary>
     public IReadOnlyList<LinkTraffic> Links
@@ -186,7 +187,7 @@ public abstract class Session
     }
 
     /// <summary>
-    /// How many lines of the host's log this peer has, those included that were in the state it began from. On the session's thread.
+    /// The number of entries of the host's log that this peer has, including those in its initial state. On the session's thread.
     /// </summary>
     public uint LogLength
     {
@@ -198,20 +199,20 @@ public abstract class Session
     }
 
     /// <summary>
-    /// What was counted; it goes on counting. On the session's thread: another gets a <see cref="SessionCounters.Copy"/>.
+    /// The live counters, which keep changing. On the session's thread; another thread takes a <see cref="SessionCounters.Copy"/>.
     /// </summary>
     public SessionCounters Counters => parts.Counters;
 
     /// <summary>Whether all peers with this strategy end up with the same world, bit for bit.</summary>
     public bool PromisesAgreement => parts.World.PromisesAgreement;
 
-    /// <summary>The strategy that a thread warms up for before it steps this session; null for none.</summary>
+    /// <summary>The strategy to warm up for before this session is stepped; null for none.</summary>
     internal LateEventStrategy? WarmsUpFor => parts.Options.Warmup ? parts.Options.Strategy : null;
 
-    /// <summary>What the session is put together of.</summary>
+    /// <summary>The parts of the session.</summary>
     internal SessionParts Parts => parts;
 
-    /// <summary>A number that nobody can guess, for a host's session or a client's nonce. From any thread.</summary>
+    /// <summary>Draws an unguessable number, for a host's session or a client's nonce. From any thread.</summary>
     public static ulong DrawNumber()
     {
         Span<byte> bytes = stackalloc byte[sizeof(ulong)];
@@ -220,8 +221,7 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Has a step that is simulating end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stands still from
-    /// then on.
+    /// Makes a running simulation step end soon, by an <see cref="OperationCanceledException"/>; from any thread. The world stops for good.
     /// </summary>
     internal void Interrupt() => parts.World.Interrupt();
 
@@ -238,20 +238,20 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Does something to the shared world, now, or later by what <see cref="SessionOptions.Window"/> has of local lag for it: seen here
-    /// then, by the others too or as soon as they hear of it.
+    /// Performs an action in the shared world, now or later by the local lag of <see cref="SessionOptions.Window"/>. This peer sees it at
+    /// that time, and the others do too, or as soon as it reaches them.
     /// </summary>
-    /// <returns>The stamped event; of a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
+    /// <returns>The stamped event; for a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
-    /// The session is not running; a <see cref="PeerThread"/> runs it, and this is another thread; or of a client's events
-    /// <see cref="ClientSession.MaxUnconfirmedEvents"/> wait for the host's verdict, and nothing happened: it can be done again once
-    /// verdicts have come.
+    /// The session is not running; or a <see cref="PeerThread"/> runs it, and this is another thread; or
+    /// <see cref="ClientSession.MaxUnconfirmedEvents"/> events of a client wait for the host's verdict. Nothing happened; in the last case,
+    /// try again once verdicts have arrived.
     /// </exception>
     /// <exception cref="SceneException">
-    /// A value may not enter the world, or this peer may not do that, or it is more than <see cref="SessionOptions.MaxGivenSpeed"/> or
-    /// <see cref="SessionOptions.MaxSpawned"/> permits here; nothing happened.
+    /// A value may not enter the world, or this peer may not do that, or it exceeds this peer's <see cref="SessionOptions.MaxGivenSpeed"/>
+    /// or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
     /// </exception>
-    /// <exception cref="SimulationException">The world cannot be simulated with it; the session has ended.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated with the action; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
         parts.Owner.ThrowIfForeign();
@@ -268,15 +268,16 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Does what is due: takes in datagrams, sends, brings the world ahead, by a bounded number of events; see
+    /// Does what is due: receives and sends datagrams, and advances the world by a bounded number of events; see
     /// <see cref="LiveWorld.IsBehind"/>.
     /// </summary>
     /// <returns>How long until something is due again, unless a datagram or an action comes first.</returns>
     /// <remarks>
-    /// A world that cannot be simulated any further ends the session, with the reason; whatever others send, it does not throw.
+    /// A world that cannot be simulated any further ends the session, with the reason. Nothing that other peers send makes this throw.
     /// </remarks>
-    /// <exception cref="OperationCanceledException"><see cref="SessionOptions.Cancellation"/> asked for an end, and the session has not
-    /// ended; <see cref="Leave"/> ends it.</exception>
+    /// <exception cref="OperationCanceledException">
+    /// <see cref="SessionOptions.Cancellation"/> was cancelled, and the session has not ended; <see cref="Leave"/> ends it.
+    /// </exception>
     /// <exception cref="InvalidOperationException">A <see cref="PeerThread"/> runs the session, and this is another thread.</exception>
     public SimDuration Step()
     {
@@ -284,6 +285,6 @@ public abstract class Session
         return loop.Step();
     }
 
-    /// <summary>Ends the session, or asks for a fresh copy, because its world cannot be simulated any further.</summary>
+    /// <summary>Ends the session, or asks for a fresh snapshot, because its world cannot be simulated any further.</summary>
     private protected void EndWorld(SimulationException failure) => loop.EndWorld(failure);
 }

@@ -5,16 +5,16 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>
-/// What a session counted. That of <see cref="Session.Counters"/> goes on counting: read it on the session's thread, or once that has
+/// The counters of a session. Those of <see cref="Session.Counters"/> keep changing: read them on the session's thread, or once it has
 /// stopped.
 /// </summary>
 /// <remarks>A <see cref="Copy"/> never changes and is safe on any thread.</remarks>
 public sealed class SessionCounters
 {
-    /// <summary>How many latenesses are kept; further ones only count.</summary>
+    /// <summary>The number of lateness samples kept; further ones are only counted.</summary>
     public const int MaxKeptLatenesses = 100_000;
 
-    // Only ever added to, and a longer one takes its place: the copies share what they have of it.
+    // Append-only, and replaced when it grows, so that copies can share it.
     private SimDuration[] lateness = Array.Empty<SimDuration>();
     private int latenessCount;
 
@@ -44,77 +44,74 @@ public sealed class SessionCounters
         latenessCount = other.latenessCount;
     }
 
-    /// <summary>Datagrams that came in, refused ones included.</summary>
+    /// <summary>Datagrams received, refused ones included.</summary>
     public long DatagramsReceived { get; internal set; }
 
-    /// <summary>Datagrams that were no valid datagram of this protocol.</summary>
+    /// <summary>Datagrams received that are not valid in this protocol.</summary>
     public long DatagramsMalformed { get; internal set; }
 
-    /// <summary>Valid datagrams that had no business here: another session's, a stranger's, an old one.</summary>
+    /// <summary>Valid datagrams that do not belong here: from another session, a stranger, or an earlier time.</summary>
     public long DatagramsIgnored { get; internal set; }
 
     /// <summary>Datagrams sent.</summary>
     public long DatagramsSent { get; internal set; }
 
-    /// <summary>Accepted events, one's own included.</summary>
+    /// <summary>Accepted events, own ones included.</summary>
     public long EventsAccepted { get; internal set; }
 
-    /// <summary>Events that the host refused, one's own included.</summary>
+    /// <summary>Events that the host refused, own ones included.</summary>
     public long EventsRefused { get; internal set; }
 
     /// <summary>
-    /// Accepted events that came too late for the history this peer still had, and own refused ones that were no longer there to be taken
-    /// back. A peer of a strategy that promises agreement then gets a fresh copy of the world.
+    /// Accepted events that came too late for this peer's remaining history, and own refused events that could no longer be retracted. With
+    /// a strategy that promises agreement the peer then gets a fresh snapshot.
     /// </summary>
     public long EventsLost { get; internal set; }
 
     /// <summary>
-    /// Own events of a client on which it has heard no verdict, because its world was replaced first: whether they happened, the new one
-    /// shows.
+    /// A client's own events that got no verdict because its world was replaced first; the new world shows whether they happened.
     /// </summary>
     public long EventsUnanswered { get; internal set; }
 
-    /// <summary>How often a fresh copy of the host's world took the place of this peer's.</summary>
+    /// <summary>How often a fresh snapshot of the host's world replaced this peer's.</summary>
     public long Renewals { get; internal set; }
 
     /// <summary>
-    /// Late events of other peers for which timelines were rewritten back to the event; none with a strategy that rewrites no past.
+    /// Late events of other peers for which timelines were rewritten back to the event; none with a strategy that does not rewrite the
+    /// past.
     /// </summary>
     public long Heals { get; internal set; }
 
     /// <summary>
-    /// The shared time at which a render snapshot first showed the newest event, one's own or another's; the earliest instant before any.
+    /// The shared time at which a render snapshot first showed the newest event of any peer; the earliest instant before any.
     /// </summary>
     public SimTime LastShown { get; internal set; } = SimTime.MinValue;
 
-    /// <summary>Of the refused ones those that came in another's name; they stand in no log.</summary>
+    /// <summary>Refused events that were sent in another player's name; they are in no log.</summary>
     public long EventsForged { get; internal set; }
 
-    /// <summary>
-    /// Events of clients that were left for later because a client did more than <see cref="HostOptions.MaxEventsPerSecond"/>.
-    /// </summary>
+    /// <summary>Client events that were deferred because a client exceeded <see cref="HostOptions.MaxEventsPerSecond"/>.</summary>
     public long EventsDeferred { get; internal set; }
 
-    /// <summary>How many of this client's committed states were like the host's.</summary>
+    /// <summary>The number of this client's committed states that agreed with the host's.</summary>
     public long StatesAgreed { get; internal set; }
 
-    /// <summary>How many were not.</summary>
+    /// <summary>The number of those that differed.</summary>
     public long StatesDiffered { get; internal set; }
 
-    /// <summary>The time of the first committed state that was not; the earliest instant if none was.</summary>
+    /// <summary>The time of the first committed state that differed; the earliest instant if none did.</summary>
     public SimTime FirstDifference { get; internal set; } = SimTime.MinValue;
 
-    /// <summary>By how much the events of other peers came after their own time; negative for those that came before.</summary>
+    /// <summary>The lateness of other peers' events: arrival minus stamp; negative for those that came early.</summary>
     public IReadOnlyList<SimDuration> Lateness => new ArraySegment<SimDuration>(lateness, 0, latenessCount);
 
     /// <summary>
-    /// What was counted up to now, which stays as it is. Taken on the session's thread, it may be read on any: see
-    /// <see cref="PeerThread.Ask"/>.
+    /// Takes an immutable copy of the counters. Take it on the session's thread, see <see cref="PeerThread.Ask"/>; read it on any.
     /// </summary>
     /// <remarks>Cheap, however much was counted.</remarks>
     public SessionCounters Copy() => new(this);
 
-    /// <summary>Counts a datagram that could not be decoded; whether it could.</summary>
+    /// <summary>Counts a datagram that could not be decoded, and returns whether it could.</summary>
     internal bool IsWellFormed(bool decoded)
     {
         DatagramsMalformed += decoded ? 0 : 1;

@@ -1,33 +1,36 @@
 namespace LagSim.Net.Sessions;
 
-/// <summary>What ended a session, for programs; <see cref="Session.EndReason"/> is for people.</summary>
+/// <summary>Why a session ended, for programs; <see cref="Session.EndReason"/> is for people.</summary>
 public enum SessionEnd
 {
-    /// <summary>It goes on.</summary>
+    /// <summary>The session has not ended.</summary>
     None,
 
-    /// <summary>This peer left, or as the host ended it.</summary>
+    /// <summary>This peer left; a host thereby ended the session.</summary>
     Left,
 
-    /// <summary>The host ended it, in order, for everyone.</summary>
+    /// <summary>The host ended the session properly, for all peers.</summary>
     HostEnded,
 
-    /// <summary>The host did not let this client in: another version, key or scene, or no place.</summary>
+    /// <summary>The host did not let this client in: another version, key or scene, or no free place.</summary>
     Refused,
 
-    /// <summary>Nothing came from the host for the timeout.</summary>
+    /// <summary>Nothing arrived from the host within the timeout.</summary>
     HostSilent,
 
-    /// <summary>The host gave this client up: it heard nothing of it, or it did not keep up.</summary>
+    /// <summary>The host disconnected this client, because it was silent or did not keep up.</summary>
     Disconnect,
 
-    /// <summary>What may still change of this peer's world is more than <see cref="SessionOptions.MaxSegments"/>, and was again in fresh copies of it.</summary>
+    /// <summary>
+    /// The part of this peer's world that may still change exceeds <see cref="SessionOptions.MaxSegments"/>, and did so again in fresh
+    /// snapshots.
+    /// </summary>
     TimelinesFull,
 
-    /// <summary>What happens in the session is more than the link carries: even fresh copies of the world were out of date again at once.</summary>
+    /// <summary>The link is too slow for the session: even fresh snapshots were out of date at once.</summary>
     LinkTooSlow,
 
-    /// <summary>What the host sent makes no world, or the world cannot be simulated any further.</summary>
+    /// <summary>The host's data does not make a world, or the world cannot be simulated any further.</summary>
     Failed,
 
     /// <summary>The host sent this player away.</summary>

@@ -8,16 +8,14 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>
-/// What hosts and clients both are told of how to take part: <see cref="HostOptions"/> and <see cref="ClientOptions"/> add their own.
-/// </summary>
+/// <summary>The options that hosts and clients share; <see cref="HostOptions"/> and <see cref="ClientOptions"/> add their own.</summary>
 /// <remarks>
-/// Immutable, safe on any thread; <c>with</c> makes a changed copy. Values are validated when a session is made, with a sentence that names
-/// the value and what is allowed.
+/// Immutable, safe on any thread; <c>with</c> makes a changed copy. Values are validated when a session is made, with an exception that
+/// names the value and what is allowed.
 /// </remarks>
 public abstract record SessionOptions
 {
-    /// <summary>How long a silent peer is believed to be there, where nothing else is said: 10 s.</summary>
+    /// <summary>The default <see cref="Timeout"/>: 10 s.</summary>
     public static readonly SimDuration DefaultTimeout = SimDuration.FromSeconds(10);
 
     /// <summary>The most clients a host can have.</summary>
@@ -35,87 +33,94 @@ public abstract record SessionOptions
     }
 
     /// <summary>
-    /// The shared secret: a host requires it, and a client presents it. Up to <see cref="MaxKeyLength"/> characters, default none. It does
-    /// not travel.
+    /// The shared secret: a host requires it, and a client must present it. Up to <see cref="MaxKeyLength"/> characters, default none. It
+    /// is never sent.
     /// </summary>
     /// <remarks>
-    /// It keeps strangers out; it does not encrypt. Take a long random one: who listens, or plays a host, gets what guesses can be tried
-    /// against without asking anybody, and no host shows a client that it knows the key.
+    /// It keeps strangers out; it does not encrypt. Choose a long random key: an eavesdropper or a fake host obtains data against which it
+    /// can test guesses offline, and a host never proves to a client that it knows the key.
     /// </remarks>
     public string ConnectKey { get; init; } = "";
 
     /// <summary>
-    /// For how long a client that lost its host, or its world, asks to be let in again before its session ends; and for how long a host
-    /// keeps the number of a client that fell silent, where nobody else needs it. 0 s to 1 h; default 2 min. With 0 a client's session ends
-    /// at once.
+    /// How long a client that lost its host or its world asks to be let in again before its session ends, and how long a host reserves the
+    /// number of a client that fell silent, unless another client needs it. 0 s to 1 h; default 2 min. With 0 a client's session ends at
+    /// once.
     /// </summary>
     public SimDuration RejoinTime { get; init; } = SimDuration.FromSeconds(120);
 
     /// <summary>
-    /// The highest speed in m/s that an event of a player may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit
-    /// beyond the world's own; default 1,000. It holds for the velocity of a spawn, a teleport, a set velocity, a keyframe or a release,
-    /// for the surface of a spawn that turns, for the way that a keyframe has a held body make up for, and for what an impulse leaves,
-    /// unless that is slower than what was there. A host refuses more as <see cref="Wire.Verdict.Invalid"/>, by its own option; a client's
-    /// own <see cref="Session.Do"/> goes by the client's.
-    /// </summary>
-    /// <remarks>It is what keeps a stranger from asking the world for more than anyone can simulate: a fast ball in a narrow gap.</remarks>
-    public double MaxGivenSpeed { get; init; } = 1_000;
-
-    /// <summary>
-    /// How many bodies that one player spawned may be there at a time, 0 to 1,000,000; default 64. Those of the former holders of a
-    /// client's number count. A host refuses more as <see cref="Wire.Verdict.NoRight"/>, by its own option; a client's own
+    /// The highest speed in m/s that a player's event may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond
+    /// the world's own; default 1,000. A host refuses more as <see cref="Wire.Verdict.Invalid"/>, by its own option; a client's own
     /// <see cref="Session.Do"/> goes by the client's.
     /// </summary>
+    /// <remarks>
+    /// <para>It applies to the velocity of a spawn, a teleport, a set velocity, a keyframe or a release; to the surface speed of a spinning
+    /// spawn; to the speed at which a held body catches up with a keyframe; and to the speed after an impulse, unless that is slower than
+    /// before.</para>
+    /// <para>It keeps a stranger from asking for more than anyone can simulate, such as a fast ball in a narrow gap.</para>
+    /// </remarks>
+    public double MaxGivenSpeed { get; init; } = 1_000;
+
+    /// <summary>How many bodies spawned by one player may exist at a time, 0 to 1,000,000; default 64.</summary>
+    /// <remarks>
+    /// Those of former holders of the player's number count too. A host refuses more as <see cref="Wire.Verdict.NoRight"/>, by its own
+    /// option; a client's own <see cref="Session.Do"/> goes by the client's.
+    /// </remarks>
     public int MaxSpawned { get; init; } = 64;
 
     /// <summary>
-    /// How much time lies between two committed states that are hashed, 100 ms to 60 s; default 1 s. The same on all peers, to be compared.
+    /// The interval between committed states that are hashed, 100 ms to 60 s; default 1 s. All peers must use the same, so that states can
+    /// be compared.
     /// </summary>
     public SimDuration CommitInterval { get; init; } = SimDuration.FromSeconds(1);
 
     /// <summary>
-    /// How late an event may be and still be accepted, how far ahead the world is simulated, and how much later than it is done what this
-    /// peer does is to happen. The history is the host's, whatever a client says.
+    /// How late an event may be and still be accepted, how far ahead the world is simulated, and how long after this peer acts its own
+    /// events take effect. The history is the host's, whatever a client sets.
     /// </summary>
     public LatencyCompensationWindow Window { get; init; } = new();
 
     /// <summary>
-    /// How many segments all timelines of this peer may hold together, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>.
-    /// A peer that needs more says so and leaves (<see cref="SessionEnd.TimelinesFull"/>), and can join again: it then gets the world as it
-    /// is committed.
+    /// The maximum number of segments in all timelines of this peer, from 1; default <see cref="SimulationOptions.DefaultMaxSegments"/>.
     /// </summary>
+    /// <remarks>
+    /// A peer that needs more reports it and leaves (<see cref="SessionEnd.TimelinesFull"/>). It can join again, and then gets the
+    /// committed world.
+    /// </remarks>
     public int MaxSegments { get; init; } = SimulationOptions.DefaultMaxSegments;
 
     /// <summary>
-    /// How many threads at most may be at work for this peer's world at once, as <see cref="SimulationOptions.Threads"/>: 1 to
-    /// <see cref="SceneBuilder.MaxThreads"/>; null, the default, for its default. Each peer's own: no bit depends on it.
+    /// The maximum number of threads that work on this peer's world at once, as <see cref="SimulationOptions.Threads"/>: 1 to
+    /// <see cref="SceneBuilder.MaxThreads"/>; null, the default, for its default. Each peer may choose its own: results are bit-identical
+    /// either way.
     /// </summary>
     public int? Threads { get; init; }
 
     /// <summary>
-    /// How much longer timelines are kept than events may be late, 0 to 60 s; default 0. For those who compare settled states. Cost:
-    /// memory, as <see cref="LatencyCompensationWindow"/> has it for the history.
+    /// How long timelines are kept beyond the lateness limit of events, 0 to 60 s; default 0. For programs that compare settled states.
+    /// Cost: memory, as for the history of <see cref="LatencyCompensationWindow"/>.
     /// </summary>
     public SimDuration ExtraHistory { get; init; }
 
     /// <summary>
-    /// How much of the past render snapshots show, 0 to 60 s; default 250 ms. It is counted from what is displayed: with
-    /// <see cref="LateEventStrategy.Interpolation"/> render snapshots go back by <see cref="DisplayDelay"/> more, and as much more of the
-    /// timelines is kept.
+    /// How much of the past a render snapshot covers, 0 to 60 s; default 250 ms. It counts back from the displayed time: with
+    /// <see cref="LateEventStrategy.Interpolation"/> a snapshot reaches <see cref="DisplayDelay"/> further back, and timelines are kept
+    /// that much longer.
     /// </summary>
     public SimDuration RenderedPast { get; init; } = LiveWorld.DefaultRenderedPast;
 
-    /// <summary>
-    /// After how much silence a peer is given up, 100 ms to 10 min; default 10 s. A host disconnects a client then, and keeps its number
-    /// for <see cref="RejoinTime"/>; a client asks for as long to be let in again. So long, too, a client may be behind the log before it
-    /// gets a fresh copy instead.
-    /// </summary>
+    /// <summary>How long a peer may be silent before it is given up, 100 ms to 10 min; default 10 s.</summary>
+    /// <remarks>
+    /// A host then disconnects a client and reserves its number for <see cref="RejoinTime"/>; a client asks that long to be let in again. A
+    /// client that is this far behind the log gets a fresh snapshot instead.
+    /// </remarks>
     public SimDuration Timeout { get; init; } = DefaultTimeout;
 
-    /// <summary>How long what is not acknowledged waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
+    /// <summary>How long unacknowledged data waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
     public SimDuration ResendInterval { get; init; } = SimDuration.FromMilliseconds(30);
 
-    /// <summary>How long nothing is sent at most, 10 ms to a third of the timeout; default that third, but no more than 2 s.</summary>
+    /// <summary>The longest pause between datagrams, 10 ms to a third of the timeout; default that third, but no more than 2 s.</summary>
     public SimDuration KeepAlive
     {
         get => keepAlive ?? (Timeout / 3 < MostKeepAlive ? Timeout / 3 : MostKeepAlive);
@@ -123,54 +128,64 @@ public abstract record SessionOptions
     }
 
     /// <summary>
-    /// What is told of contacts, for a sound or a score; null, the default: nobody. Of one session alone. Contacts are confirmed once the
-    /// watermark has passed, later by <see cref="ExtraHistory"/>.
+    /// Receives contacts, for a sound or a score; null, the default, for none. An instance serves one session only. Contacts are confirmed
+    /// once the watermark has passed, later by <see cref="ExtraHistory"/>.
     /// </summary>
     public ContactNotices? Contacts { get; init; }
 
     /// <summary>
-    /// What to do with late events; default <see cref="LateEventStrategy.Healing"/>. Peers with <see cref="LateEventStrategy.Healing"/>,
+    /// How late events are handled; default <see cref="LateEventStrategy.Healing"/>. Peers with <see cref="LateEventStrategy.Healing"/>,
     /// <see cref="LateEventStrategy.FullRollback"/> and <see cref="LateEventStrategy.Interpolation"/> agree bit for bit, so these may be
     /// mixed; a peer with another agrees with no other peer.
     /// </summary>
     public LateEventStrategy Strategy { get; init; } = LateEventStrategy.Healing;
 
     /// <summary>
-    /// Whether every late event is healed and also fully rolled back in a second world, and every bit of the two compared; default false.
-    /// The first difference ends the session with a sentence that names it in both versions. To test a scene of one's own: it costs more
-    /// than twice as much. With a strategy that heals alone: <see cref="LateEventStrategy.Healing"/> or
-    /// <see cref="LateEventStrategy.Interpolation"/>.
+    /// Whether to check every heal against a full rollback in a second world, bit for bit; default false. The first difference ends the
+    /// session with a sentence that shows both versions.
     /// </summary>
+    /// <remarks>
+    /// It is for testing your own scene, and more than doubles the cost. Only with a strategy that heals:
+    /// <see cref="LateEventStrategy.Healing"/> or <see cref="LateEventStrategy.Interpolation"/>.
+    /// </remarks>
     public bool SyncTest { get; init; }
 
     /// <summary>
-    /// How far behind shared time <see cref="LateEventStrategy.Interpolation"/> shows the world, 0 to 5 s; default 100 ms. No other
-    /// strategy looks at it. An event that comes within that time is seen without a jump, and what this peer does itself is seen that much
-    /// later. A frame reads at <see cref="Session.DisplayTime"/>. Each peer may have another.
+    /// How far behind shared time <see cref="LateEventStrategy.Interpolation"/> shows the world, 0 to 5 s; default 100 ms. Other strategies
+    /// ignore it.
     /// </summary>
+    /// <remarks>
+    /// An event that arrives within that time appears without a jump, and this peer's own actions appear that much later. Frames read at
+    /// <see cref="Session.DisplayTime"/>. Each peer may choose its own.
+    /// </remarks>
     public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
 
     /// <summary>
-    /// Whether a <see cref="PeerThread"/> has what events need compiled before it steps its session for the first time; default true.
-    /// Without, the first event of its kind in a process may take some hundredths of a second to the other peers' worlds. It is done once a
-    /// process and strategy, in memory, on the session's thread, and takes some tenths of a second there; the session begins that much
-    /// later, and nothing in it is another for it. Where everything is compiled ahead, as by IL2CPP or native AOT, nothing is done. Who
-    /// steps a session without such a thread is not affected.
+    /// Whether a <see cref="PeerThread"/> compiles the code that events need before it first steps its session; default true. Without it,
+    /// the first event of its kind in a process may reach the other peers' worlds some hundredths of a second late.
     /// </summary>
+    /// <remarks>
+    /// It runs once per process and strategy, in memory, on the session's thread, and takes some tenths of a second. The session starts
+    /// that much later and is otherwise unaffected. With ahead-of-time compilation, as by IL2CPP or native AOT, nothing is done. Sessions
+    /// that are stepped without a <see cref="PeerThread"/> are not affected.
+    /// </remarks>
     public bool Warmup { get; init; } = true;
 
     /// <summary>
-    /// Ends from any thread whatever the session is at, the simulating of its world included, between two instants:
-    /// <see cref="Session.Step"/> then throws an <see cref="OperationCanceledException"/>, and every later one too, until the session has
-    /// ended; default none. Nobody is told: <see cref="Session.Leave"/> says goodbye, and of a <see cref="PeerThread"/>, whose thread ends
-    /// by that exception, <see cref="PeerThread.Dispose"/>. The token keeps the session from being collected until that has ended.
+    /// Aborts the session from any thread, even in the middle of a simulation step: <see cref="Session.Step"/> then throws an
+    /// <see cref="OperationCanceledException"/>, and so does every later step until the session has ended; default none.
     /// </summary>
+    /// <remarks>
+    /// Other peers are not notified: <see cref="Session.Leave"/> says goodbye, or <see cref="PeerThread.Dispose"/> for a
+    /// <see cref="PeerThread"/>, whose thread ends with that exception. The token keeps the session from being collected until it has
+    /// ended.
+    /// </remarks>
     public CancellationToken Cancellation { get; init; }
 
-    /// <summary>The type's name alone: keys are secret, and do not belong in a log.</summary>
+    /// <summary>The type's name only: keys are secret and must not end up in a log.</summary>
     public sealed override string ToString() => GetType().Name;
 
-    /// <summary>Throws for what is not allowed.</summary>
+    /// <summary>Throws if a value is not allowed.</summary>
     internal virtual void Check()
     {
         Range(ExtraHistory, 0, 60, nameof(ExtraHistory));

@@ -12,31 +12,39 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>Has what an event needs compiled before the first one comes: a host and a client of its own, in memory and in virtual time, do all there is to do.</summary>
+/// <summary>
+/// Compiles the code that events need before the first one arrives: a private host and client play every kind of event, in memory and in
+/// virtual time.
+/// </summary>
 /// <remarks>
-/// A runtime compiles a method when it is first called. On an event's way to another world these are several hundred, and the first event took some fifty times as
-/// long as the next. Nothing of a program's own session is touched: worlds, clocks, ports and numbers are the warm-up's own.
+/// A JIT runtime compiles a method when it is first called. An event passes through several hundred methods on its way to another world, so
+/// the first one took some fifty times as long as the next. The program's own session is not touched: the warm-up has worlds, clocks, ports
+/// and numbers of its own.
 /// </remarks>
 internal sealed class SessionWarmup
 {
-    /// <summary>The first time events come at once, the second time late, and are healed. What is compiled is the same from then on.</summary>
+    /// <summary>
+    /// In the first round events arrive on time; in the second they are late and are healed. Further rounds compile nothing new.
+    /// </summary>
     private const int Rounds = 2;
 
-    /// <summary>So many frames a late event waits on its way.</summary>
+    /// <summary>The number of frames by which a late event is delayed.</summary>
     private const int FramesLate = 5;
 
-    /// <summary>So many frames until a host has committed a state that it copies to who joins, and until two that talk to each other run.</summary>
+    /// <summary>
+    /// The number of frames until the host has committed a state to copy to a joining client, and until the two peers run.
+    /// </summary>
     private const int FramesToStart = 30;
 
-    /// <summary>So many bodies of one player the host lets be there.</summary>
+    /// <summary>The number of bodies that the host lets one player spawn.</summary>
     private const int MostSpawned = 2;
 
-    /// <summary>So often each gets its turn within a frame: an event, its acknowledgement, and the answer to that.</summary>
+    /// <summary>How often each peer steps within a frame: for an event, its acknowledgement, and the reply to that.</summary>
     private const int TurnsAFrame = 3;
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
     private static readonly object Gate = new();
-    private static readonly List<LateEventStrategy> Done = new(); // by strategy
+    private static readonly List<LateEventStrategy> Done = new(); // the strategies warmed up so far
 
     private readonly ManualClock clock = new();
     private readonly WarmupPort hostPort;
@@ -44,7 +52,7 @@ internal sealed class SessionWarmup
     private readonly PeerThread host;
     private readonly PeerThread client;
 
-    // Threads that are never started: this one does their steps.
+    // These threads are never started: the caller steps the sessions.
     private SessionWarmup(LateEventStrategy strategy, Scene scene)
     {
         (hostPort, clientPort) = WarmupPort.Pair();
@@ -61,27 +69,27 @@ internal sealed class SessionWarmup
         client.Session.Logged += entry => Note(entry, HeardByClient, from: 0);
     }
 
-    /// <summary>Every kind of event there is.</summary>
+    /// <summary>Every kind of event.</summary>
     internal static IReadOnlyList<EventKind> EveryKind { get; } = new[]
     {
         EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.Remove,
     };
 
-    /// <summary>The kinds of the client's events that the host took in.</summary>
+    /// <summary>The kinds of client events that the host accepted.</summary>
     internal SortedSet<EventKind> HeardByHost { get; } = new();
 
-    /// <summary>The kinds of the host's events that the client took in.</summary>
+    /// <summary>The kinds of host events that the client accepted.</summary>
     internal SortedSet<EventKind> HeardByClient { get; } = new();
 
-    /// <summary>What the host counted.</summary>
+    /// <summary>The host's counters.</summary>
     internal SessionCounters HostCounters => host.Session.Counters;
 
-    /// <summary>What the client counted.</summary>
+    /// <summary>The client's counters.</summary>
     internal SessionCounters ClientCounters => client.Session.Counters;
 
     /// <summary>
-    /// Warms up for sessions with a strategy, once a process; who comes meanwhile waits until it is done. Where nothing is compiled while a program runs it does
-    /// nothing. From any thread.
+    /// Warms up for a strategy, once per process; a concurrent caller waits until it is done. Does nothing where no code is compiled at run
+    /// time. From any thread.
     /// </summary>
     internal static void Once(LateEventStrategy strategy)
     {
@@ -105,15 +113,15 @@ internal sealed class SessionWarmup
             }
             catch (Exception failure) when (failure is not OutOfMemoryException)
             {
-                // Whoever comes loses some milliseconds at its first event, and no more.
+                // The session just loses some milliseconds at its first event.
             }
         }
     }
 
-    /// <summary>Does it, however often it was done before.</summary>
-    /// <param name="strategy">What is done with late events; <see cref="SessionOptions.Strategy"/>.</param>
-    /// <param name="kinds">Which events.</param>
-    /// <param name="few">Among a few bodies of all kinds, or among many; <see cref="WarmupScene.Of"/>.</param>
+    /// <summary>Warms up, even if it was done before.</summary>
+    /// <param name="strategy">How late events are handled; <see cref="SessionOptions.Strategy"/>.</param>
+    /// <param name="kinds">The kinds of events to play.</param>
+    /// <param name="few">Whether among a few bodies of all kinds, or among many; <see cref="WarmupScene.Of"/>.</param>
     internal static SessionWarmup Run(LateEventStrategy strategy, IReadOnlyList<EventKind> kinds, bool few)
     {
         SessionWarmup warmup = new(strategy, WarmupScene.Of(few));
@@ -158,7 +166,7 @@ internal sealed class SessionWarmup
             Play(client, hostPort, WarmupScene.ClientsBody, kinds, isLate: round > 0);
         }
 
-        Run(FramesToStart); // until what was removed is forgotten
+        Run(FramesToStart); // until the removed bodies are forgotten
         client.Session.Leave();
         Run(1);
         host.Session.Leave();
@@ -175,7 +183,7 @@ internal sealed class SessionWarmup
             spawned = kind == EventKind.Spawn ? done.Body : spawned;
             for (int n = 0; n < MostSpawned && kind == EventKind.Spawn && player == client; n++)
             {
-                Do(player, action); // the last is one too many for the host, which has it taken back
+                Do(player, action); // the last one exceeds the host's limit and is retracted
             }
 
             Run(isLate ? FramesLate : 1);
@@ -188,7 +196,7 @@ internal sealed class SessionWarmup
     {
         ValueTask<ExternalEvent> answer = player.Do(action);
         player.Step();
-        return answer.GetAwaiter().GetResult(); // it is there
+        return answer.GetAwaiter().GetResult(); // already completed
     }
 
     private static void Note(in LogEntry entry, SortedSet<EventKind> heard, byte from)

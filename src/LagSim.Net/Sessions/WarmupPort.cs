@@ -4,8 +4,8 @@ using LagSim.Net.Carriers;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>One end of a link in memory, which loses nothing and takes no time.</summary>
-/// <remarks>For one thread, both ends.</remarks>
+/// <summary>One end of an in-memory link without loss or delay.</summary>
+/// <remarks>Both ends belong to one thread.</remarks>
 internal sealed class WarmupPort : IDatagramPort
 {
     private readonly Queue<byte[]> incoming = new();
@@ -19,10 +19,10 @@ internal sealed class WarmupPort : IDatagramPort
     /// <inheritdoc/>
     public PeerAddress LocalAddress { get; }
 
-    /// <summary>Whether what comes in waits, as if it were still on its way.</summary>
+    /// <summary>Whether incoming datagrams are held back, as if still in transit.</summary>
     internal bool IsHeld { get; set; }
 
-    /// <summary>Two ends.</summary>
+    /// <summary>Creates the two ends of a link.</summary>
     internal static (WarmupPort First, WarmupPort Second) Pair()
     {
         WarmupPort first = new(0), second = new(1);

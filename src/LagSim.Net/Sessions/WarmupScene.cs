@@ -2,18 +2,21 @@ using LagSim.Scenes;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>What <see cref="SessionWarmup"/> plays in: something of each way to move and to meet.</summary>
+/// <summary>The scene that <see cref="SessionWarmup"/> plays in, with something of every kind of motion and contact.</summary>
 internal static class WarmupScene
 {
-    /// <summary>The body that the host does everything to; the next is the client's.</summary>
+    /// <summary>The body that the host acts on; the next is the client's.</summary>
     internal const int HostsBody = 0;
 
-    /// <summary>The body that the client does everything to.</summary>
+    /// <summary>The body that the client acts on.</summary>
     internal const int ClientsBody = 1;
 
     private const double Radius = 0.5;
 
-    /// <summary>A few bodies, each looking at every other, under every kind of law; or so many that they are found by their index, in plain flight.</summary>
+    /// <summary>
+    /// Creates a scene with a few bodies under every kind of law, each checked against every other; or with so many in plain flight that
+    /// they are found by the neighbour lists.
+    /// </summary>
     internal static Scene Of(bool few)
     {
         SceneBuilder builder = new SceneBuilder("warm-up")

@@ -6,23 +6,23 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>
-/// Draw the past: the world heals as with <see cref="Healing"/>, right bit for bit, but what is shown lies <see cref="DisplayDelay"/> behind shared time, so
-/// that most events have come before it is drawn, and nothing jumps.
+/// Draws the past: the world heals as with <see cref="Healing"/>, exact bit for bit, but is shown <see cref="DisplayDelay"/> behind shared
+/// time, so that most events arrive before they are drawn and nothing jumps.
 /// </summary>
 /// <remarks>
-/// The price is paid always and by everybody: all that is seen is old by the delay, what this peer itself does included. That is input latency, which no other
-/// strategy has. An event that comes later than the delay is seen to jump as with any other.
+/// Every player pays the price all the time: everything is seen late by the delay, including this peer's own actions. That is input
+/// latency, which no other strategy has. An event that arrives later than the delay causes a visible jump, as with any other strategy.
 /// </remarks>
 internal sealed class Interpolation : ILateEventStrategy
 {
-    /// <summary>How far behind shared time the world is shown where nothing else is said: 100 ms.</summary>
+    /// <summary>The default delay behind shared time: 100 ms.</summary>
     public static readonly SimDuration DefaultDelay = SimDuration.FromMilliseconds(100);
 
-    /// <summary>The longest delay: 5 s, as the longest history.</summary>
+    /// <summary>The longest delay: 5 s, like the longest history.</summary>
     public static readonly SimDuration MaxDelay = SimDuration.FromSeconds(5);
 
-    /// <summary>Shows the world that far behind shared time, 0 to 5 s; default 100 ms.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">The delay is out of its range.</exception>
+    /// <summary>Creates the strategy with a delay behind shared time, 0 to 5 s; default 100 ms.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The delay is out of range.</exception>
     public Interpolation(SimDuration? delay = null)
     {
         DisplayDelay = delay ?? DefaultDelay;

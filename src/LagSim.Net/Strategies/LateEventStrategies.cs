@@ -4,18 +4,18 @@ using LagSim.Time;
 
 namespace LagSim.Net.Strategies;
 
-/// <summary>Every strategy there is, and the name of each on the command line and in reports.</summary>
+/// <summary>The list of strategies, and the name of each on the command line and in reports.</summary>
 internal static class LateEventStrategies
 {
-    /// <summary>The name of the strategy that is used where nothing else is said.</summary>
+    /// <summary>The name of the default strategy.</summary>
     internal const string Default = "healing";
 
     /// <summary>All names, the simplest first.</summary>
     internal static IReadOnlyList<string> Names { get; } = new[] { "none", "latency-forward", "interpolation", "full-rollback", "healing" };
 
-    /// <summary>The strategy of that name.</summary>
+    /// <summary>Returns the strategy of that name.</summary>
     /// <param name="name">One of <see cref="Names"/>.</param>
-    /// <exception cref="ArgumentException">There is none of that name, and the message lists what there is.</exception>
+    /// <exception cref="ArgumentException">There is no strategy of that name; the message lists those that exist.</exception>
     internal static LateEventStrategy OfName(string name) => name switch
     {
         "none" => LateEventStrategy.ApplyOnArrival,
@@ -26,12 +26,12 @@ internal static class LateEventStrategies
         _ => throw new ArgumentException($"There is no strategy '{name}'; there are {string.Join(", ", Names)}.", nameof(name)),
     };
 
-    /// <summary>A new instance of a strategy.</summary>
-    /// <param name="strategy">Which.</param>
+    /// <summary>Creates an instance of a strategy.</summary>
+    /// <param name="strategy">The strategy.</param>
     /// <param name="displayDelay">
     /// How far behind shared time interpolation shows the world, 0 to 5 s; default 100 ms. The others show the present.
     /// </param>
-    /// <exception cref="ArgumentException">There is no such strategy, or the delay is out of its range.</exception>
+    /// <exception cref="ArgumentException">There is no such strategy, or the delay is out of range.</exception>
     internal static ILateEventStrategy Create(LateEventStrategy strategy, SimDuration? displayDelay = null) => strategy switch
     {
         LateEventStrategy.ApplyOnArrival => new ApplyOnArrival(),
@@ -45,9 +45,9 @@ internal static class LateEventStrategies
             $"There is no such strategy; there are {string.Join(", ", Enum.GetNames(typeof(LateEventStrategy)))}."),
     };
 
-    /// <summary>A new instance of the strategy of that name.</summary>
+    /// <summary>Creates an instance of the strategy of that name.</summary>
     /// <exception cref="ArgumentException">
-    /// There is none of that name, and the message lists what there is; or the delay is out of its range.
+    /// There is no strategy of that name, and the message lists those that exist; or the delay is out of range.
     /// </exception>
     internal static ILateEventStrategy Create(string name, SimDuration? displayDelay = null) => Create(OfName(name), displayDelay);
 }

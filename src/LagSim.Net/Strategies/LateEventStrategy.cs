@@ -1,28 +1,28 @@
 namespace LagSim.Net.Strategies;
 
-/// <summary>What a peer does with an accepted event of another peer, which usually comes late.</summary>
+/// <summary>How a peer handles an accepted event of another peer, which usually arrives late.</summary>
 public enum LateEventStrategy
 {
     /// <summary>
-    /// The event happens at its own time; what it can have touched since, and only that, is simulated again. All peers agree, bit for bit.
+    /// The event happens at its own time; only what it can have touched since is simulated again. All peers agree, bit for bit.
     /// </summary>
     Healing,
 
     /// <summary>
-    /// The event happens at its own time; everything since is simulated again. All peers agree, bit for bit, and every late event costs as
-    /// much.
+    /// The event happens at its own time; everything since is simulated again. All peers agree, bit for bit, and every late event costs
+    /// that much.
     /// </summary>
     FullRollback,
 
     /// <summary>
-    /// As <see cref="Healing"/>, but what is shown lies <see cref="Sessions.SessionOptions.DisplayDelay"/> behind, so that most events have
-    /// come before they are drawn and nothing jumps. What a player does itself shows that much later.
+    /// As <see cref="Healing"/>, but shown <see cref="Sessions.SessionOptions.DisplayDelay"/> behind, so that most events arrive before
+    /// they are drawn and nothing jumps. A player's own actions show that much later.
     /// </summary>
     Interpolation,
 
     /// <summary>
-    /// The thesis's way: on arrival the body is put where it would be by its own motion had the event come in time. What it would have met
-    /// in between is lost, and with it the agreement of the peers.
+    /// The thesis's method: on arrival the body is put where its own motion would have taken it had the event come in time. Contacts with
+    /// other bodies in between are lost, and with them the agreement of the peers.
     /// </summary>
     LatencyForward,
 

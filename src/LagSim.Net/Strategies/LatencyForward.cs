@@ -5,18 +5,18 @@ using LagSim.Time;
 namespace LagSim.Net.Strategies;
 
 /// <summary>
-/// The thesis's way: on arrival the body is put where it would be had the event come in time, by its own motion and contacts with static
-/// geometry since then. What other bodies would have done to it, or it to them, in between is lost.
+/// The thesis's method: on arrival the body is put where its own motion and contacts with static geometry would have taken it had the event
+/// come in time. Effects of other bodies on it in between, and of it on them, are lost.
 /// </summary>
 internal sealed class LatencyForward : ILateEventStrategy
 {
     /// <inheritdoc/>
     public string Name => "latency-forward";
 
-    /// <summary>False: peers agree only where the late body met no other in between.</summary>
+    /// <summary>False: peers agree only if the late body touched no other in between.</summary>
     public bool PromisesAgreement => false;
 
-    /// <summary>False: what lies before the arrival stays as it was.</summary>
+    /// <summary>False: the past before the arrival stays as it was.</summary>
     public bool RewritesPast => false;
 
     /// <inheritdoc/>

@@ -3,13 +3,13 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// The host's answer to a <see cref="ConnectRequestDatagram"/>, or to an update that comes from another address than those before: bring this cookie back, then I know
-/// that you are where you say you are.
+/// The host's answer to a <see cref="ConnectRequestDatagram"/>, or to an update from a new address: the client must return this cookie to
+/// prove its address.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct ChallengeDatagram
 {
-    /// <summary>An answer of these fields.</summary>
+    /// <summary>Creates an answer from its fields.</summary>
     public ChallengeDatagram(ulong nonce, Token128 cookie)
     {
         Nonce = nonce;
@@ -19,7 +19,7 @@ internal readonly struct ChallengeDatagram
     /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers, or the session id of the update.</summary>
     public ulong Nonce { get; }
 
-    /// <summary>What only the host can make, and only for this address and nonce.</summary>
+    /// <summary>A token that only the host can make, and only for this address and nonce.</summary>
     public Token128 Cookie { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -36,8 +36,8 @@ internal readonly struct ChallengeDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="challenge">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="challenge">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out ChallengeDatagram challenge, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Challenge);

@@ -2,14 +2,21 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client's first word to a host. The host keeps nothing of it; it answers with a <see cref="ChallengeDatagram"/> of the same length.</summary>
-/// <remarks>Immutable, safe on any thread. Where its nonce stands is the same in every version, so that one of another version can be answered.</remarks>
+/// <summary>
+/// A client's first datagram to a host. The host keeps no state for it, and answers with a <see cref="ChallengeDatagram"/> of the same
+/// length.
+/// </summary>
+/// <remarks>
+/// Immutable, safe on any thread. The nonce is at the same place in every version, so that a client of another version can be answered.
+/// </remarks>
 internal readonly struct ConnectRequestDatagram
 {
-    /// <summary>A request of this nonce.</summary>
+    /// <summary>Creates a request with this nonce.</summary>
     public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;
 
-    /// <summary>A number the client drew; every answer carries it, so that an answer to another attempt is not taken for this one's.</summary>
+    /// <summary>
+    /// A random number from the client. Every answer carries it, so that an answer to another attempt is not taken for this one's.
+    /// </summary>
     public ulong Nonce { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -20,15 +27,15 @@ internal readonly struct ConnectRequestDatagram
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.ConnectRequest);
         writer.WriteUInt64(Nonce);
-        writer.WriteUInt64(0); // so that the answer is no longer than what asked for it
+        writer.WriteUInt64(0); // padding, so that the answer is no longer than the request
         writer.WriteUInt64(0);
         return writer.Position;
     }
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="request">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="request">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out ConnectRequestDatagram request, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.ConnectRequest);
@@ -37,7 +44,7 @@ internal readonly struct ConnectRequestDatagram
         return reader.Finish(out refusal);
     }
 
-    /// <summary>The nonce of a connect request of any version; false if the datagram cannot be one.</summary>
+    /// <summary>Reads the nonce of a connect request of any version; false if the datagram cannot be one.</summary>
     internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce)
     {
         nonce = 0;

@@ -1,47 +1,47 @@
 namespace LagSim.Net.Wire;
 
-/// <summary>What a datagram is; the fourth byte of each. Never renumber.</summary>
+/// <summary>The type of a datagram; its fourth byte. Never renumber.</summary>
 internal enum DatagramType : byte
 {
     /// <summary>No datagram.</summary>
     None = 0,
 
-    /// <summary>A <see cref="ConnectRequestDatagram"/>: are you there? In every version.</summary>
+    /// <summary>A <see cref="ConnectRequestDatagram"/>: asks whether a host is there. The same in every version.</summary>
     ConnectRequest = 1,
 
-    /// <summary>A <see cref="WelcomeDatagram"/>: you are in.</summary>
+    /// <summary>A <see cref="WelcomeDatagram"/>: lets a client in.</summary>
     Welcome = 2,
 
-    /// <summary>A <see cref="RefusalDatagram"/>: you are not, because. In every version.</summary>
+    /// <summary>A <see cref="RefusalDatagram"/>: refuses a client, with the reason. The same in every version.</summary>
     Refusal = 3,
 
     /// <summary>An <see cref="UpdateDatagram"/>: clock, acknowledgements, events.</summary>
     Update = 4,
 
-    /// <summary>A <see cref="LeaveDatagram"/>: this is over.</summary>
+    /// <summary>A <see cref="LeaveDatagram"/>: ends a peer's part in the session.</summary>
     Leave = 5,
 
-    /// <summary>A <see cref="ChallengeDatagram"/>: bring this back, to come in, or to show that an address is yours.</summary>
+    /// <summary>A <see cref="ChallengeDatagram"/>: asks for proof of an address, to join or after a change of address.</summary>
     Challenge = 6,
 
-    /// <summary>A <see cref="JoinDatagram"/>: let me in.</summary>
+    /// <summary>A <see cref="JoinDatagram"/>: asks to be let in.</summary>
     Join = 7,
 
-    /// <summary>A <see cref="SnapshotRequestDatagram"/>: send me these pieces.</summary>
+    /// <summary>A <see cref="SnapshotRequestDatagram"/>: requests chunks of the snapshot.</summary>
     SnapshotRequest = 8,
 
-    /// <summary>A <see cref="SnapshotChunkDatagram"/>: a piece of scene and world.</summary>
+    /// <summary>A <see cref="SnapshotChunkDatagram"/>: a chunk of scene and world.</summary>
     SnapshotChunk = 9,
 
-    /// <summary>A <see cref="DesyncQueryDatagram"/>: my world is not yours; which events do you have?</summary>
+    /// <summary>A <see cref="DesyncQueryDatagram"/>: reports a state that differs, and asks for the host's events.</summary>
     DesyncQuery = 10,
 
-    /// <summary>An <see cref="DesyncReportDatagram"/>: this one.</summary>
+    /// <summary>An <see cref="DesyncReportDatagram"/>: one of those events.</summary>
     DesyncReport = 11,
 
-    /// <summary>A <see cref="SeatDatagram"/>: you are this player.</summary>
+    /// <summary>A <see cref="SeatDatagram"/>: gives a client its player number.</summary>
     Seat = 12,
 
-    /// <summary>A <see cref="MoveDatagram"/>: this is my address now.</summary>
+    /// <summary>A <see cref="MoveDatagram"/>: announces a new address.</summary>
     Move = 13,
 }

@@ -3,14 +3,17 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client whose committed state is not the host's asks which accepted events the host has between the last time they agreed and then.</summary>
+/// <summary>
+/// A query from a client whose committed state differs from the host's, for the host's accepted events between the last time they agreed
+/// and then.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct DesyncQueryDatagram
 {
-    /// <summary>The most events that are told in answer to one.</summary>
+    /// <summary>The most events sent in answer to one query.</summary>
     public const int MaxEvents = 64;
 
-    /// <summary>A question of these fields.</summary>
+    /// <summary>Creates a query from its fields.</summary>
     public DesyncQueryDatagram(ulong sessionId, byte peer, uint number, SimTime after, SimTime upTo, uint first)
     {
         SessionId = sessionId;
@@ -27,16 +30,16 @@ internal readonly struct DesyncQueryDatagram
     /// <summary>The client.</summary>
     public byte Peer { get; }
 
-    /// <summary>Counts the client's questions; one that was overtaken is not answered.</summary>
+    /// <summary>Counts the client's queries; one that was overtaken is not answered.</summary>
     public uint Number { get; }
 
-    /// <summary>Asked is for events stamped after this shared time,</summary>
+    /// <summary>The shared time after which the requested events are stamped.</summary>
     public SimTime After { get; }
 
-    /// <summary>and not after this one, which is later.</summary>
+    /// <summary>The shared time up to which, inclusive, they are stamped; later than <see cref="After"/>.</summary>
     public SimTime UpTo { get; }
 
-    /// <summary>The first of them that is wanted, counted from 0 in the order of their stamps.</summary>
+    /// <summary>The first event wanted, counted from 0 in the order of their stamps.</summary>
     public uint First { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -57,8 +60,8 @@ internal readonly struct DesyncQueryDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="query">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="query">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out DesyncQueryDatagram query, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.DesyncQuery);

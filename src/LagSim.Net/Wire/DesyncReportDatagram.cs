@@ -3,11 +3,11 @@ using LagSim.Events;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>One of the events that a host was asked for by a <see cref="DesyncQueryDatagram"/>, or that there is none to tell.</summary>
+/// <summary>One of the events that a <see cref="DesyncQueryDatagram"/> asked for, or the statement that there are none.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct DesyncReportDatagram
 {
-    /// <summary>One of the events.</summary>
+    /// <summary>Creates a report of one event.</summary>
     /// <param name="sessionId">The session.</param>
     /// <param name="total">How many events there are.</param>
     /// <param name="index">Which of them this is, counted from 0.</param>
@@ -23,7 +23,9 @@ internal readonly struct DesyncReportDatagram
         Event = what;
     }
 
-    /// <summary>There is none: whole, because nothing happened in that time; not whole, because the host no longer has all that did.</summary>
+    /// <summary>
+    /// Creates a report without events: whole if nothing happened in that time; not whole if the host no longer has all that did.
+    /// </summary>
     public DesyncReportDatagram(ulong sessionId, bool isWhole)
     {
         SessionId = sessionId;
@@ -35,10 +37,10 @@ internal readonly struct DesyncReportDatagram
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>Whether the host still has all events of the time that was asked for; if not, it tells none.</summary>
+    /// <summary>Whether the host still has all events of the requested time; if not, it sends none.</summary>
     public bool IsWhole { get; }
 
-    /// <summary>How many there are.</summary>
+    /// <summary>The number of events.</summary>
     public uint Total { get; }
 
     /// <summary>Which of them this is, counted from 0, below <see cref="Total"/>; 0 if there are none.</summary>
@@ -47,12 +49,12 @@ internal readonly struct DesyncReportDatagram
     /// <summary>Its place in the host's log, counted from 1; 0 if there are none.</summary>
     public uint LogIndex { get; }
 
-    /// <summary>The event; without meaning if there are none.</summary>
+    /// <summary>The event; meaningless if there are none.</summary>
     public ExternalEvent Event { get; }
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length: <see cref="WireFormat.EmptyDesyncReportBytes"/>, and with an event 4 and the event's more.</returns>
-    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that, or the event cannot travel.</exception>
+    /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that, or the event cannot be encoded.</exception>
     public int Encode(Span<byte> destination)
     {
         WireWriter writer = new(destination);
@@ -72,8 +74,8 @@ internal readonly struct DesyncReportDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="report">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="report">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out DesyncReportDatagram report, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.DesyncReport);

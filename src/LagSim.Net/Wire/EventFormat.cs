@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>How an external event travels, and which events can.</summary>
+/// <summary>How an external event is encoded, and which events can be.</summary>
 /// <remarks>Pure functions, safe on any thread, without allocation.</remarks>
 internal static class EventFormat
 {
@@ -15,10 +15,10 @@ internal static class EventFormat
     /// <summary>The length of the shortest event, a removal, in bytes.</summary>
     public const int MinBytes = HeadBytes + BodyBytes;
 
-    /// <summary>The shortest step of an integrating law that travels: 1 microsecond, to the nearest tick.</summary>
+    /// <summary>The shortest step of an integrating law that can be encoded: 1 microsecond, to the nearest tick.</summary>
     public static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
 
-    /// <summary>The longest step of an integrating law that travels: 1 s.</summary>
+    /// <summary>The longest step of an integrating law that can be encoded: 1 s.</summary>
     public static readonly SimDuration MaxStep = SimDuration.FromSeconds(1);
 
     private const int HeadBytes = 14; // kind, peer, sequence, time
@@ -26,7 +26,7 @@ internal static class EventFormat
     internal const int VectorBytes = 24;
     internal const int SpecBytes = 61;
 
-    /// <summary>An event's length in bytes; 0 for a kind that does not travel.</summary>
+    /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
     public static int EncodedLength(EventKind kind) => kind switch
     {
         EventKind.Spawn => MaxBytes,
@@ -37,8 +37,8 @@ internal static class EventFormat
     };
 
     /// <summary>
-    /// Whether an event can travel: a kind that does, a sequence of at least 1, a time within <see cref="WireFormat.MaxTimeTicks"/>, finite
-    /// numbers, and of a spawn a <see cref="BodySpec"/> within its documented ranges. Whatever is decoded is so.
+    /// Whether an event can be encoded: a kind that can, a sequence of at least 1, a time within <see cref="WireFormat.MaxTimeTicks"/>,
+    /// finite numbers, and for a spawn a <see cref="BodySpec"/> within its documented ranges. Every decoded event is well formed.
     /// </summary>
     public static bool IsWellFormed(in ExternalEvent what) =>
         EncodedLength(what.Kind) > 0
@@ -87,7 +87,7 @@ internal static class EventFormat
         }
     }
 
-    /// <summary>Reads an event; the reader refuses what is not well formed. Never throws.</summary>
+    /// <summary>Reads an event; the reader refuses one that is not well formed. Never throws.</summary>
     /// <returns>The event; <c>default</c> when the reader has refused.</returns>
     public static ExternalEvent Read(ref WireReader reader)
     {
@@ -154,9 +154,9 @@ internal static class EventFormat
         double restitution = reader.ReadDouble();
         MotionLaw flight = (MotionLaw)reader.ReadByte();
         long step = reader.ReadInt64();
-        reader.Require(step != 0); // which the constructor would take for "the default": one meaning, one form
+        reader.Require(step != 0); // the constructor would take it for "the default": one meaning, one encoding
         ForceSet forces = ForceSet.FromMask(reader.ReadUInt32());
-        reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // which is Ballistic
+        reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // that is Ballistic
         return new BodySpec(
             radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble());
     }

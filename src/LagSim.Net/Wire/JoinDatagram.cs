@@ -2,11 +2,11 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client that was challenged asks to be let in. Repeated, unchanged, until it is answered.</summary>
+/// <summary>A challenged client's request to be let in, repeated unchanged until it is answered.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct JoinDatagram
 {
-    /// <summary>A request of these fields.</summary>
+    /// <summary>Creates a request from its fields.</summary>
     public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash, uint foldVersion, byte player = 0, Token128 playerProof = default)
     {
         Nonce = nonce;
@@ -21,22 +21,24 @@ internal readonly struct JoinDatagram
     /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> of this attempt.</summary>
     public ulong Nonce { get; }
 
-    /// <summary>The cookie that the host gave.</summary>
+    /// <summary>The cookie from the host.</summary>
     public Token128 Cookie { get; }
 
-    /// <summary>Shows that the client knows the connect key, without telling it: a keyed hash of nonce and cookie.</summary>
+    /// <summary>Proves that the client knows the connect key, without revealing it: a keyed hash of nonce and cookie.</summary>
     public Token128 Proof { get; }
 
-    /// <summary>The hash of the scene that the client expects; 0: whichever the host has.</summary>
+    /// <summary>The hash of the scene that the client expects; 0 for any.</summary>
     public ulong SceneHash { get; }
 
-    /// <summary>By which version of the rules the client computes worlds; see <see cref="Simulation.FoldVersion"/>.</summary>
+    /// <summary>The version of the rules by which the client computes worlds; see <see cref="Simulation.FoldVersion"/>.</summary>
     public uint FoldVersion { get; }
 
-    /// <summary>The number of the player that the client was before; 0: none, and then there is no <see cref="PlayerProof"/> either.</summary>
+    /// <summary>
+    /// The number of the player that the client was before; 0 for none, and then there is no <see cref="PlayerProof"/> either.
+    /// </summary>
     public byte Player { get; }
 
-    /// <summary>Shows that the client has that player's pass, without telling it: a keyed hash of nonce and cookie.</summary>
+    /// <summary>Proves that the client has that player's pass, without revealing it: a keyed hash of nonce and cookie.</summary>
     public Token128 PlayerProof { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -58,8 +60,8 @@ internal readonly struct JoinDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="join">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="join">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out JoinDatagram join, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Join);

@@ -2,11 +2,11 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A peer is no longer in the session: it says so itself, or the host says it.</summary>
+/// <summary>A notice that a peer is no longer in the session, from the peer itself or from the host.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct LeaveDatagram
 {
-    /// <summary>A notice of these fields.</summary>
+    /// <summary>Creates a notice from its fields.</summary>
     public LeaveDatagram(ulong sessionId, byte peer, LeaveReason reason)
     {
         SessionId = sessionId;
@@ -17,10 +17,10 @@ internal readonly struct LeaveDatagram
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>Who is gone; 0 is the host.</summary>
+    /// <summary>The peer that is gone; 0 is the host.</summary>
     public byte Peer { get; }
 
-    /// <summary>Why.</summary>
+    /// <summary>The reason.</summary>
     public LeaveReason Reason { get; }
 
     private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Kicked;
@@ -28,7 +28,7 @@ internal readonly struct LeaveDatagram
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.LeaveBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
-    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is none of the enum's.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is not a defined value.</exception>
     public int Encode(Span<byte> destination)
     {
         if (!IsWellFormed)
@@ -46,8 +46,8 @@ internal readonly struct LeaveDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="leave">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="leave">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out LeaveDatagram leave, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Leave);

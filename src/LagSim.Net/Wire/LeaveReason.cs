@@ -3,22 +3,22 @@ namespace LagSim.Net.Wire;
 /// <summary>Why a peer is no longer in the session. Never renumber.</summary>
 internal enum LeaveReason : byte
 {
-    /// <summary>It left of its own will.</summary>
+    /// <summary>It left on its own.</summary>
     Left = 1,
 
-    /// <summary>Nothing was heard of it for too long.</summary>
+    /// <summary>It was silent for too long.</summary>
     TimedOut = 2,
 
-    /// <summary>The host ended the session, for everyone.</summary>
+    /// <summary>The host ended the session, for all peers.</summary>
     HostEnded = 3,
 
-    /// <summary>It did not take in what happened as fast as it did.</summary>
+    /// <summary>It fell behind the log: events came faster than it took them in.</summary>
     FellBehind = 4,
 
-    /// <summary>Somebody with the key of the same player came in, from elsewhere.</summary>
+    /// <summary>A client with the same player's key joined from elsewhere.</summary>
     Replaced = 5,
 
-    /// <summary>It is not, or no longer, among the host's clients; the answer to an update of somebody who thinks so.</summary>
+    /// <summary>It is not, or no longer, among the host's clients; the answer to an update from a sender that assumes it is.</summary>
     NotJoined = 6,
 
     /// <summary>The host sent it away: <see cref="Sessions.HostSession.Kick"/> or <see cref="Sessions.HostSession.Ban"/>.</summary>

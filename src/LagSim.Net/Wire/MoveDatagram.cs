@@ -2,11 +2,13 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client whose address has changed brings back the cookie that the host sent to the new one: from then on the host writes there.</summary>
+/// <summary>
+/// A client's answer to a challenge at its new address, with the cookie that the host sent there; the host sends there from then on.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct MoveDatagram
 {
-    /// <summary>A move of these fields.</summary>
+    /// <summary>Creates a move from its fields.</summary>
     public MoveDatagram(ulong sessionId, byte peer, Token128 cookie)
     {
         SessionId = sessionId;
@@ -20,7 +22,7 @@ internal readonly struct MoveDatagram
     /// <summary>The client; 0 if it has no number yet.</summary>
     public byte Peer { get; }
 
-    /// <summary>The cookie of the <see cref="ChallengeDatagram"/> that bore the session id.</summary>
+    /// <summary>The cookie of the <see cref="ChallengeDatagram"/> that carried the session id.</summary>
     public Token128 Cookie { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -38,8 +40,8 @@ internal readonly struct MoveDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="move">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="move">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out MoveDatagram move, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Move);

@@ -2,11 +2,11 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host does not let a client in, and says why.</summary>
+/// <summary>The host's refusal of a client, with the reason.</summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. Its layout is the same in every version.</remarks>
 internal readonly struct RefusalDatagram
 {
-    /// <summary>An answer of these fields.</summary>
+    /// <summary>Creates an answer from its fields.</summary>
     public RefusalDatagram(ulong nonce, RefusalReason reason)
     {
         Nonce = nonce;
@@ -16,7 +16,7 @@ internal readonly struct RefusalDatagram
     /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers.</summary>
     public ulong Nonce { get; }
 
-    /// <summary>Why not.</summary>
+    /// <summary>The reason.</summary>
     public RefusalReason Reason { get; }
 
     private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.Banned;
@@ -24,7 +24,7 @@ internal readonly struct RefusalDatagram
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
-    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is none of the enum's.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Reason"/> is not a defined value.</exception>
     public int Encode(Span<byte> destination)
     {
         if (!IsWellFormed)
@@ -41,8 +41,8 @@ internal readonly struct RefusalDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="answer">What it says; meaningless when it is refused.</param>
-    /// <param name="refusal">Why the datagram is not taken, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="answer">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">Why the datagram is not accepted, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out RefusalDatagram answer, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Refusal);
@@ -51,7 +51,7 @@ internal readonly struct RefusalDatagram
         return reader.Finish(out refusal);
     }
 
-    /// <summary>A refusal of any version, and that version; false if the datagram cannot be one.</summary>
+    /// <summary>Reads a refusal of any version, and that version; false if the datagram cannot be one.</summary>
     internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce, out byte version)
     {
         nonce = 0;

@@ -12,7 +12,7 @@ internal enum RefusalReason : byte
     /// <summary>The client's connect key is not the host's.</summary>
     WrongKey = 3,
 
-    /// <summary>The session takes no more peers.</summary>
+    /// <summary>The session has no free place.</summary>
     Full = 4,
 
     /// <summary>The world has grown too large to be copied.</summary>
@@ -21,9 +21,9 @@ internal enum RefusalReason : byte
     /// <summary>The client computes worlds by other rules: another <see cref="Simulation.FoldVersion"/>.</summary>
     FoldDiffers = 6,
 
-    /// <summary>As many as may come from one address are there.</summary>
+    /// <summary>The address has the most clients that it may have.</summary>
     TooManyFromOneAddress = 7,
 
-    /// <summary>The host lets nobody in from where the client is: <see cref="Sessions.HostSession.Ban"/>.</summary>
+    /// <summary>The host lets no client in from that machine: <see cref="Sessions.HostSession.Ban"/>.</summary>
     Banned = 8,
 }

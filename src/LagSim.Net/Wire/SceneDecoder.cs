@@ -4,8 +4,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>Makes a scene of bytes that anyone may have sent, part by part, and tells in a sentence what is wrong with them.</summary>
-/// <remarks>What is read goes through a <see cref="SceneBuilder"/>, so that the wire lets nothing in that a program could not build itself.</remarks>
+/// <summary>Decodes a scene from untrusted bytes, part by part, and describes in a sentence what is wrong with them.</summary>
+/// <remarks>
+/// Everything goes through a <see cref="SceneBuilder"/>, so that the wire lets in nothing that a program could not build itself.
+/// </remarks>
 internal ref struct SceneDecoder
 {
     private readonly IReadOnlyList<IAcceleration>? known;
@@ -14,7 +16,7 @@ internal ref struct SceneDecoder
     private WireReader reader;
     private string? error;
 
-    // What is being read, for the sentence.
+    // The part being read, for the sentence.
     private string part;
     private int number;
 
@@ -208,12 +210,12 @@ internal ref struct SceneDecoder
         builder.WithPeriodicBox(size);
     }
 
-    /// <summary>Begins the parts of one kind. More than are allowed, or than the bytes that are left can hold, are refused at once.</summary>
+    /// <summary>Begins the parts of one kind. More than are allowed, or than the remaining bytes can hold, are refused at once.</summary>
     private int Begin(string what, int most, int leastBytes)
     {
         if (!IsSound)
         {
-            return 0; // what was read when it went wrong stays the one to name
+            return 0; // keep the part that was read when it went wrong
         }
 
         part = what;
@@ -255,7 +257,7 @@ internal ref struct SceneDecoder
         return null;
     }
 
-    /// <summary>Refuses what the builder put right: every scene has one form on the wire.</summary>
+    /// <summary>Refuses what the builder corrected: every scene has exactly one encoding.</summary>
     private bool IsTheOneForm(Scene scene)
     {
         for (int i = 0; i < normals.Count; i++)

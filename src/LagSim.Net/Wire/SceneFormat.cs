@@ -5,21 +5,23 @@ using LagSim.Scenes;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>How a whole scene travels: all of it but the code of accelerations that a program supplies, which go by name and author's version.</summary>
+/// <summary>
+/// How a whole scene is encoded: everything except the code of custom accelerations, which go by name and author's version.
+/// </summary>
 /// <remarks>
-/// <para>The layout stands in <c>docs/RECORDINGS.md</c>. A scene has one form: encoding again what was decoded gives the same bytes, but
+/// <para>The layout is in <c>docs/RECORDINGS.md</c>. A scene has one encoding: encoding again what was decoded gives the same bytes, except
 /// for a -0.0, which is accepted, read as 0.0, and never written.</para>
 /// <para>Pure functions, safe on any thread.</para>
 /// </remarks>
 internal static class SceneFormat
 {
     /// <summary>
-    /// The most bodies that travel. To find those that overlap takes, in the worst arrangement, the square of their number; at this
-    /// limit about a second.
+    /// The most bodies that can be encoded. Finding overlaps takes, in the worst arrangement, the square of their number; at this limit
+    /// about a second.
     /// </summary>
     public const int MaxBodies = 10_000;
 
-    /// <summary>The most planes that travel, and the most static spheres. Every body is checked against each.</summary>
+    /// <summary>The most planes that can be encoded, and the most static spheres. Every body is checked against each.</summary>
     public const int MaxStaticParts = 1_000;
 
     /// <summary>The longest scene, in bytes.</summary>
@@ -32,12 +34,13 @@ internal static class SceneFormat
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24; // both kinds: a vector and three numbers
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
-    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (3 * 2); // gravity, resolution, contact tolerance, smallest radius, spawners, four counts
+    // Gravity, resolution, contact tolerance, smallest radius, spawners, four counts.
+    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (3 * 2);
 
-    /// <summary>A scene as bytes. Cost: O(n) in its parts.</summary>
+    /// <summary>Encodes a scene. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
-    /// It cannot travel: it has more than <see cref="MaxBodies"/> bodies, more than <see cref="MaxStaticParts"/> planes or static spheres. The
-    /// sentence says which.
+    ///  It cannot travel: it has more than <see cref="MaxBodies"/> bodies, more than <see cref="MaxStaticParts"/> planes or static spheres.
+    /// The sentence says which.
     /// </exception>
     public static byte[] Encode(Scene scene)
     {
@@ -97,9 +100,9 @@ internal static class SceneFormat
 
     /// <summary>Reads a scene; never throws, whatever the bytes are, and allocates no more than a few times their number.</summary>
     /// <param name="bytes">The whole scene and nothing else.</param>
-    /// <param name="known">The accelerations that are there for a scene to use; null for none. A scene that needs another is refused.</param>
+    /// <param name="known">The accelerations available to the scene; null for none. A scene that needs another is refused.</param>
     /// <param name="scene">The scene, of the same <see cref="Scene.Hash"/> as the one that was encoded; null when refused.</param>
-    /// <param name="error">When refused, a sentence that tells why, the builder's own where the builder refuses; else null.</param>
+    /// <param name="error">When refused, a sentence that says why, the builder's own if the builder refuses; otherwise null.</param>
     /// <remarks>Cost: that of <see cref="SceneBuilder.Build"/>, see <see cref="MaxBodies"/>.</remarks>
     public static bool TryDecode(
         ReadOnlySpan<byte> bytes,

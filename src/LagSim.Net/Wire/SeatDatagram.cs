@@ -2,11 +2,13 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host gives a client that is ready its place among the players. Repeated until an update of the client bears the number.</summary>
+/// <summary>
+/// The host's assignment of a player number to a client that is ready, repeated until an update of the client carries the number.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct SeatDatagram
 {
-    /// <summary>A place of these fields.</summary>
+    /// <summary>Creates a place from its fields.</summary>
     public SeatDatagram(ulong sessionId, byte peer, uint lastSequence, Token128 pass)
     {
         SessionId = sessionId;
@@ -21,10 +23,10 @@ internal readonly struct SeatDatagram
     /// <summary>The client's peer number, 1 to 255.</summary>
     public byte Peer { get; }
 
-    /// <summary>The last sequence number that stands in an event of that peer number, of whoever had it before; the client's first event is the next.</summary>
+    /// <summary>The last sequence number in an event of that peer number, by any holder; the client's first event is the next.</summary>
     public uint LastSequence { get; }
 
-    /// <summary>What shows, after a silence, that one is the same player: see <see cref="JoinDatagram.PlayerProof"/>. Secret.</summary>
+    /// <summary>Proves, after a silence, that the client is the same player: see <see cref="JoinDatagram.PlayerProof"/>. Secret.</summary>
     public Token128 Pass { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -49,8 +51,8 @@ internal readonly struct SeatDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="seat">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="seat">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SeatDatagram seat, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Seat);

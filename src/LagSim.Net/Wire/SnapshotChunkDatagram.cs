@@ -2,14 +2,14 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A piece of the copy of scene and world that a client fetches.</summary>
+/// <summary>A chunk of the snapshot of scene and world that a client downloads.</summary>
 /// <remarks>Its bytes are those of the datagram it was read from, or will be written from; valid as long as those are.</remarks>
 internal readonly ref struct SnapshotChunkDatagram
 {
-    /// <summary>The length of every piece but the last.</summary>
+    /// <summary>The length of every chunk but the last.</summary>
     public const int MaxData = WireFormat.MaxBytes - WireFormat.EmptySnapshotChunkBytes;
 
-    /// <summary>A piece of these fields.</summary>
+    /// <summary>Creates a chunk from its fields.</summary>
     public SnapshotChunkDatagram(ulong sessionId, uint index, ReadOnlySpan<byte> data)
     {
         SessionId = sessionId;
@@ -20,7 +20,7 @@ internal readonly ref struct SnapshotChunkDatagram
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>Which piece, counted from 0.</summary>
+    /// <summary>The index of the chunk, counted from 0.</summary>
     public uint Index { get; }
 
     /// <summary>Its bytes, 1 to <see cref="MaxData"/>.</summary>
@@ -47,8 +47,8 @@ internal readonly ref struct SnapshotChunkDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="chunk">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="chunk">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SnapshotChunkDatagram chunk, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotChunk);

@@ -7,10 +7,10 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>How a <see cref="WorldSnapshot"/> travels and is kept: every bit of it, and nothing that was not asked for.</summary>
+/// <summary>How a <see cref="WorldSnapshot"/> is encoded, on the wire and in files: exact to the bit.</summary>
 /// <remarks>
-/// Pure functions, safe on any thread. What is read is well formed; whether it is a world of a scene
-/// <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/> tells. The layout stands in <c>docs/WIRE.md</c>.
+/// Pure functions, safe on any thread. A decoded snapshot is well formed; whether it is a world of a scene is checked by
+/// <see cref="Simulation(Scene, WorldSnapshot, SimulationOptions)"/>. The layout is in <c>docs/WIRE.md</c>.
 /// </remarks>
 internal static class SnapshotFormat
 {
@@ -19,13 +19,14 @@ internal static class SnapshotFormat
     private const int DenseBytes = 72;
     private const int SpinBytes = 48; // spin and its rate
     private const int HoldBytes = 57; // cubic, peer, offset, keyframe
-    private const int MemberBytes = 18; // centre, still since, how many contacts
+    private const int MemberBytes = 18; // centre, still since, number of contacts
     private const int ContactBytes = 61; // partner, surface, whether it holds, push, turn
 
-    /// <summary>The bytes of a snapshot.</summary>
+    /// <summary>Encodes a snapshot.</summary>
     /// <exception cref="ArgumentException">
-    /// A body has a number that is not finite, a negative support, a contact with a surface below <see cref="PersistentContact.NoSurface"/>,
-    /// or more than 65,535 contacts, none of which a world has; or all of them take 2 GiB or more.
+    /// A body has a number that is not finite, a negative support, a contact with a surface below
+    /// <see cref="PersistentContact.NoSurface"/>, or more than 65,535 contacts, none of which a world has; or the encoding takes 2 GiB or
+    /// more.
     /// </exception>
     public static byte[] Encode(WorldSnapshot snapshot)
     {
@@ -50,9 +51,9 @@ internal static class SnapshotFormat
     }
 
     /// <summary>Reads a snapshot; never throws, and takes memory only for bodies whose bytes are there.</summary>
-    /// <param name="bytes">All of it.</param>
-    /// <param name="snapshot">The snapshot, if that is what the bytes are.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="bytes">The whole encoding.</param>
+    /// <param name="snapshot">The snapshot, if the bytes are one.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> bytes, [NotNullWhen(true)] out WorldSnapshot? snapshot, out WireRefusal refusal)
     {
         WireReader reader = new(bytes, int.MaxValue);
@@ -72,11 +73,11 @@ internal static class SnapshotFormat
         return accepted;
     }
 
-    /// <summary>Whether a snapshot's times can travel, and are of a world that has begun.</summary>
+    /// <summary>Whether a snapshot's times can be encoded, and are of a world that has begun.</summary>
     internal static bool IsInRange(WorldSnapshot snapshot) =>
         WireFormat.IsInRange(snapshot.Start) && WireFormat.IsInRange(snapshot.Time) && snapshot.Time > snapshot.Start;
 
-    /// <summary>How many bytes a snapshot takes.</summary>
+    /// <summary>The encoded length of a snapshot, in bytes.</summary>
     internal static long EncodedLength(WorldSnapshot snapshot)
     {
         long length = HeadBytes;
@@ -163,7 +164,7 @@ internal static class SnapshotFormat
         writer.WriteInt64(body.Centre.Ticks);
         writer.WriteInt64(body.StillSince.Ticks);
         writer.WriteUInt16((ushort)body.Contacts.Length);
-        foreach (PersistentContact contact in body.Contacts.ToArray()) // an array, for a read-only span does not link everywhere
+        foreach (PersistentContact contact in body.Contacts.ToArray()) // an array, since a read-only span does not link everywhere
         {
             writer.WriteUInt64(contact.Partner.Packed);
             writer.WriteUInt32(contact.Surface >= PersistentContact.NoSurface ? unchecked((uint)contact.Surface)
@@ -193,7 +194,7 @@ internal static class SnapshotFormat
         return contacts;
     }
 
-    /// <summary>Whether a body of that law is one of an island: it steps, or rests and no plane alone carries it.</summary>
+    /// <summary>Whether a body with that law belongs to an island: it is stepped, or rests and no plane alone supports it.</summary>
     private static bool IsMember(MotionLaw law, int supports) => law == MotionLaw.Constrained || (law == MotionLaw.Resting && supports == 0);
 
     private static bool Turns(in BodySnapshot body) => body.Spin != Vector3D.Zero || body.SpinRate != Vector3D.Zero;
@@ -239,7 +240,7 @@ internal static class SnapshotFormat
         reader.Require(turns <= 1);
         Vector3D spin = turns == 1 ? ReadExactly(ref reader) : default;
         Vector3D spinRate = turns == 1 ? ReadExactly(ref reader) : default;
-        reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // one form
+        reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
         SimTime centre = default;
         SimTime stillSince = default;
         PersistentContact[] contacts = IsMember(law, supports) ? ReadContacts(ref reader, out centre, out stillSince) : Array.Empty<PersistentContact>();
@@ -248,10 +249,10 @@ internal static class SnapshotFormat
             spin, spinRate, centre, stillSince, contacts);
     }
 
-    /// <summary>Whether a path of that law of flight has more than a parabola's coefficients.</summary>
+    /// <summary>Whether a path with that flight law has more than a parabola's coefficients.</summary>
     private static bool IsDense(MotionLaw law) => law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54;
 
-    // Also of zeros the sign: what goes on from here goes on from the very bits.
+    // Keeps the sign of zeros too, since the simulation continues from the very bits.
     private static void WriteExactly(ref WireWriter writer, in Vector3D value)
     {
         if (!value.IsFinite)

@@ -2,14 +2,14 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A client asks for pieces of the copy that it was told of.</summary>
+/// <summary>A client's request for chunks of the announced snapshot.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct SnapshotRequestDatagram
 {
-    /// <summary>The most pieces that are asked for at once.</summary>
+    /// <summary>The most chunks requested at once.</summary>
     public const int MaxChunks = 64;
 
-    /// <summary>A request of these fields.</summary>
+    /// <summary>Creates a request from its fields.</summary>
     public SnapshotRequestDatagram(ulong sessionId, byte peer, uint number, uint first, ulong wanted)
     {
         SessionId = sessionId;
@@ -28,10 +28,10 @@ internal readonly struct SnapshotRequestDatagram
     /// <summary>Counts the client's requests; one that was overtaken is not answered.</summary>
     public uint Number { get; }
 
-    /// <summary>The first piece that is missing, counted from 0.</summary>
+    /// <summary>The first chunk that is missing, counted from 0.</summary>
     public uint First { get; }
 
-    /// <summary>Bit n: piece <see cref="First"/> + n is wanted.</summary>
+    /// <summary>Bit n: chunk <see cref="First"/> + n is wanted.</summary>
     public ulong Wanted { get; }
 
     /// <summary>Writes the datagram.</summary>
@@ -51,8 +51,8 @@ internal readonly struct SnapshotRequestDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="request">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="request">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SnapshotRequestDatagram request, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotRequest);

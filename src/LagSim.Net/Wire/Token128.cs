@@ -3,17 +3,17 @@ using System.Buffers.Binary;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>Sixteen bytes that only who has a secret can make.</summary>
-/// <remarks>Immutable, safe on any thread. Comparing takes the same time wherever two differ.</remarks>
+/// <summary>Sixteen bytes that only the holder of a secret can make.</summary>
+/// <remarks>Immutable, safe on any thread. Comparison takes constant time.</remarks>
 internal readonly struct Token128 : IEquatable<Token128>
 {
-    /// <summary>How many bytes it has.</summary>
+    /// <summary>The length in bytes.</summary>
     public const int Bytes = 16;
 
     private readonly ulong low;
     private readonly ulong high;
 
-    /// <summary>The first sixteen of some bytes.</summary>
+    /// <summary>Takes the first sixteen bytes of a span.</summary>
     /// <exception cref="ArgumentException">There are fewer.</exception>
     public Token128(ReadOnlySpan<byte> source)
     {
@@ -32,10 +32,10 @@ internal readonly struct Token128 : IEquatable<Token128>
         this.high = high;
     }
 
-    /// <summary>The first eight of them.</summary>
+    /// <summary>The first eight bytes.</summary>
     internal ulong First => low;
 
-    /// <summary>The other eight.</summary>
+    /// <summary>The other eight bytes.</summary>
     internal ulong Second => high;
 
     /// <inheritdoc/>

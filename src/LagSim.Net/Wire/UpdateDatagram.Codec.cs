@@ -3,14 +3,16 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-// How an update becomes bytes and comes back; the layout is in docs/WIRE.md.
+// How an update is encoded and decoded; the layout is in docs/WIRE.md.
 internal sealed partial class UpdateDatagram
 {
     /// <summary>Writes the datagram.</summary>
     /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxBytes"/> always do.</param>
     /// <returns>Its length, <see cref="EncodedLength"/>.</returns>
     /// <exception cref="ArgumentException">The destination is too short, or a time is out of range.</exception>
-    /// <exception cref="InvalidOperationException">The numbers of the entries do not end by 4,294,967,295, or bits of an echo are set without its number.</exception>
+    /// <exception cref="InvalidOperationException">
+    /// The numbers of the entries do not end by 4,294,967,295, or bits of an echo are set without its number.
+    /// </exception>
     public int Encode(Span<byte> destination)
     {
         if (!AreIndicesInRange)
@@ -62,7 +64,7 @@ internal sealed partial class UpdateDatagram
 
     /// <summary>Reads a datagram into this object; never throws, never allocates. A refused one leaves it cleared.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public bool TryDecode(ReadOnlySpan<byte> datagram, out WireRefusal refusal)
     {
         Clear();

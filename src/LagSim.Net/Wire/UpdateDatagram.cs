@@ -4,11 +4,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>What peers send each other all the time: clock readings, acknowledgements, the watermark, and events not yet acknowledged.</summary>
+/// <summary>
+/// The datagram that peers exchange all the time: clock readings, acknowledgements, the watermark, and events not yet acknowledged.
+/// </summary>
 /// <remarks>
-/// <para>One object, used again and again: encoding and decoding allocate nothing. For one thread at a time.</para>
-/// <para>Times that may be missing say so with <see cref="SimTime.MinValue"/>. All times are within <see cref="WireFormat.MaxTimeTicks"/>
-/// of their origin.</para>
+/// <para>One object, reused: encoding and decoding allocate nothing. For one thread at a time.</para>
+/// <para>A missing time is <see cref="SimTime.MinValue"/>. All times are within <see cref="WireFormat.MaxTimeTicks"/> of their
+/// origin.</para>
 /// </remarks>
 internal sealed partial class UpdateDatagram
 {
@@ -24,7 +26,7 @@ internal sealed partial class UpdateDatagram
     private const byte HashFlag = 1;
     private const byte ReadyFlag = 2;
     private const byte StartFlag = 4;
-    private const int HashesShift = 3; // three bits of the flags: how many hashes, less one
+    private const int HashesShift = 3; // three bits of the flags: the number of hashes, less one
 
     private readonly UpdateEntry[] entries = new UpdateEntry[MaxEntries];
     private readonly ulong[] hashes = new ulong[MaxHashes];
@@ -32,7 +34,7 @@ internal sealed partial class UpdateDatagram
     private int count;
     private int entryBytes;
 
-    /// <summary>A cleared update.</summary>
+    /// <summary>Creates a cleared update.</summary>
     public UpdateDatagram() => Clear();
 
     /// <summary>The session.</summary>
@@ -47,67 +49,74 @@ internal sealed partial class UpdateDatagram
     /// <summary>When this was sent, by the sender's own clock.</summary>
     public SimTime Sent { get; set; }
 
-    /// <summary><see cref="Number"/> of the newest update that the sender has of the addressee; 0: none yet.</summary>
+    /// <summary><see cref="Number"/> of the newest update that the sender has received from the addressee; 0 for none yet.</summary>
     public uint EchoNumber { get; set; }
 
     /// <summary>
-    /// Which of the 32 updates before that one the sender has: bit n is set for <see cref="EchoNumber"/> - 1 - n. 0 without <see cref="EchoNumber"/>.
+    /// Which of the 32 updates before that one the sender has: bit n is set for <see cref="EchoNumber"/> - 1 - n. 0 without
+    /// <see cref="EchoNumber"/>.
     /// </summary>
     public uint EchoBits { get; set; }
 
-    /// <summary>When the newest one arrived, by the sender's own clock. Without <see cref="EchoNumber"/> it does not travel.</summary>
+    /// <summary>When the newest one arrived, by the sender's own clock. Not sent without <see cref="EchoNumber"/>.</summary>
     public SimTime EchoReceived { get; set; }
 
-    /// <summary>The shared time at which the session starts; <see cref="SimTime.MinValue"/>: not decided, or the addressee knows it.</summary>
+    /// <summary>
+    /// The shared time at which the session starts; <see cref="SimTime.MinValue"/> if not decided, or known to the addressee.
+    /// </summary>
     public SimTime Start { get; set; }
 
-    /// <summary>The shared time before which no accepted event comes after this update's last entry; <see cref="SimTime.MinValue"/>: none.</summary>
+    /// <summary>
+    /// The shared time before which no accepted event comes after this update's last entry; <see cref="SimTime.MinValue"/> for none.
+    /// </summary>
     public SimTime Watermark { get; set; }
 
     /// <summary>
-    /// From a client: how many entries of the host's log it has without a gap. From the host: up to which of the client's own sequence
-    /// numbers it has all.
+    /// From a client: how many entries of the host's log it has without a gap. From the host: up to which sequence number it has all of the
+    /// client's own events.
     /// </summary>
     public uint EventsReceived { get; set; }
 
-    /// <summary>The sender's clock is good enough to begin.</summary>
+    /// <summary>Whether the sender's clock is good enough to begin.</summary>
     public bool Ready { get; set; }
 
-    /// <summary>Whether <see cref="HashTime"/> and <see cref="StateHashes"/> travel.</summary>
+    /// <summary>Whether <see cref="HashTime"/> and <see cref="StateHashes"/> are sent.</summary>
     public bool HasStateHash => hashCount > 0;
 
     /// <summary>The committed shared time of the first of <see cref="StateHashes"/>; zero without one.</summary>
     public SimTime HashTime { get; private set; }
 
     /// <summary>
-    /// The hashes of the sender's committed states, newest first, up to <see cref="MaxHashes"/>: each of the instant one commit interval before that of the one
-    /// before it. Valid until the next change to this object.
+    /// The hashes of the sender's committed states, newest first, up to <see cref="MaxHashes"/>; each is one commit interval before the
+    /// previous one. Valid until the next change to this object.
     /// </summary>
     public ReadOnlySpan<ulong> StateHashes => hashes.AsSpan(0, hashCount);
 
-    /// <summary>The same for this library; see <see cref="Held"/>.</summary>
+    /// <summary>The same for use in this library; see <see cref="Held"/>.</summary>
     internal Span<ulong> Hashes => hashes.AsSpan(0, hashCount);
 
     /// <summary>
-    /// The number of the first entry: from the host its index in the log. The entry after it has the next number, and none is above
-    /// 4,294,967,295. It may be beyond what the addressee has: what is between is in other updates.
+    /// The number of the first entry; for the host its index in the log. The next entry has the next number, and none is above
+    /// 4,294,967,295. It may be beyond what the addressee has; the entries between are in other updates.
     /// </summary>
     public uint FirstIndex { get; set; }
 
     /// <summary>The entries, valid until the next change to this object.</summary>
     public ReadOnlySpan<UpdateEntry> Entries => Held;
 
-    /// <summary>The same for this library, which indexes no read-only span: some Mono runtimes cannot link that (docs/ARCHITECTURE.md).</summary>
+    /// <summary>
+    /// The same for use in this library, which never indexes a read-only span: some Mono runtimes cannot link that (docs/ARCHITECTURE.md).
+    /// </summary>
     internal Span<UpdateEntry> Held => entries.AsSpan(0, count);
 
-    /// <summary>The datagram's length as it stands, in bytes.</summary>
+    /// <summary>The current encoded length of the datagram, in bytes.</summary>
     public int EncodedLength => WireFormat.EmptyUpdateBytes + HashBytes + StartBytes + entryBytes;
 
     private int HashBytes => hashCount == 0 ? 0 : WireFormat.StateHashBytes + ((hashCount - 1) * sizeof(ulong));
 
     private int StartBytes => Start == SimTime.MinValue ? 0 : WireFormat.StartBytes;
 
-    /// <summary>Makes every field zero, false or none, and takes all entries out.</summary>
+    /// <summary>Makes every field zero, false or none, and removes all entries.</summary>
     public void Clear()
     {
         SessionId = 0;
@@ -120,13 +129,13 @@ internal sealed partial class UpdateDatagram
         ClearEntries();
     }
 
-    /// <summary>Takes all entries out.</summary>
+    /// <summary>Removes all entries.</summary>
     public void ClearEntries() => count = entryBytes = 0;
 
-    /// <summary>Puts the hash of one more committed state at the end.</summary>
-    /// <param name="time">Of the first, its committed shared time; of others it is not looked at.</param>
+    /// <summary>Adds the hash of one more committed state at the end.</summary>
+    /// <param name="time">For the first hash its committed shared time; ignored for the others.</param>
     /// <param name="hash">The hash.</param>
-    /// <returns>False where there are <see cref="MaxHashes"/>.</returns>
+    /// <returns>False if there are <see cref="MaxHashes"/> already.</returns>
     public bool TryAddHash(SimTime time, ulong hash)
     {
         if (hashCount == MaxHashes)
@@ -139,13 +148,15 @@ internal sealed partial class UpdateDatagram
         return true;
     }
 
-    /// <summary>Puts one more entry at the end, if it fits; room for the start is always kept. Hashes are put in before.</summary>
-    /// <returns>False when the datagram is full for an event of this kind.</returns>
-    /// <exception cref="ArgumentException">The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.</exception>
+    /// <summary>Adds an entry at the end, if it fits; room for the start is always reserved. Add hashes first.</summary>
+    /// <returns>False if the datagram is full for an event of this kind.</returns>
+    /// <exception cref="ArgumentException">
+    /// The event is not <see cref="EventFormat.IsWellFormed"/>, or the verdict none of the enum's.
+    /// </exception>
     public bool TryAdd(Verdict verdict, in ExternalEvent what) => TryAdd(new UpdateEntry(verdict, what));
 
-    /// <summary>Puts the addressee's own event of that number at the end, if it fits.</summary>
-    /// <returns>False when the datagram is full.</returns>
+    /// <summary>Adds the addressee's own event of that number at the end, if it fits.</summary>
+    /// <returns>False if the datagram is full.</returns>
     /// <exception cref="ArgumentException">The number is 0, or the verdict none of the enum's.</exception>
     public bool TryAddOwn(Verdict verdict, uint sequence)
     {
@@ -158,7 +169,7 @@ internal sealed partial class UpdateDatagram
         return TryAdd(new UpdateEntry(verdict, sequence));
     }
 
-    /// <summary>Puts an entry at the end, if it fits, as the two above do.</summary>
+    /// <summary>Adds an entry at the end, if it fits, as the two above do.</summary>
     internal bool TryAdd(in UpdateEntry entry)
     {
         if (!entry.IsOwn && (!EventFormat.IsWellFormed(entry.Event) || entry.Verdict > Verdict.Invalid))

@@ -2,13 +2,13 @@ using LagSim.Events;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>An external event and what the host said about it, as one entry of an <see cref="UpdateDatagram"/>.</summary>
+/// <summary>An external event and the host's verdict on it, as one entry of an <see cref="UpdateDatagram"/>.</summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no entry.</remarks>
 internal readonly struct UpdateEntry
 {
     private readonly uint sequence;
 
-    /// <summary>An entry that tells the event.</summary>
+    /// <summary>Creates an entry with the whole event.</summary>
     public UpdateEntry(Verdict verdict, in ExternalEvent what)
     {
         Verdict = verdict;
@@ -16,7 +16,7 @@ internal readonly struct UpdateEntry
         sequence = what.Sequence;
     }
 
-    /// <summary>An entry for who did it, and so has the event: only its number.</summary>
+    /// <summary>Creates an entry for the author of the event, which has it already: only its number.</summary>
     public UpdateEntry(Verdict verdict, uint ownSequence)
     {
         Verdict = verdict;
@@ -25,15 +25,15 @@ internal readonly struct UpdateEntry
         IsOwn = true;
     }
 
-    /// <summary>What the host said.</summary>
+    /// <summary>The host's verdict.</summary>
     public Verdict Verdict { get; }
 
-    /// <summary>Whether the event is the addressee's own, of which only the number travels.</summary>
+    /// <summary>Whether the event is the addressee's own, of which only the number is sent.</summary>
     public bool IsOwn { get; }
 
-    /// <summary>The event's number at the peer who did it.</summary>
+    /// <summary>The event's sequence number at its author.</summary>
     public uint Sequence => sequence;
 
-    /// <summary>The event; the default of an own one.</summary>
+    /// <summary>The event; the default for an own one.</summary>
     public ExternalEvent Event { get; }
 }

@@ -1,9 +1,9 @@
 namespace LagSim.Net.Wire;
 
-/// <summary>What the host said about an external event. Given once, never changed. Never renumber.</summary>
+/// <summary>The host's verdict on an external event. Given once, never changed. Never renumber.</summary>
 public enum Verdict : byte
 {
-    /// <summary>Nothing yet; the only verdict that a client sends.</summary>
+    /// <summary>No verdict yet; the only one that a client sends.</summary>
     Pending = 0,
 
     /// <summary>It happened, on every peer.</summary>

@@ -3,11 +3,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host lets a client come in, and tells it what to fetch: a copy of scene and world, and the log from where that ends.</summary>
+/// <summary>
+/// The host's answer that lets a client in and announces what to download: a snapshot of scene and world, and the log from where that ends.
+/// </summary>
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct WelcomeDatagram
 {
-    /// <summary>An answer of these fields.</summary>
+    /// <summary>Creates an answer from its fields.</summary>
     public WelcomeDatagram(
         ulong nonce, ulong sessionId, SimDuration history, int copyLength, ulong copyHash, uint logIndex)
     {
@@ -28,13 +30,13 @@ internal readonly struct WelcomeDatagram
     /// <summary>How far back the host's window reaches; above zero, at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
     public SimDuration History { get; }
 
-    /// <summary>The length of the copy in bytes, 1 to <see cref="WorldCopy.MaxBytes"/>.</summary>
+    /// <summary>The length of the snapshot in bytes, 1 to <see cref="WorldCopy.MaxBytes"/>.</summary>
     public int CopyLength { get; }
 
-    /// <summary>The hash of the copy's bytes.</summary>
+    /// <summary>The hash of the snapshot's bytes.</summary>
     public ulong CopyHash { get; }
 
-    /// <summary>How many entries of the log are in the copy, or before everything that is not.</summary>
+    /// <summary>The number of log entries that the snapshot includes, or that precede everything it does not.</summary>
     public uint LogIndex { get; }
 
     private bool IsWellFormed =>
@@ -43,7 +45,7 @@ internal readonly struct WelcomeDatagram
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.WelcomeBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
-    /// <exception cref="InvalidOperationException">A field is out of its range.</exception>
+    /// <exception cref="InvalidOperationException">A field is out of range.</exception>
     public int Encode(Span<byte> destination)
     {
         if (!IsWellFormed)
@@ -66,8 +68,8 @@ internal readonly struct WelcomeDatagram
 
     /// <summary>Reads a datagram; never throws.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="welcome">What it says; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
+    /// <param name="welcome">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out WelcomeDatagram welcome, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Welcome);

@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The numbers that all datagrams share. The layouts stand in <c>docs/WIRE.md</c>; all sizes are in bytes.</summary>
+/// <summary>The constants that all datagrams share. The layouts are in <c>docs/WIRE.md</c>; all sizes are in bytes.</summary>
 internal static class WireFormat
 {
     /// <summary>The first two bytes of every datagram, little-endian.</summary>
@@ -19,7 +19,7 @@ internal static class WireFormat
     /// <summary>The length of a <see cref="ConnectRequestDatagram"/>.</summary>
     public const int ConnectRequestBytes = 28;
 
-    /// <summary>The length of a <see cref="ChallengeDatagram"/>: not above that of what it answers.</summary>
+    /// <summary>The length of a <see cref="ChallengeDatagram"/>: no longer than what it answers.</summary>
     public const int ChallengeBytes = 28;
 
     /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
@@ -28,7 +28,7 @@ internal static class WireFormat
     /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
     public const int WelcomeBytes = 44;
 
-    /// <summary>The length of a <see cref="SeatDatagram"/>: below that of any update.</summary>
+    /// <summary>The length of a <see cref="SeatDatagram"/>: shorter than any update.</summary>
     public const int SeatBytes = 33;
 
     /// <summary>The length of a <see cref="MoveDatagram"/>.</summary>
@@ -55,32 +55,32 @@ internal static class WireFormat
     /// <summary>The length of an <see cref="UpdateDatagram"/> without start, state hash and entries.</summary>
     public const int EmptyUpdateBytes = 59;
 
-    /// <summary>What the start adds to an <see cref="UpdateDatagram"/>.</summary>
+    /// <summary>The length of the start in an <see cref="UpdateDatagram"/>.</summary>
     public const int StartBytes = 8;
 
-    /// <summary>What a state hash and its time add to an <see cref="UpdateDatagram"/>; each further one adds 8.</summary>
+    /// <summary>The length of a state hash and its time in an <see cref="UpdateDatagram"/>; each further hash adds 8.</summary>
     public const int StateHashBytes = 16;
 
-    /// <summary>What the most state hashes and their time add to an <see cref="UpdateDatagram"/>.</summary>
+    /// <summary>The length of the most state hashes and their time in an <see cref="UpdateDatagram"/>.</summary>
     internal const int MostHashBytes = StateHashBytes + ((UpdateDatagram.MaxHashes - 1) * sizeof(ulong));
 
     /// <summary>The longest datagram.</summary>
     public const int MaxBytes = IDatagramPort.MaxDatagramBytes;
 
     /// <summary>
-    /// Every time that travels is at most this many ticks (48 days) from its origin, so that no sum or difference of two of them that a
-    /// receiver forms with a span of less can overflow.
+    /// The most ticks (48 days) that an encoded time may be from its origin, so that no sum or difference of two of them that a receiver
+    /// forms with a shorter span can overflow.
     /// </summary>
     public const long MaxTimeTicks = (1L << 62) - 1;
 
-    /// <summary>Whether a time can travel; <see cref="SimTime.MinValue"/>, which stands for "none" in some fields, cannot.</summary>
+    /// <summary>Whether a time can be encoded; <see cref="SimTime.MinValue"/>, which stands for "none" in some fields, cannot.</summary>
     public static bool IsInRange(SimTime time) => time.Ticks is >= -MaxTimeTicks and <= MaxTimeTicks;
 
-    /// <summary>Reads the header of a datagram, to choose which type's decoder to ask.</summary>
+    /// <summary>Reads the header of a datagram, to choose the decoder.</summary>
     /// <param name="datagram">The whole datagram.</param>
-    /// <param name="type">What it says it is; meaningless on refusal.</param>
-    /// <param name="refusal">Why not, or <see cref="WireRefusal.None"/>.</param>
-    /// <returns>False when it is no datagram of this version; never throws.</returns>
+    /// <param name="type">The type that it claims; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
+    /// <returns>False if it is not a datagram of this version; never throws.</returns>
     public static bool TryReadType(ReadOnlySpan<byte> datagram, out DatagramType type, out WireRefusal refusal)
     {
         WireReader reader = new(datagram);

@@ -6,23 +6,23 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>Reads fields one after another from bytes that anyone may have sent, little-endian.</summary>
+/// <summary>Reads consecutive little-endian fields from untrusted bytes.</summary>
 /// <remarks>
-/// Never throws, never reads past the end, allocates nothing. The first thing wrong is kept in <see cref="Refusal"/>; from then on every
-/// read gives zero, so a decoder reads all its fields and asks once, in <see cref="Finish"/>.
+/// Never throws, never reads past the end, allocates nothing. The first error is kept in <see cref="Refusal"/>; from then on every read
+/// returns zero, so a decoder reads all its fields and checks once, in <see cref="Finish"/>.
 /// </remarks>
 internal ref struct WireReader
 {
     private readonly ReadOnlySpan<byte> bytes;
     private int position;
 
-    /// <summary>A reader at the start of <paramref name="source"/>.</summary>
+    /// <summary>Creates a reader at the start of <paramref name="source"/>.</summary>
     public WireReader(ReadOnlySpan<byte> source)
         : this(source, WireFormat.MaxBytes)
     {
     }
 
-    /// <summary>A reader of something that may be longer than a datagram, up to <paramref name="limit"/> bytes.</summary>
+    /// <summary>Creates a reader of data that may be longer than a datagram, up to <paramref name="limit"/> bytes.</summary>
     internal WireReader(ReadOnlySpan<byte> source, int limit)
     {
         bytes = source;
@@ -30,13 +30,15 @@ internal ref struct WireReader
         Refusal = source.Length > limit ? WireRefusal.TooLong : WireRefusal.None;
     }
 
-    /// <summary>The first thing that was wrong, or <see cref="WireRefusal.None"/>.</summary>
+    /// <summary>The first error, or <see cref="WireRefusal.None"/>.</summary>
     public WireRefusal Refusal { get; private set; }
 
-    /// <summary>How many bytes are not read yet.</summary>
+    /// <summary>The number of bytes not read yet.</summary>
     internal readonly int Remaining => bytes.Length - position;
 
-    /// <summary>A reader after the header of a datagram; it has refused already if the datagram is not of this type and version.</summary>
+    /// <summary>
+    /// Creates a reader after the header of a datagram; it has refused already if the datagram is not of this type and version.
+    /// </summary>
     public static WireReader Open(ReadOnlySpan<byte> datagram, DatagramType type)
     {
         WireReader reader = new(datagram);
@@ -45,7 +47,7 @@ internal ref struct WireReader
         return reader;
     }
 
-    /// <summary>Magic, version and a known type.</summary>
+    /// <summary>Reads magic, version and a known type.</summary>
     public DatagramType ReadHeader()
     {
         Require(bytes.Length >= WireFormat.HeaderBytes, WireRefusal.TooShort);
@@ -56,26 +58,29 @@ internal ref struct WireReader
         return type;
     }
 
-    /// <summary>One byte.</summary>
+    /// <summary>Reads one byte.</summary>
     public byte ReadByte() => TryTake(1, out ReadOnlySpan<byte> taken) ? ByteAt(taken, 0) : (byte)0;
 
-    /// <summary>One byte of many, which must be there. Not by the span's own indexer: some Mono runtimes cannot link it (docs/ARCHITECTURE.md).</summary>
+    /// <summary>
+    /// Returns one byte of a span, which must be there. It avoids the span's own indexer: some Mono runtimes cannot link it
+    /// (docs/ARCHITECTURE.md).
+    /// </summary>
     internal static byte ByteAt(ReadOnlySpan<byte> bytes, int index) => MemoryMarshal.Read<byte>(bytes.Slice(index));
 
-    /// <summary>Two bytes.</summary>
+    /// <summary>Reads two bytes.</summary>
     public ushort ReadUInt16() =>
         TryTake(sizeof(ushort), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadUInt16LittleEndian(taken) : (ushort)0;
 
-    /// <summary>Four bytes.</summary>
+    /// <summary>Reads four bytes.</summary>
     public uint ReadUInt32() => TryTake(sizeof(uint), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadUInt32LittleEndian(taken) : 0;
 
-    /// <summary>Eight bytes.</summary>
+    /// <summary>Reads eight bytes.</summary>
     public ulong ReadUInt64() => TryTake(sizeof(ulong), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadUInt64LittleEndian(taken) : 0;
 
-    /// <summary>Eight bytes, two's complement.</summary>
+    /// <summary>Reads eight bytes, two's complement.</summary>
     public long ReadInt64() => TryTake(sizeof(long), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadInt64LittleEndian(taken) : 0;
 
-    /// <summary>Eight bytes, IEEE 754. What is not finite is refused; -0.0 becomes 0.0.</summary>
+    /// <summary>Reads eight bytes, IEEE 754. Refuses what is not finite; -0.0 becomes 0.0.</summary>
     public double ReadDouble()
     {
         double value = BitConverter.Int64BitsToDouble(ReadInt64());
@@ -83,10 +88,10 @@ internal ref struct WireReader
         return value + 0.0;
     }
 
-    /// <summary>Three doubles: x, y, z.</summary>
+    /// <summary>Reads three doubles: x, y, z.</summary>
     public Vector3D ReadVector() => new(ReadDouble(), ReadDouble(), ReadDouble());
 
-    /// <summary>A time within <see cref="WireFormat.MaxTimeTicks"/> of the origin.</summary>
+    /// <summary>Reads a time within <see cref="WireFormat.MaxTimeTicks"/> of the origin.</summary>
     public SimTime ReadTime()
     {
         SimTime time = SimTime.FromTicks(ReadInt64());
@@ -94,7 +99,7 @@ internal ref struct WireReader
         return time;
     }
 
-    /// <summary>A time, or <see cref="SimTime.MinValue"/> for none.</summary>
+    /// <summary>Reads a time, or <see cref="SimTime.MinValue"/> for none.</summary>
     public SimTime ReadOptionalTime()
     {
         SimTime time = SimTime.FromTicks(ReadInt64());
@@ -102,10 +107,10 @@ internal ref struct WireReader
         return time;
     }
 
-    /// <summary>That many bytes, which stay where they are; none when fewer are left.</summary>
+    /// <summary>Returns that many bytes without copying; none if fewer are left.</summary>
     internal ReadOnlySpan<byte> ReadBytes(int count) => TryTake(count, out ReadOnlySpan<byte> taken) ? taken : default;
 
-    /// <summary>Refuses the datagram unless the condition holds; what was refused first stays the reason.</summary>
+    /// <summary>Refuses the datagram unless the condition holds; the first refusal stays the reason.</summary>
     public void Require(bool condition, WireRefusal otherwise = WireRefusal.BadValue)
     {
         if (!condition && Refusal == WireRefusal.None)
@@ -115,7 +120,7 @@ internal ref struct WireReader
     }
 
     /// <summary>Ends the datagram here: refuses it if bytes are left.</summary>
-    /// <returns>True when nothing was wrong.</returns>
+    /// <returns>True if nothing was wrong.</returns>
     public bool Finish(out WireRefusal refusal)
     {
         Require(position == bytes.Length, WireRefusal.TrailingBytes);

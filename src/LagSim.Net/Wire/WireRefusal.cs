@@ -1,6 +1,6 @@
 namespace LagSim.Net.Wire;
 
-/// <summary>Why a byte string was not accepted as a datagram. For counters and messages; it does not travel.</summary>
+/// <summary>Why bytes were not accepted as a datagram. For counters and messages; never sent.</summary>
 internal enum WireRefusal : byte
 {
     /// <summary>It was accepted.</summary>
@@ -21,10 +21,10 @@ internal enum WireRefusal : byte
     /// <summary>Its type is none of <see cref="DatagramType"/>.</summary>
     UnknownType = 5,
 
-    /// <summary>It is of a known type, but not the one that was asked for.</summary>
+    /// <summary>It is of a known type, but not the requested one.</summary>
     OtherType = 6,
 
-    /// <summary>A field is out of its range.</summary>
+    /// <summary>A field is out of range.</summary>
     BadValue = 7,
 
     /// <summary>Something follows its last field.</summary>

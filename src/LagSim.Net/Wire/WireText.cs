@@ -3,14 +3,14 @@ using System.Text;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>Text on the wire: a byte that tells its length in bytes, then UTF-8 without a mark.</summary>
+/// <summary>Text on the wire: a byte with its length in bytes, then UTF-8 without a byte order mark.</summary>
 internal static class WireText
 {
     /// <summary>The longest text, in bytes of UTF-8. A name of 64 characters takes at most 192.</summary>
     internal const int MaxBytes = byte.MaxValue;
 
-    /// <summary>How many bytes a text takes on the wire.</summary>
-    /// <exception cref="ArgumentException">It cannot travel; the sentence says why and whose it is.</exception>
+    /// <summary>The encoded length of a text, in bytes.</summary>
+    /// <exception cref="ArgumentException">It cannot be encoded; the message says why and whose it is.</exception>
     internal static int EncodedLength(string text, string whose)
     {
         if (!IsUnicode(text))
@@ -42,11 +42,11 @@ internal static class WireText
         return text;
     }
 
-    /// <summary>The text of these bytes; false if they are not UTF-8. Never throws.</summary>
+    /// <summary>Decodes these bytes as text; false if they are not UTF-8. Never throws.</summary>
     internal static bool TryDecode(ReadOnlySpan<byte> utf8, out string text)
     {
         text = Encoding.UTF8.GetString(utf8);
-        return utf8.SequenceEqual(Encoding.UTF8.GetBytes(text)); // what is not UTF-8 became U+FFFD, whose bytes are others
+        return utf8.SequenceEqual(Encoding.UTF8.GetBytes(text)); // invalid UTF-8 became U+FFFD, whose bytes differ
     }
 
     private static bool IsUnicode(string text)

@@ -5,38 +5,38 @@ using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>Writes fields one after another into a span, little-endian.</summary>
-/// <remarks>Allocates nothing. Writing past the end throws <see cref="ArgumentException"/>: who writes knows the size beforehand.</remarks>
+/// <summary>Writes consecutive little-endian fields into a span.</summary>
+/// <remarks>Allocates nothing. Writing past the end throws <see cref="ArgumentException"/>: the caller knows the size beforehand.</remarks>
 internal ref struct WireWriter
 {
     private readonly Span<byte> bytes;
 
-    /// <summary>A writer at the start of <paramref name="destination"/>.</summary>
+    /// <summary>Creates a writer at the start of <paramref name="destination"/>.</summary>
     public WireWriter(Span<byte> destination)
     {
         bytes = destination;
         Position = 0;
     }
 
-    /// <summary>How many bytes are written.</summary>
+    /// <summary>The number of bytes written.</summary>
     public int Position { get; private set; }
 
-    /// <summary>One byte.</summary>
+    /// <summary>Writes one byte.</summary>
     public void WriteByte(byte value) => Next(1)[0] = value;
 
-    /// <summary>Two bytes.</summary>
+    /// <summary>Writes two bytes.</summary>
     public void WriteUInt16(ushort value) => BinaryPrimitives.WriteUInt16LittleEndian(Next(sizeof(ushort)), value);
 
-    /// <summary>Four bytes.</summary>
+    /// <summary>Writes four bytes.</summary>
     public void WriteUInt32(uint value) => BinaryPrimitives.WriteUInt32LittleEndian(Next(sizeof(uint)), value);
 
-    /// <summary>Eight bytes.</summary>
+    /// <summary>Writes eight bytes.</summary>
     public void WriteUInt64(ulong value) => BinaryPrimitives.WriteUInt64LittleEndian(Next(sizeof(ulong)), value);
 
-    /// <summary>Eight bytes, two's complement.</summary>
+    /// <summary>Writes eight bytes, two's complement.</summary>
     public void WriteInt64(long value) => BinaryPrimitives.WriteInt64LittleEndian(Next(sizeof(long)), value);
 
-    /// <summary>Eight bytes, IEEE 754; -0.0 is written as 0.0.</summary>
+    /// <summary>Writes eight bytes, IEEE 754; -0.0 is written as 0.0.</summary>
     /// <exception cref="ArgumentException">The value is not finite.</exception>
     public void WriteDouble(double value)
     {
@@ -48,7 +48,7 @@ internal ref struct WireWriter
         WriteInt64(BitConverter.DoubleToInt64Bits(value + 0.0)); // -0.0 + 0.0 is 0.0
     }
 
-    /// <summary>Three doubles: x, y, z.</summary>
+    /// <summary>Writes three doubles: x, y, z.</summary>
     /// <exception cref="ArgumentException">A component is not finite.</exception>
     public void WriteVector(in Vector3D value)
     {
@@ -57,7 +57,7 @@ internal ref struct WireWriter
         WriteDouble(value.Z);
     }
 
-    /// <summary>A time, as eight bytes of ticks.</summary>
+    /// <summary>Writes a time, as eight bytes of ticks.</summary>
     /// <exception cref="ArgumentException">The time is further than <see cref="WireFormat.MaxTimeTicks"/> from the origin.</exception>
     public void WriteTime(SimTime value)
     {
@@ -69,7 +69,7 @@ internal ref struct WireWriter
         WriteInt64(value.Ticks);
     }
 
-    /// <summary>A time, or <see cref="SimTime.MinValue"/> for none.</summary>
+    /// <summary>Writes a time, or <see cref="SimTime.MinValue"/> for none.</summary>
     /// <exception cref="ArgumentException">It is neither none nor within <see cref="WireFormat.MaxTimeTicks"/> of the origin.</exception>
     public void WriteOptionalTime(SimTime value)
     {
@@ -83,10 +83,10 @@ internal ref struct WireWriter
         }
     }
 
-    /// <summary>These bytes as they are.</summary>
+    /// <summary>Writes these bytes as they are.</summary>
     internal void WriteBytes(ReadOnlySpan<byte> value) => value.CopyTo(Next(value.Length));
 
-    /// <summary>Magic, version and type: how every datagram begins.</summary>
+    /// <summary>Writes magic, version and type, with which every datagram begins.</summary>
     public void WriteHeader(DatagramType type)
     {
         WriteUInt16(WireFormat.Magic);

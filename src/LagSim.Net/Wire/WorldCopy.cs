@@ -8,11 +8,13 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>What a client needs to have the world: its scene, and if it has begun long enough ago the committed state.</summary>
+/// <summary>
+/// The snapshot from which a client gets the world: its scene, and the committed state if the world has begun long enough ago.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal sealed class WorldCopy
 {
-    /// <summary>The longest copy: 64 MiB, some 300,000 bodies.</summary>
+    /// <summary>The longest encoding: 64 MiB, some 300,000 bodies.</summary>
     public const int MaxBytes = 1 << 26;
 
     private WorldCopy(Scene scene, WorldSnapshot? snapshot)
@@ -24,11 +26,11 @@ internal sealed class WorldCopy
     /// <summary>The scene.</summary>
     public Scene Scene { get; }
 
-    /// <summary>The committed state; null where the world is to be simulated from its start.</summary>
+    /// <summary>The committed state; null if the world is to be simulated from its start.</summary>
     public WorldSnapshot? Snapshot { get; }
 
-    /// <summary>The bytes of a copy.</summary>
-    /// <exception cref="SceneException">They would be more than <see cref="MaxBytes"/>, or the scene cannot travel.</exception>
+    /// <summary>Encodes a copy.</summary>
+    /// <exception cref="SceneException">The encoding would exceed <see cref="MaxBytes"/>, or the scene cannot be encoded.</exception>
     public static byte[] Encode(Scene scene, WorldSnapshot? snapshot)
     {
         byte[] first = SceneFormat.Encode(scene);
@@ -50,7 +52,7 @@ internal sealed class WorldCopy
         return bytes;
     }
 
-    /// <summary>What tells a copy that arrived whole: the first eight bytes of its SHA-256.</summary>
+    /// <summary>The hash by which a complete copy is recognised: the first eight bytes of its SHA-256.</summary>
     internal static ulong HashOf(ReadOnlySpan<byte> copy)
     {
         using SHA256 hash = SHA256.Create();
@@ -61,11 +63,11 @@ internal sealed class WorldCopy
     }
 
     /// <summary>Reads a copy; never throws.</summary>
-    /// <param name="bytes">All of it.</param>
+    /// <param name="bytes">The whole encoding.</param>
     /// <param name="known">The accelerations that this peer can supply, for a scene that names some.</param>
-    /// <param name="own">A scene this peer has; taken instead of a new one if the copy is of the same.</param>
-    /// <param name="copy">The copy, if that is what the bytes are.</param>
-    /// <param name="error">Else a sentence.</param>
+    /// <param name="own">A scene this peer has; used instead of a new one if the copy is of the same.</param>
+    /// <param name="copy">The copy, if the bytes are one.</param>
+    /// <param name="error">Otherwise a sentence that says why not.</param>
     public static bool TryDecode(
         ReadOnlySpan<byte> bytes,
         IReadOnlyList<IAcceleration>? known,

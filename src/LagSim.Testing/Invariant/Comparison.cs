@@ -8,7 +8,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Testing.Invariant;
 
-/// <summary>Holds worlds against the one that had every accepted event before it began: states, hashes of events, and whole timelines.</summary>
+/// <summary>
+/// Compares worlds with the one that had every accepted event before it began: states, hashes of events, and whole timelines.
+/// </summary>
 internal sealed class Comparison
 {
     private const int Instants = 12;
@@ -16,7 +18,9 @@ internal sealed class Comparison
     private readonly Simulation expected;
     private readonly List<(BodyId Body, TimelineEntry[] Entries)> timelines = [];
 
-    /// <param name="expected">The world that never had a delay; advanced beyond all that are compared with it, with a history without end.</param>
+    /// <param name="expected">
+    /// The world that never had a delay; advanced beyond all that are compared with it, with unlimited history.
+    /// </param>
     internal Comparison(Simulation expected)
     {
         this.expected = expected;
@@ -26,29 +30,29 @@ internal sealed class Comparison
         }
     }
 
-    /// <summary>How many states, hashes and timeline entries were compared.</summary>
+    /// <summary>The number of states, hashes and timeline entries compared.</summary>
     internal long Compared { get; private set; }
 
-    /// <summary>How many of these differ in any bit.</summary>
+    /// <summary>The number of those that differ in any bit.</summary>
     internal long Differing { get; private set; }
 
     /// <summary>The first event that differs; of several peers that of the first.</summary>
     internal FirstDifference? First { get; private set; }
 
     /// <summary>
-    /// The first hash of states or events that a peer has otherwise, as a sentence; of several peers that of the first. The timelines may agree all the same, where
-    /// a committed state came right afterwards, or an event was counted that changed nothing.
+    /// The first hash of states or events in which a peer differs, as a sentence; of several peers that of the first. The timelines may
+    /// agree all the same, if a committed state became right afterwards, or an event was counted that changed nothing.
     /// </summary>
     internal string? FirstHash { get; private set; }
 
-    /// <summary>What a peer had committed.</summary>
+    /// <summary>Compares a peer's committed state.</summary>
     internal void Take(int peer, in CommittedState state)
     {
         Take(peer, state.StateHash == expected.StateHash(state.Time), "committed another state", state.Time);
         Take(peer, state.EventHash == expected.EventHash(state.Time), "committed the hash of other events", state.Time);
     }
 
-    /// <summary>A peer's whole world, as far as it keeps it.</summary>
+    /// <summary>Compares a peer's whole world, as far as it keeps it.</summary>
     internal void Take(int peer, Simulation actual)
     {
         SimTime from = SimTime.Max(actual.HistoryEdge, actual.Start);
@@ -71,7 +75,7 @@ internal sealed class Comparison
             BodyId body = actual.BodyAt(n);
             if (expected.Timeline(body).Count == 0)
             {
-                first = Earlier(first, Take(peer, actual, body, [], from, to)); // one that should never have been
+                first = Earlier(first, Take(peer, actual, body, [], from, to)); // a body that should never have existed
             }
         }
 
@@ -92,7 +96,7 @@ internal sealed class Comparison
     {
         TimelineEntry[] entries = Happened(actual, body, to);
 
-        // A peer keeps what happened from some time on, and the entry before that; of a body that had gone by then it knows nothing.
+        // A peer keeps the entries from some time on, and the one before that; a body that had gone by then is unknown to it.
         int at = 0;
         while (at < should.Length && (entries.Length == 0 ? should[at].Key.Time < from : should[at].Key < entries[0].Key))
         {
@@ -128,7 +132,7 @@ internal sealed class Comparison
     private static FirstDifference? Earlier(FirstDifference? a, FirstDifference? b) =>
         a is null || (b is not null && b.Key < a.Key) ? b : a;
 
-    /// <summary>What happened to a body up to that time; that one has heard of it is no event.</summary>
+    /// <summary>Returns what happened to a body up to that time; first learning of a body is not an event.</summary>
     private static TimelineEntry[] Happened(Simulation simulation, BodyId body, SimTime to)
     {
         List<TimelineEntry> happened = [];

@@ -2,24 +2,25 @@ using System;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>Where a direction of a link is narrowest: so many bits a second get through, and so many bytes can wait for it.</summary>
+/// <summary>The narrowest point of a link direction: a rate in bits per second, and a queue of limited size before it.</summary>
 /// <remarks>
-/// <para>Made like the Linux kernel's token bucket filter, <c>tc qdisc add dev D root tbf rate R burst 1540 latency T</c>, against which it was measured: tokens come
-/// in at the rate, up to the burst; a datagram leaves as soon as there are tokens for all of it, so after a silence at once, and takes them.</para>
+/// <para>It is modelled on the Linux kernel's token bucket filter, <c>tc qdisc add dev D root tbf rate R burst 1540 latency T</c>, against
+/// which it was measured: tokens come in at the rate, up to the burst; a datagram leaves, and takes its tokens, as soon as there are enough
+/// for all of it, so at once after a silence.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 public sealed class Bottleneck
 {
     /// <summary>
-    /// What each datagram takes besides its own bytes, 42: 20 for IPv4, 8 for UDP, 14 for Ethernet. So the kernel counts them at a virtual Ethernet
-    /// device; <see cref="PortTraffic.HeaderBytes"/>, which measures a sender and not a wire, leaves Ethernet out.
+    /// The bytes that each datagram takes besides its own, 42: 20 for IPv4, 8 for UDP, 14 for Ethernet, as the kernel counts them at a
+    /// virtual Ethernet device. <see cref="PortTraffic.HeaderBytes"/>, which measures a sender rather than a wire, leaves Ethernet out.
     /// </summary>
     public const int OverheadBytes = PortTraffic.HeaderBytes + 14;
 
-    /// <summary>The burst that there is if none is said, in bytes: one full Ethernet frame and a little, the least that lets every datagram through.</summary>
+    /// <summary>The default burst in bytes: one full Ethernet frame and a little, the least that lets every datagram through.</summary>
     public const int DefaultBurstBytes = 1_540;
 
-    /// <summary>The most that a burst can be, in bytes.</summary>
+    /// <summary>The largest burst, in bytes.</summary>
     public const int MaxBurstBytes = 1 << 16;
 
     /// <summary>The lowest rate, in bit/s.</summary>
@@ -30,7 +31,7 @@ public sealed class Bottleneck
 
     private readonly int burst = DefaultBurstBytes;
 
-    /// <summary>A bottleneck of that rate and queue.</summary>
+    /// <summary>Creates a bottleneck with that rate and queue.</summary>
     /// <param name="rateBitsPerSecond">See <see cref="RateBitsPerSecond"/>.</param>
     /// <param name="queueMilliseconds">See <see cref="QueueMilliseconds"/>.</param>
     /// <param name="discipline">See <see cref="Discipline"/>.</param>
@@ -47,18 +48,22 @@ public sealed class Bottleneck
             : throw new ArgumentOutOfRangeException(nameof(discipline), discipline, "A queue is DropTail or CoDel.");
     }
 
-    /// <summary>How much gets through, in bit/s; <see cref="MinBitsPerSecond"/> to <see cref="MaxBitsPerSecond"/>. <see cref="OverheadBytes"/> count.</summary>
+    /// <summary>
+    /// The rate in bit/s; <see cref="MinBitsPerSecond"/> to <see cref="MaxBitsPerSecond"/>. <see cref="OverheadBytes"/> count.
+    /// </summary>
     public long RateBitsPerSecond { get; }
 
-    /// <summary>How long the queue is, in milliseconds at that rate, besides one burst; 0 to <see cref="LinkLeg.MaxMilliseconds"/>.</summary>
+    /// <summary>
+    /// The length of the queue, in milliseconds at that rate, besides one burst; 0 to <see cref="LinkLeg.MaxMilliseconds"/>.
+    /// </summary>
     public double QueueMilliseconds { get; }
 
-    /// <summary>What the queue does when it fills; default drop-tail.</summary>
+    /// <summary>How the queue drops datagrams; default drop-tail.</summary>
     public QueueDiscipline Discipline { get; }
 
     /// <summary>
-    /// How much may leave at once after a silence, in bytes; what is longer never gets through. <see cref="DefaultBurstBytes"/>, the default, to
-    /// <see cref="MaxBurstBytes"/>; or 0, a line on which each datagram takes its bits' time, whatever was before it.
+    /// How much may leave at once after a silence, in bytes; a longer datagram never gets through. <see cref="DefaultBurstBytes"/>, the
+    /// default, to <see cref="MaxBurstBytes"/>; or 0 for a line on which each datagram takes the time of its bits, whatever was before it.
     /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">It is out of range.</exception>
     public int BurstBytes
@@ -69,10 +74,10 @@ public sealed class Bottleneck
             : throw new ArgumentOutOfRangeException(nameof(value), value, $"A burst is 0, or {DefaultBurstBytes} to {MaxBurstBytes} bytes.");
     }
 
-    /// <summary>When the rate is another; null, the default: never. The queue's room in bytes stays.</summary>
+    /// <summary>Periods with another rate; null, the default, for none. The queue's size in bytes stays.</summary>
     public PeriodicDip? Dip { get; init; }
 
-    /// <summary>The queue's room in bytes, that datagram included which is next to leave: the rate times the time, and one burst.</summary>
+    /// <summary>The queue's size in bytes, including the datagram that leaves next: the rate times the time, and one burst.</summary>
     public long LimitBytes => (long)(RateBitsPerSecond / 8.0 * QueueMilliseconds / 1000) + BurstBytes;
 
     internal static long Rate(long bitsPerSecond, string parameter) =>

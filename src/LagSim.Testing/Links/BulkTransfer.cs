@@ -4,28 +4,38 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A TCP connection that sends without end, in virtual time: somebody's download, which takes what a bottleneck gives and fills its queue.</summary>
+/// <summary>
+/// A TCP connection that sends without end, in virtual time: a download that takes whatever a bottleneck gives and fills its queue.
+/// </summary>
 /// <remarks>
-/// <para>NewReno: slow start, congestion avoidance, fast retransmit, limited transmit (RFC 5681, 3042), fast recovery with partial acknowledgements in the impatient variant
-/// (RFC 6582), and the retransmission timer of RFC 6298 on the round trip that every acknowledgement tells (RFC 7323). The window begins with ten segments (RFC
-/// 6928). The receiver acknowledges each segment at once and has room for <see cref="ReceiveWindow"/>. No handshake, no end, no selective acknowledgements: after many losses
-/// at once it comes back more slowly than systems of today do.</para>
-/// <para>It is a part of the queues that it goes through: whoever sends through one of them finds it there as it is by then. So nobody needs to step it;
-/// <see cref="RunUntil"/> is for reading figures. All who share a queue must act in the order of time.</para>
-/// <para>Deterministic: integers, and the luck of its links. Some 250 steps a second of time at 1 Mbit/s. Not thread-safe.</para>
+/// <para>NewReno: slow start, congestion avoidance, fast retransmit, limited transmit (RFC 5681, 3042), fast recovery with partial
+/// acknowledgements in the impatient variant (RFC 6582), and the retransmission timer of RFC 6298 on the round trip that every
+/// acknowledgement carries (RFC 7323). The window begins with ten segments (RFC 6928). The receiver acknowledges each segment at once and
+/// has room for <see cref="ReceiveWindow"/>. No handshake, no end, no selective acknowledgements: after many losses at once it recovers
+/// more slowly than today's systems do.</para>
+/// <para>It is part of the queues that it goes through: a sender through one of them finds it in its state at that time. So it need not be
+/// stepped; <see cref="RunUntil"/> is for reading figures. All senders that share a queue must act in the order of time.</para>
+/// <para>Deterministic: integers, and the random draws of its links. Some 250 steps per second of time at 1 Mbit/s. Not thread-safe.</para>
 /// </remarks>
 internal sealed class BulkTransfer
 {
-    /// <summary>What a segment carries, in bytes: an Ethernet frame's 1,500 without the headers of IPv4 and of TCP with timestamps.</summary>
+    /// <summary>
+    /// The payload of a segment in bytes: an Ethernet frame's 1,500 without the headers of IPv4 and of TCP with timestamps.
+    /// </summary>
     public const int SegmentBytes = 1_448;
 
-    /// <summary>The most that is sent and not acknowledged, in bytes.</summary>
+    /// <summary>The most bytes sent and not acknowledged.</summary>
     public const int ReceiveWindow = 4 << 20;
 
-    /// <summary>What <see cref="LinkModel.Send(SimTime, int)"/> is told of a segment, so that with the overhead of UDP it is 1,514 bytes on the wire.</summary>
+    /// <summary>
+    /// The size passed to <see cref="LinkModel.Send(SimTime, int)"/> for a segment, so that with the overhead of UDP it is 1,514 bytes on
+    /// the wire.
+    /// </summary>
     internal const int SegmentDatagramBytes = SegmentBytes + AckDatagramBytes;
 
-    /// <summary>Likewise of an acknowledgement, which is 66 bytes on the wire: TCP's header with timestamps is 24 bytes longer than UDP's.</summary>
+    /// <summary>
+    /// The size passed for an acknowledgement, which is 66 bytes on the wire: TCP's header with timestamps is 24 bytes longer than UDP's.
+    /// </summary>
     internal const int AckDatagramBytes = 24;
 
     private const long InitialWindow = 10 * SegmentBytes;
@@ -37,7 +47,7 @@ internal sealed class BulkTransfer
     private readonly LinkModel data;
     private readonly LinkModel acks;
     private readonly PriorityQueue<Arrival, (SimTime Time, long Sequence)> arrivals = new();
-    private readonly HashSet<long> early = []; // segments that came before one that is missing
+    private readonly HashSet<long> early = []; // segments that arrived before a missing one
     private long sequence;
     private bool isRunning;
     private bool isStopped;
@@ -48,7 +58,7 @@ internal sealed class BulkTransfer
     private long unacknowledged;
     private long next;
     private long highest; // one past the highest ever sent
-    private long recover = -1; // one past the highest that was sent when a loss was last met
+    private long recover = -1; // one past the highest sent when a loss was last detected
     private long window = InitialWindow;
     private long threshold = ReceiveWindow;
     private int duplicates;
@@ -59,9 +69,9 @@ internal sealed class BulkTransfer
     private SimDuration? smoothed;
     private SimDuration variation;
 
-    /// <summary>A transfer that begins at a time.</summary>
-    /// <param name="data">The way of the segments; it has a queue.</param>
-    /// <param name="acks">The way back.</param>
+    /// <summary>Creates a transfer that begins at a time.</summary>
+    /// <param name="data">The direction of the segments; it has a queue.</param>
+    /// <param name="acks">The direction of the acknowledgements.</param>
     /// <param name="start">When it begins.</param>
     internal BulkTransfer(LinkModel data, LinkModel acks, SimTime start)
     {
@@ -80,16 +90,16 @@ internal sealed class BulkTransfer
     /// <summary>When it began.</summary>
     public SimTime Start { get; }
 
-    /// <summary>How many bytes the receiver has, without gaps, by the time up to which it has run.</summary>
+    /// <summary>The number of bytes that the receiver has without gaps, as of the time up to which it has run.</summary>
     public long ReceivedBytes => received * SegmentBytes;
 
-    /// <summary>How many segments were sent, those sent again included.</summary>
+    /// <summary>The number of segments sent, retransmissions included.</summary>
     public long SegmentsSent { get; private set; }
 
-    /// <summary>How many of them were sent again.</summary>
+    /// <summary>The number of retransmissions.</summary>
     public long SegmentsSentAgain { get; private set; }
 
-    /// <summary>How often the retransmission timer ran out.</summary>
+    /// <summary>How often the retransmission timer expired.</summary>
     public long Timeouts { get; private set; }
 
     /// <summary>When it acts next; null once it is stopped.</summary>
@@ -124,8 +134,8 @@ internal sealed class BulkTransfer
         }
     }
 
-    /// <summary>What the receiver got of new bytes since the start, in bit/s of the segments' own bytes.</summary>
-    /// <param name="now">After <see cref="Start"/>; it is run until then.</param>
+    /// <summary>The rate of new data at the receiver since the start, in bit/s of the segments' own bytes.</summary>
+    /// <param name="now">A time after <see cref="Start"/>; it is run until then.</param>
     public double GoodputBitsPerSecond(SimTime now)
     {
         if (now <= Start)
@@ -137,12 +147,12 @@ internal sealed class BulkTransfer
         return ReceivedBytes * 8 / (now - Start).ToSeconds();
     }
 
-    /// <summary>Does all that it does until then, that time included. Nobody may send through one of its queues from before it afterwards.</summary>
+    /// <summary>Runs up to and including that time. Afterwards no datagram from before it may be sent through one of its queues.</summary>
     public void RunUntil(SimTime now)
     {
         if (isRunning)
         {
-            return; // it is in the middle of sending, and a queue asks who else comes first
+            return; // already sending, and a queue asks which sender is next
         }
 
         isRunning = true;
@@ -154,7 +164,7 @@ internal sealed class BulkTransfer
         isRunning = false;
     }
 
-    /// <summary>Ends it; what it has in the queues stays there.</summary>
+    /// <summary>Stops it; its segments in the queues stay there.</summary>
     internal void Stop()
     {
         isStopped = true;
@@ -232,7 +242,7 @@ internal sealed class BulkTransfer
             }
             else
             {
-                // One more is missing of those that were sent before the loss was met.
+                // Another of the segments sent before the loss was detected is missing.
                 window = Math.Max(window - bytes + SegmentBytes, SegmentBytes);
                 restarts = !hadPartial;
                 hadPartial = true;
@@ -325,9 +335,9 @@ internal sealed class BulkTransfer
         }
     });
 
-    /// <summary>A segment or an acknowledgement on its way.</summary>
-    /// <param name="IsAck">Which of the two.</param>
-    /// <param name="Segment">The segment, or up to which one the receiver has all.</param>
-    /// <param name="Sent">When the segment was sent; of an acknowledgement, that of the segment which it answers.</param>
+    /// <summary>A segment or an acknowledgement in transit.</summary>
+    /// <param name="IsAck">Whether it is an acknowledgement.</param>
+    /// <param name="Segment">The segment, or the one below which the receiver has all.</param>
+    /// <param name="Sent">When the segment was sent; for an acknowledgement, the segment that it answers.</param>
     private readonly record struct Arrival(bool IsAck, long Segment, SimTime Sent);
 }

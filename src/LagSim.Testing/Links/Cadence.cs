@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>Time cut into periods of one length, numbered; whole ticks, so exact at any time and on any machine.</summary>
+/// <summary>Divides time into numbered periods of equal length; whole ticks, so exact at any time and on any machine.</summary>
 internal readonly struct Cadence
 {
     internal const double MinSeconds = 0.001;
@@ -12,17 +12,17 @@ internal readonly struct Cadence
     private readonly long period;
     private readonly long lead;
 
-    /// <param name="period">How long each is.</param>
-    /// <param name="phase">How much of period 0 has gone by at time zero, 0 to below 1.</param>
+    /// <param name="period">The length of a period.</param>
+    /// <param name="phase">The fraction of period 0 that has elapsed at time zero, 0 to below 1.</param>
     internal Cadence(SimDuration period, double phase)
     {
         this.period = period.Ticks;
         lead = (long)(phase * period.Ticks);
     }
 
-    /// <summary>Which period a time lies in.</summary>
+    /// <summary>Returns the period that a time lies in.</summary>
     /// <param name="time">Any time.</param>
-    /// <param name="into">How long that period has lasted by then.</param>
+    /// <param name="into">How much of that period has elapsed by then.</param>
     internal long At(SimTime time, out SimDuration into)
     {
         (long number, long rest) = Math.DivRem(time.Ticks, period);

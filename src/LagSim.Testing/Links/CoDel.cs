@@ -3,17 +3,19 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>Which datagrams a queue loses at its head by RFC 8289: its pseudocode (section 5), its names, over whatever queue there is.</summary>
+/// <summary>
+/// Decides which datagrams to drop at the head of a queue, by RFC 8289: its pseudocode (section 5) and its names, over any kind of queue.
+/// </summary>
 /// <remarks>Deterministic. Not thread-safe.</remarks>
 internal sealed class CoDel
 {
-    /// <summary>RFC 8289's MAXPACKET, the longest Ethernet frame: as long as no more than that waits behind, nothing is lost.</summary>
+    /// <summary>RFC 8289's MAXPACKET, the longest Ethernet frame: while no more than that waits, nothing is dropped.</summary>
     internal const int MaxPacketBytes = 1_514;
 
-    /// <summary>The wait that is good enough, RFC 8289's TARGET.</summary>
+    /// <summary>The acceptable wait, RFC 8289's TARGET.</summary>
     internal static readonly SimDuration Target = SimDuration.FromMilliseconds(5);
 
-    /// <summary>For how long all must have waited longer than that, RFC 8289's INTERVAL.</summary>
+    /// <summary>How long all datagrams must have waited longer than that, RFC 8289's INTERVAL.</summary>
     internal static readonly SimDuration Interval = SimDuration.FromMilliseconds(100);
 
     private readonly IWaitingLine line;
@@ -25,20 +27,23 @@ internal sealed class CoDel
 
     internal CoDel(IWaitingLine line) => this.line = line;
 
-    /// <summary>What CoDel needs of the queue.</summary>
+    /// <summary>The queue as CoDel needs it.</summary>
     internal interface IWaitingLine
     {
-        /// <summary>The bytes of all that waits.</summary>
+        /// <summary>The bytes of all waiting datagrams.</summary>
         long WaitingBytes { get; }
 
-        /// <summary>Takes out the one that has waited longest; false if none waits.</summary>
+        /// <summary>Removes the datagram that has waited longest; false if none waits.</summary>
         bool TryTakeFirst(out Waiting first);
 
-        /// <summary>Loses one that was taken out.</summary>
+        /// <summary>Drops a removed datagram.</summary>
         void Drop(Waiting lost);
     }
 
-    /// <summary>Takes out the one that goes on its way now, after those that are lost; false if none is left. To be asked whenever the line is free.</summary>
+    /// <summary>
+    /// Removes the datagram to send now, after dropping those before it as needed; false if none is left. Call it whenever the line is
+    /// free.
+    /// </summary>
     internal bool TryDequeue(SimTime now, out Waiting first)
     {
         bool any = DoDequeue(now, out first, out bool okToDrop);
@@ -60,7 +65,7 @@ internal sealed class CoDel
             any = DoDequeue(now, out first, out _);
             dropping = true;
 
-            // Above again soon after it was below: the rate of losses that controlled it then is where to begin.
+            // Above the target again soon after it was below: start from the drop rate that controlled it then.
             uint delta = count - lastCount;
             count = delta > 1 && now - dropNext < Interval * 16 ? delta : 1;
             dropNext = ControlLaw(now);
@@ -92,9 +97,9 @@ internal sealed class CoDel
 
     private SimTime ControlLaw(SimTime from) => from + SimDuration.FromTicks((long)(Interval.Ticks / Math.Sqrt(count)));
 
-    /// <summary>A datagram that waits.</summary>
+    /// <summary>A waiting datagram.</summary>
     /// <param name="Bytes">Its bytes on the wire.</param>
-    /// <param name="Came">When it came.</param>
-    /// <param name="Decided">Told when it leaves; null if it is lost.</param>
+    /// <param name="Came">When it arrived.</param>
+    /// <param name="Decided">Called with the time when it leaves; null if it is dropped.</param>
     internal readonly record struct Waiting(int Bytes, SimTime Came, Action<SimTime?> Decided);
 }

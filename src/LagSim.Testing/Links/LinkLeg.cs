@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>What one direction of a link does to datagrams. A link is two of them: it need not be the same both ways.</summary>
-/// <remarks>Immutable, safe on any thread. Says what happens on average; each datagram draws from it, by the seed of the network.</remarks>
+/// <summary>The effect of one direction of a link on datagrams. A link has two, which may differ.</summary>
+/// <remarks>Immutable, safe on any thread. It describes averages; each datagram draws from it, by the seed of the network.</remarks>
 public sealed class LinkLeg
 {
     private readonly LongTail? tail;
@@ -13,7 +13,7 @@ public sealed class LinkLeg
     /// <summary>The longest delay, jitter or hold a leg can have, in milliseconds: ten minutes.</summary>
     public const double MaxMilliseconds = 600_000;
 
-    /// <summary>A leg of these properties; all that is left out does nothing.</summary>
+    /// <summary>Creates a leg with these properties; omitted ones have no effect.</summary>
     /// <param name="delayMilliseconds">See <see cref="DelayMilliseconds"/>.</param>
     /// <param name="jitterMilliseconds">See <see cref="JitterMilliseconds"/>.</param>
     /// <param name="lossPercent">See <see cref="LossPercent"/>.</param>
@@ -21,8 +21,8 @@ public sealed class LinkLeg
     /// <param name="reorderPercent">See <see cref="ReorderPercent"/>.</param>
     /// <param name="duplicatePercent">See <see cref="DuplicatePercent"/>.</param>
     /// <param name="reorderHoldMilliseconds">See <see cref="ReorderHoldMilliseconds"/>; left out, half of the delay.</param>
-    /// <exception cref="ArgumentOutOfRangeException">A value is not finite or out of its range.</exception>
-    /// <exception cref="ArgumentException">So much loss cannot come in bursts that short, or reordering has no hold.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A value is not finite or out of range.</exception>
+    /// <exception cref="ArgumentException">That much loss cannot come in bursts that short, or reordering has no hold.</exception>
     public LinkLeg(
         double delayMilliseconds,
         double jitterMilliseconds = 0,
@@ -60,22 +60,26 @@ public sealed class LinkLeg
     /// <summary>Standard deviation of the delay in milliseconds, 0 to <see cref="MaxMilliseconds"/>.</summary>
     public double JitterMilliseconds { get; }
 
-    /// <summary>How many of a hundred datagrams are lost in the long run, 0 to 100.</summary>
+    /// <summary>The long-run percentage of datagrams lost, 0 to 100.</summary>
     public double LossPercent { get; }
 
-    /// <summary>How many datagrams are lost in a row on average, at least 1. Losses that know nothing of each other have 1 / (1 - loss).</summary>
+    /// <summary>The mean number of datagrams lost in a row, at least 1. Independent losses have 1 / (1 - loss).</summary>
     public double MeanBurstLength { get; }
 
-    /// <summary>How many of a hundred datagrams are held back so that later ones overtake them, 0 to 100.</summary>
+    /// <summary>The percentage of datagrams held back so that later ones overtake them, 0 to 100.</summary>
     public double ReorderPercent { get; }
 
-    /// <summary>How long a reordered datagram is held back on average, in milliseconds; uniform from half to one and a half of it.</summary>
+    /// <summary>
+    /// The mean time for which a reordered datagram is held back, in milliseconds; uniform from half to one and a half of it.
+    /// </summary>
     public double ReorderHoldMilliseconds { get; }
 
-    /// <summary>How many of a hundred datagrams that arrive do so twice, 0 to 100.</summary>
+    /// <summary>The percentage of arriving datagrams that arrive twice, 0 to 100.</summary>
     public double DuplicatePercent { get; }
 
-    /// <summary>How the delay varies where a standard deviation does not say it; null, the default: by <see cref="JitterMilliseconds"/>.</summary>
+    /// <summary>
+    /// How the delay varies if a standard deviation does not describe it; null, the default, for <see cref="JitterMilliseconds"/>.
+    /// </summary>
     /// <exception cref="ArgumentException">The leg has jitter too, or the tail does not begin above a delay that is above 0.</exception>
     public LongTail? Tail
     {
@@ -94,7 +98,7 @@ public sealed class LinkLeg
         }
     }
 
-    /// <summary>How the mean delay steps up and down; null, the default: not at all.</summary>
+    /// <summary>How the mean delay steps up and down; null, the default, for not at all.</summary>
     /// <exception cref="ArgumentException">The step is more than twice the delay, so that it would be below 0 half of the time.</exception>
     public DelayStep? Step
     {
@@ -105,10 +109,13 @@ public sealed class LinkLeg
                 $"A delay of {Text(DelayMilliseconds)} ms cannot step by {Text(value.Milliseconds)} ms; at most twice the delay is allowed.", nameof(value));
     }
 
-    /// <summary>When it loses more than at other times; null, the default: never.</summary>
+    /// <summary>Periods of higher loss; null, the default, for none.</summary>
     public PeriodicOutage? Outage { get; init; }
 
-    /// <summary>Where it is narrowest: a rate, and a queue before it, through which a datagram goes before all else; null, the default: as wide as need be.</summary>
+    /// <summary>
+    /// The narrowest point: a rate, and a queue before it, which a datagram passes before everything else; null, the default, for unlimited
+    /// width.
+    /// </summary>
     public Bottleneck? Bottleneck { get; init; }
 
     private static double InRange(double value, double low, double high, string parameter) =>

@@ -3,20 +3,23 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>One direction of one link at work: decides for each datagram whether and when it arrives.</summary>
+/// <summary>One direction of a link in operation: decides for each datagram whether and when it arrives.</summary>
 /// <remarks>
-/// <para>First comes the leg's <see cref="Bottleneck"/>, if it has one: a datagram may be lost in its queue, and waits there. All else befalls it from when it leaves, as if it
-/// were sent then. A queue of drop-tail says at once when that is; one of CoDel only later (<see cref="DecidesAtOnce"/>).</para>
-/// <para>Delay: normal about the leg's mean, never below 0, so never before it was sent; or with a <see cref="LongTail"/>. Loss: Gilbert and Elliott's two states, one that
-/// loses everything and one that loses nothing, stepped once per datagram; bursts are geometric with the leg's mean.</para>
-/// <para>What comes in periods, a <see cref="DelayStep"/> or a <see cref="PeriodicOutage"/>, goes by that time alone, whatever is sent. Where
-/// a period begins, and which of them have an outage, is luck of the path, which both directions share; periods of one length begin together.</para>
+/// <para>The leg's <see cref="Bottleneck"/>, if there is one, comes first: a datagram may be dropped in its queue, and waits there.
+/// Everything else applies from when it leaves, as if it were sent then. A drop-tail queue decides that time at once, a CoDel queue only
+/// later (<see cref="DecidesAtOnce"/>).</para>
+/// <para>Delay: normal about the leg's mean, but never negative; or with a <see cref="LongTail"/>. Loss: the two states of Gilbert and
+/// Elliott, one that loses everything and one that loses nothing, stepped once per datagram; bursts are geometric with the leg's
+/// mean.</para>
+/// <para>Periodic effects, a <see cref="DelayStep"/> or a <see cref="PeriodicOutage"/>, depend on that time alone, whatever is sent. Where
+/// a period begins, and which periods have an outage, is drawn per path and shared by both directions; periods of equal length begin
+/// together.</para>
 /// <para>Order: jitter alone never reorders, since a path that is one queue does not; a datagram that would overtake another arrives with
-/// it. So where datagrams are sent closer together than the jitter, the mean delay is above the leg's and its spread below.
-/// Only the share that the leg says is held back, by half to one and a half of its hold, and later ones pass it (if any are sent that soon).</para>
+/// it. So if datagrams are sent closer together than the jitter, the mean delay is above the leg's and its spread below. Only the leg's
+/// reorder percentage is held back, by half to one and a half of its hold, and later datagrams pass it (if any are sent that soon).</para>
 /// <para>Duplication: the copy has a delay of its own, never arrives before the first, and may arrive after datagrams sent later.</para>
-/// <para>Deterministic: the same leg, seed and send times give the same bits. Each concern draws from its own stream, always, so two runs
-/// that differ in one property of the leg, or in what else is lost, see the same luck in all others. Not thread-safe.</para>
+/// <para>Deterministic: the same leg, seed and send times give the same bits. Each concern always draws from its own stream, so two runs
+/// that differ in one property of the leg, or in what else is lost, get the same draws for all others. Not thread-safe.</para>
 /// </remarks>
 internal sealed class LinkModel
 {
@@ -41,11 +44,11 @@ internal sealed class LinkModel
     private long periodAsked = long.MinValue;
     private bool periodHasOutage;
 
-    /// <summary>A link direction in its long-run state.</summary>
-    /// <param name="leg">What it does.</param>
-    /// <param name="random">Its luck; only <see cref="SeededRandom.Fork"/> is called on it.</param>
-    /// <param name="path">The luck of both directions together, equal for the two; likewise. Default: this direction's own.</param>
-    /// <param name="queue">A queue that it shares with other directions, in place of one of its own. All of them must send in the order of time.</param>
+    /// <summary>Creates a link direction in its long-run state.</summary>
+    /// <param name="leg">The properties of the direction.</param>
+    /// <param name="random">Its random generator; only <see cref="SeededRandom.Fork"/> is called on it.</param>
+    /// <param name="path">The random generator shared by both directions; likewise. Default: this direction's own.</param>
+    /// <param name="queue">A queue shared with other directions, in place of its own. All of them must send in the order of time.</param>
     public LinkModel(LinkLeg leg, SeededRandom random, SeededRandom? path = null, LinkQueue? queue = null)
     {
         ArgumentNullException.ThrowIfNull(leg);
@@ -73,20 +76,24 @@ internal sealed class LinkModel
         enterLoss = always ? 1 : leaveLoss * lossShare / (1 - lossShare);
     }
 
-    /// <summary>What this direction does.</summary>
+    /// <summary>The properties of this direction.</summary>
     public LinkLeg Leg { get; }
 
     /// <summary>The queue that datagrams go through first; null if there is none.</summary>
     public LinkQueue? Queue { get; }
 
-    /// <summary>Whether <see cref="Send(SimTime, int)"/> can say what becomes of a datagram: all links but those with a queue of CoDel.</summary>
+    /// <summary>
+    /// Whether <see cref="Send(SimTime, int)"/> can return a datagram's fate: true for all links but those with a CoDel queue.
+    /// </summary>
     public bool DecidesAtOnce => Queue is null || Queue.DecidesAtOnce;
 
-    /// <summary>When the datagram that is sent now arrives.</summary>
-    /// <param name="at">The true time it is sent; never earlier than that of the call before.</param>
-    /// <param name="bytes">Its own bytes, 1 to 65,507; <see cref="Bottleneck.OverheadBytes"/> come on top where there is a bottleneck.</param>
-    /// <exception cref="ArgumentOutOfRangeException"><paramref name="at"/> is earlier than that of the call before, or <paramref name="bytes"/> out of range.</exception>
-    /// <exception cref="InvalidOperationException">Not <see cref="DecidesAtOnce"/>.</exception>
+    /// <summary>Returns when a datagram sent now arrives.</summary>
+    /// <param name="at">The true time it is sent; never earlier than in the previous call.</param>
+    /// <param name="bytes">Its own bytes, 1 to 65,507; with a bottleneck, <see cref="Bottleneck.OverheadBytes"/> are added.</param>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// <paramref name="at"/> is earlier than in the previous call, or <paramref name="bytes"/> out of range.
+    /// </exception>
+    /// <exception cref="InvalidOperationException"><see cref="DecidesAtOnce"/> is false.</exception>
     public LinkDeliveries Send(SimTime at, int bytes)
     {
         if (!DecidesAtOnce)
@@ -99,8 +106,10 @@ internal sealed class LinkModel
         return Queue is null ? Arrive(at, luck) : Queue.TryPass(at, bytes, out SimTime leaves) ? Arrive(leaves, luck) : default;
     }
 
-    /// <summary>Sends a datagram, and tells when it arrives as soon as that is decided: before this returns, or while <see cref="LinkQueue.DecideUntil"/> of
-    /// the <see cref="Queue"/> is called, or another datagram sent through it.</summary>
+    /// <summary>
+    /// Sends a datagram, and reports when it arrives as soon as that is decided: before this returns, or while
+    /// <see cref="LinkQueue.DecideUntil"/> of the <see cref="Queue"/> is called, or another datagram is sent through it.
+    /// </summary>
     /// <param name="at">As for <see cref="Send(SimTime, int)"/>.</param>
     /// <param name="bytes">Likewise.</param>
     /// <param name="decided">Called once, in the order of sending. It must not send.</param>
@@ -119,7 +128,7 @@ internal sealed class LinkModel
         Queue!.Pass(at, bytes, leaves => decided(leaves is SimTime then ? Arrive(then, luck) : default));
     }
 
-    /// <summary>How much of period 0 has gone by at time zero, of everything periodic on a path.</summary>
+    /// <summary>The fraction of period 0 that has elapsed at time zero, for everything periodic on a path.</summary>
     internal static double Phase(SeededRandom path) => path.Fork(9).NextDouble();
 
     private void Begin(SimTime at, int bytes)
@@ -138,7 +147,7 @@ internal sealed class LinkModel
         lastSent = at;
     }
 
-    /// <summary>Every draw is made for every datagram, whatever becomes of it: see the remarks.</summary>
+    /// <summary>Makes every draw for every datagram, whatever its fate: see the remarks.</summary>
     private Luck Draw() => new(
         NextIsLost(),
         outageLuck.NextDouble() * 100,
@@ -148,7 +157,7 @@ internal sealed class LinkModel
         duplicateLuck.NextDouble() * 100 < Leg.DuplicatePercent,
         copyLuck.NextGaussian());
 
-    /// <summary>What becomes of a datagram that is past the queue, or has none to pass.</summary>
+    /// <summary>Decides the fate of a datagram that has passed the queue, or has none to pass.</summary>
     private LinkDeliveries Arrive(SimTime at, in Luck luck)
     {
         if (luck.IsLost | IsInOutage(at, luck.Outage))
@@ -160,7 +169,8 @@ internal sealed class LinkModel
         SimTime arrival = SimTime.Max(at + Delay(usual, luck.Delay), lastInOrder);
         if (luck.IsHeldBack)
         {
-            arrival += SimDuration.FromMilliseconds(luck.Hold * Leg.ReorderHoldMilliseconds); // and the mark stays, so that those sent later may arrive before it
+            // The mark stays, so that datagrams sent later may arrive before it.
+            arrival += SimDuration.FromMilliseconds(luck.Hold * Leg.ReorderHoldMilliseconds);
         }
         else
         {
@@ -189,7 +199,7 @@ internal sealed class LinkModel
         return into < outage.Length && luck < outage.LossPercent && HasOutage(outage, period);
     }
 
-    /// <summary>Of each period by itself, so that silence, or another start, changes nothing for those that follow.</summary>
+    /// <summary>Depends on the period alone, so that a silence or another start changes nothing for later periods.</summary>
     private bool HasOutage(PeriodicOutage outage, long period)
     {
         if (period != periodAsked)
@@ -220,6 +230,6 @@ internal sealed class LinkModel
         return SimDuration.FromMilliseconds(milliseconds);
     }
 
-    /// <summary>One datagram's luck: in the leg's states and shares, in standard deviations, in parts of the hold.</summary>
+    /// <summary>One datagram's random draws: in the leg's states and shares, in standard deviations, in parts of the hold.</summary>
     private readonly record struct Luck(bool IsLost, double Outage, double Delay, bool IsHeldBack, double Hold, bool IsTwice, double Copy);
 }

@@ -14,7 +14,7 @@ public static class LinkProfiles
     /// <summary>The longest pure delay, in milliseconds.</summary>
     public const double MaxPureDelay = 2_000;
 
-    /// <summary>What there is besides the names of <see cref="All"/>, for help and errors.</summary>
+    /// <summary>The names accepted besides those of <see cref="All"/>, for help and errors.</summary>
     public static readonly string AnyDelay = $"delay-Nms for any N from 0 to {MaxPureDelay}";
 
     private const string DelayPrefix = "delay-";
@@ -28,7 +28,7 @@ public static class LinkProfiles
     /// <summary>Two machines on one wired network: 0.3 ms, jitter 0.05 ms.</summary>
     public static LinkProfile Lan { get; } = new("lan", new LinkLeg(0.3, 0.05));
 
-    /// <summary>As <see cref="Lan"/>, but a player's clock is 1.24 s ahead of the host's: what the thesis's two machines had.</summary>
+    /// <summary>As <see cref="Lan"/>, but a player's clock is 1.24 s ahead of the host's, as for the thesis's two machines.</summary>
     public static LinkProfile SkewedClock { get; } =
         new("skewed-clock", new LinkLeg(0.3, 0.05), SimDuration.FromMilliseconds(1240));
 
@@ -50,8 +50,8 @@ public static class LinkProfiles
     public static LinkProfile FiveG { get; } = new("5g", toHost: new LinkLeg(18, 4, 0.1, 1.5), fromHost: new LinkLeg(7, 2, 0.1, 1.5));
 
     /// <summary>
-    /// Satellites in low orbit, another one every 15 s: 25 ms, jitter 7 ms, a step of 10 ms at each handover; 0.3 % lost one by one, and half
-    /// of what is sent in the first 200 ms after every second handover on average.
+    /// Satellites in low orbit, changing every 15 s: 25 ms, jitter 7 ms, a step of 10 ms at each handover; 0.3 % lost one by one, and half
+    /// of the datagrams sent in the first 200 ms after every second handover on average.
     /// </summary>
     public static LinkProfile Starlink { get; } = new("starlink", new LinkLeg(25, 7, lossPercent: 0.3, meanBurstLength: 1 / 0.997)
     {
@@ -68,7 +68,9 @@ public static class LinkProfiles
     /// <summary>A geostationary satellite: 325 ms, jitter 10 ms, 0.5 % lost in bursts of 2.</summary>
     public static LinkProfile Satellite { get; } = new("satellite", new LinkLeg(325, 10, 0.5, 2));
 
-    /// <summary>Everything at once, to break things with: 200 ms, jitter 60 ms, 10 % lost in bursts of 5, 5 % reordered, 2 % duplicated.</summary>
+    /// <summary>
+    /// Everything at once, to break things with: 200 ms, jitter 60 ms, 10 % lost in bursts of 5, 5 % reordered, 2 % duplicated.
+    /// </summary>
     public static LinkProfile Awful { get; } =
         new("awful", new LinkLeg(200, 60, lossPercent: 10, meanBurstLength: 5, reorderPercent: 5, duplicatePercent: 2));
 
@@ -82,14 +84,18 @@ public static class LinkProfiles
         toHost: new LinkLeg(25, 2) { Bottleneck = new Bottleneck(256_000, 500) },
         fromHost: new LinkLeg(25, 2) { Bottleneck = new Bottleneck(2_000_000, 500) });
 
-    /// <summary>What a modem gave, or a phone at the edge of its cell gives: 60 ms, jitter 5 ms; 64 kbit/s each way, with a queue of 1 s.</summary>
+    /// <summary>A modem, or a phone at the edge of its cell: 60 ms, jitter 5 ms; 64 kbit/s each way, with a queue of 1 s.</summary>
     public static LinkProfile Modem64K { get; } = new("modem-64k", new LinkLeg(60, 5) { Bottleneck = new Bottleneck(64_000, 1_000) });
 
-    /// <summary>A line whose queue is much too long, and somebody downloads over it: 20 ms, jitter 2 ms; 1 Mbit/s each way, with a queue of 2 s.</summary>
+    /// <summary>
+    /// A line with a queue that is much too long, during a download: 20 ms, jitter 2 ms; 1 Mbit/s each way, with a queue of 2 s.
+    /// </summary>
     public static LinkProfile Bufferbloat { get; } =
         new("bufferbloat", new LinkLeg(20, 2) { Bottleneck = new Bottleneck(1_000_000, 2_000) }) { HasBulkTransfer = true };
 
-    /// <summary>A line that gets narrow for 5 s every 30 s, both ways at once: 40 ms, jitter 2 ms; 512 kbit/s, then 100 kbit/s, with a queue of 1 s.</summary>
+    /// <summary>
+    /// A line that narrows for 5 s every 30 s, both ways at once: 40 ms, jitter 2 ms; 512 kbit/s, then 100 kbit/s, with a queue of 1 s.
+    /// </summary>
     public static LinkProfile Dip { get; } = new("dip", new LinkLeg(40, 2)
     {
         Bottleneck = new Bottleneck(512_000, 1_000) { Dip = new PeriodicDip(periodSeconds: 30, lengthSeconds: 5, rateBitsPerSecond: 100_000) },
@@ -98,7 +104,7 @@ public static class LinkProfiles
     /// <summary>Pure delays from nothing to 2 s: 0, 10, 20, 50, 100, 200, 500, 1000, 2000 ms one way.</summary>
     public static IReadOnlyList<LinkProfile> Ladder { get; } = Array.ConvertAll(LadderSteps, PureDelay);
 
-    /// <summary>Every profile with a name of its own, the ladder last.</summary>
+    /// <summary>Every named profile, the ladder last.</summary>
     public static IReadOnlyList<LinkProfile> All { get; } =
     [
         Loopback, Lan, SkewedClock, WifiGood, WifiBusy, FourG, ThreeG, FiveG, Starlink, Transatlantic, EuAustralia, Satellite, Awful, Blackout,
@@ -109,8 +115,12 @@ public static class LinkProfiles
     /// <summary>The names of <see cref="All"/>, in that order: the rows of a test that runs on every link.</summary>
     public static IReadOnlyList<string> Names { get; } = [.. All.Select(known => known.Name)];
 
-    /// <summary>A link that delays every datagram by the same time each way and does nothing else, named <c>delay-25ms</c> for 25.</summary>
-    /// <param name="milliseconds">One way, 0 to <see cref="MaxPureDelay"/>; rounded to a nanosecond, so that the name says all.</param>
+    /// <summary>
+    /// Creates a link that delays every datagram by the same time each way and does nothing else, named <c>delay-25ms</c> for 25.
+    /// </summary>
+    /// <param name="milliseconds">
+    /// The delay one way, 0 to <see cref="MaxPureDelay"/>; rounded to a nanosecond, so that the name is exact.
+    /// </param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="milliseconds"/> is not finite or out of range.</exception>
     public static LinkProfile PureDelay(double milliseconds)
     {
@@ -124,15 +134,15 @@ public static class LinkProfiles
         return new LinkProfile(name, new LinkLeg(rounded));
     }
 
-    /// <summary>The profile of that name: one of <see cref="All"/>, or any <c>delay-Nms</c>.</summary>
+    /// <summary>Returns the profile of that name: one of <see cref="All"/>, or any <c>delay-Nms</c>.</summary>
     /// <param name="name">Case matters.</param>
-    /// <exception cref="ArgumentException">There is no such profile; the message lists those that there are.</exception>
+    /// <exception cref="ArgumentException">There is no such profile; the message lists those that exist.</exception>
     public static LinkProfile Get(string name) => TryGet(name, out LinkProfile? profile, out string? error) ? profile : throw new ArgumentException(error, nameof(name));
 
-    /// <summary>The profile of that name, if there is one.</summary>
+    /// <summary>Finds the profile of that name.</summary>
     /// <param name="name">Case matters.</param>
     /// <param name="profile">The profile, if there is one.</param>
-    /// <param name="error">Else a sentence that says what there is.</param>
+    /// <param name="error">Otherwise a sentence that lists those that exist.</param>
     public static bool TryGet(
         string name, [NotNullWhen(true)] out LinkProfile? profile, [NotNullWhen(false)] out string? error)
     {

@@ -4,34 +4,37 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A <see cref="Links.Bottleneck"/> at work: a queue, and the line behind it. Several directions may go through one and the same.</summary>
+/// <summary>A <see cref="Links.Bottleneck"/> in operation: a queue, and the line behind it. Several directions may share one.</summary>
 /// <remarks>
-/// <para>First in, first out. With drop-tail a datagram's fate is known when it comes, since it depends on nothing that comes later. With CoDel it is
-/// not: what is lost at the head depends on how much waits behind it by then. So it is decided when it is next, and who sent it is told then
-/// (<see cref="NextDecision"/>, <see cref="DecideUntil"/>): as RFC 8289 has it, nothing is guessed.</para>
-/// <para>The next is chosen when the one before it has left, and is then served by the token bucket. It counts as waiting until it leaves for the room
-/// there is, not for CoDel; both as in the kernel.</para>
-/// <para>Deterministic: the same datagrams at the same times have the same fates; the only luck is where a dip's period begins. Not thread-safe.</para>
+/// <para>First in, first out. With drop-tail a datagram's fate is known when it arrives, since it depends on nothing later. With CoDel it
+/// is not: drops at the head depend on how much waits behind by then. So the fate is decided when the datagram is next, and its sender is
+/// notified then (<see cref="NextDecision"/>, <see cref="DecideUntil"/>): as in RFC 8289, nothing is guessed.</para>
+/// <para>The next datagram is chosen when the one before it has left, and is then served by the token bucket. Until it leaves it occupies
+/// room in the queue, but does not count as waiting for CoDel; both as in the kernel.</para>
+/// <para>Deterministic: the same datagrams at the same times have the same fates; the only random draw is where a dip's period begins. Not
+/// thread-safe.</para>
 /// </remarks>
 internal sealed class LinkQueue
 {
-    /// <summary>A UDP datagram has no more bytes of its own.</summary>
+    /// <summary>The most bytes of its own that a UDP datagram has.</summary>
     internal const int MaxBytes = 65_507;
 
     private readonly TokenBucket bucket;
     private readonly CoDel? codel;
     private readonly WaitingLine waiting;
     private readonly Queue<(int Bytes, SimTime At)> leaving = new(); // decided, not gone yet
-    private readonly List<BulkTransfer> transfers = []; // those that go through here, and send by themselves
+    private readonly List<BulkTransfer> transfers = []; // bulk transfers through this queue, which send by themselves
     private long leavingBytes;
     private SimTime lastCame = SimTime.MinValue;
-    private SimTime free = SimTime.MinValue; // when the last that was decided has left
-    private bool idle = true; // nothing came since then; CoDel knows it
+    private SimTime free = SimTime.MinValue; // when the last decided datagram has left
+    private bool idle = true; // nothing arrived since then; CoDel knows it
 
-    /// <summary>An empty queue whose line has been idle.</summary>
-    /// <param name="bottleneck">What it is.</param>
-    /// <param name="path">The luck of a path, on which it depends where a dip's period begins; only <see cref="SeededRandom.Fork"/> is called on
-    /// it. Default: one begins at time zero.</param>
+    /// <summary>Creates an empty queue whose line has been idle.</summary>
+    /// <param name="bottleneck">Its rate, size and discipline.</param>
+    /// <param name="path">
+    /// The random generator of the path, which decides where a dip's period begins; only <see cref="SeededRandom.Fork"/> is called on it.
+    /// Default: one begins at time zero.
+    /// </param>
     public LinkQueue(Bottleneck bottleneck, SeededRandom? path = null)
         : this(bottleneck, path is null ? 0 : LinkModel.Phase(path))
     {
@@ -46,26 +49,26 @@ internal sealed class LinkQueue
         codel = bottleneck.Discipline == QueueDiscipline.CoDel ? new CoDel(waiting) : null;
     }
 
-    /// <summary>What it is.</summary>
+    /// <summary>Its rate, size and discipline.</summary>
     public Bottleneck Bottleneck { get; }
 
     /// <summary>Whether the line is in a dip at that time.</summary>
     public bool IsInDip(SimTime at) => bucket.IsInDip(at);
 
-    /// <summary>Whether a datagram's fate is known as soon as it comes: with drop-tail.</summary>
+    /// <summary>Whether a datagram's fate is known as soon as it arrives: with drop-tail.</summary>
     public bool DecidesAtOnce => codel is null;
 
-    /// <summary>When the next of those that wait undecided is decided; null when none does. None of them leaves before.</summary>
+    /// <summary>When the next undecided datagram is decided; null if there is none. None of them leaves before.</summary>
     public SimTime? NextDecision => waiting.Count > 0 ? free : null;
 
-    /// <summary>How many datagrams were lost here, for want of room or by CoDel.</summary>
+    /// <summary>The number of datagrams dropped here, for lack of room or by CoDel.</summary>
     public long Dropped { get; private set; }
 
-    /// <summary>How many datagrams have left or are decided to.</summary>
+    /// <summary>The number of datagrams that have left or will leave.</summary>
     public long Passed { get; private set; }
 
-    /// <summary>The bytes inside at a time, their overhead included: what waits and what is next to leave.</summary>
-    /// <param name="at">Not before the time of any call before.</param>
+    /// <summary>The bytes inside at a time, including overhead: the waiting datagrams and the one that leaves next.</summary>
+    /// <param name="at">Not before the time of any earlier call.</param>
     public long BytesAt(SimTime at)
     {
         DecideUntil(at);
@@ -78,11 +81,13 @@ internal sealed class LinkQueue
         return leavingBytes + waiting.WaitingBytes;
     }
 
-    /// <summary>Decides all that is to be decided by then, that time included, once the transfers that go through here have sent what they send until
-    /// then. Nothing may come from before it afterwards.</summary>
+    /// <summary>
+    /// Decides everything due up to and including that time, after the transfers through this queue have sent what they send until then.
+    /// Afterwards nothing may arrive from before it.
+    /// </summary>
     public void DecideUntil(SimTime now)
     {
-        // One that sends asks here who comes before it, so they come in order whichever is first.
+        // A transfer that sends asks here which sender is next, so they come in order whichever runs first.
         foreach (BulkTransfer transfer in transfers)
         {
             transfer.RunUntil(now);
@@ -101,11 +106,11 @@ internal sealed class LinkQueue
         }
     }
 
-    /// <summary>A datagram comes, and its fate is known; only of a queue that <see cref="DecidesAtOnce"/>.</summary>
-    /// <param name="at">Not before the time of any call before.</param>
+    /// <summary>Passes a datagram whose fate is decided at once; only for a queue with <see cref="DecidesAtOnce"/>.</summary>
+    /// <param name="at">Not before the time of any earlier call.</param>
     /// <param name="bytes">Its own bytes, without overhead, 1 to <see cref="MaxBytes"/>.</param>
     /// <param name="leaves">When it leaves, if it does.</param>
-    /// <returns>False if it is lost.</returns>
+    /// <returns>False if it is dropped.</returns>
     internal bool TryPass(SimTime at, int bytes, out SimTime leaves)
     {
         int onWire = bytes + Bottleneck.OverheadBytes;
@@ -119,7 +124,9 @@ internal sealed class LinkQueue
         return true;
     }
 
-    /// <summary>A datagram comes, and whoever sent it is told its fate as soon as it is decided: when it leaves, or null if it is lost.</summary>
+    /// <summary>
+    /// Passes a datagram, and notifies its sender of its fate as soon as that is decided: when it leaves, or null if it is dropped.
+    /// </summary>
     internal void Pass(SimTime at, int bytes, Action<SimTime?> decided)
     {
         if (codel is null)
@@ -168,7 +175,7 @@ internal sealed class LinkQueue
         return free;
     }
 
-    /// <summary>What waits undecided.</summary>
+    /// <summary>The undecided datagrams.</summary>
     private sealed class WaitingLine(LinkQueue queue) : CoDel.IWaitingLine
     {
         private readonly Queue<CoDel.Waiting> inside = new();

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>The quantile of the standard normal distribution: what a share of all draws does not exceed.</summary>
+/// <summary>The quantile function of the standard normal distribution: the value that a given share of draws does not exceed.</summary>
 /// <remarks>
 /// Wichura's algorithm AS 241 (Applied Statistics 37, 1988), without its last branch: good to about 16 digits for shares within 1e-10 of 0
 /// or 1.

@@ -3,12 +3,12 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A time of loss that begins every so often: a handover, a cable that is loose. On top of the loss that the leg has at all times.</summary>
+/// <summary>A periodic time of loss: a handover, a loose cable. It adds to the loss that the leg has at all times.</summary>
 /// <remarks>Both directions of a link have it at once. Immutable, safe on any thread.</remarks>
 public sealed class PeriodicOutage
 {
-    /// <summary>An outage at the beginning of every period, or of some.</summary>
-    /// <param name="periodSeconds">The time from one beginning to the next, 0.001 to 86,400 s.</param>
+    /// <summary>Creates an outage at the beginning of every period, or of some.</summary>
+    /// <param name="periodSeconds">The length of a period, 0.001 to 86,400 s.</param>
     /// <param name="lengthSeconds">How long it lasts; above 0, at most a period.</param>
     /// <param name="lossPercent">See <see cref="LossPercent"/>.</param>
     /// <param name="periodPercent">See <see cref="PeriodPercent"/>.</param>
@@ -27,16 +27,16 @@ public sealed class PeriodicOutage
         PeriodPercent = Percent(periodPercent, nameof(periodPercent));
     }
 
-    /// <summary>The time from one beginning to the next.</summary>
+    /// <summary>The length of a period.</summary>
     public SimDuration Period { get; }
 
     /// <summary>How long it lasts.</summary>
     public SimDuration Length { get; }
 
-    /// <summary>How many of a hundred datagrams sent meanwhile are lost, each by itself; above 0 to 100, default 100.</summary>
+    /// <summary>The percentage of datagrams lost during an outage, each independently; above 0 to 100, default 100.</summary>
     public double LossPercent { get; }
 
-    /// <summary>How many of a hundred periods have one, by luck; above 0 to 100, default 100.</summary>
+    /// <summary>The percentage of periods with an outage, at random; above 0 to 100, default 100.</summary>
     public double PeriodPercent { get; }
 
     private static double Percent(double value, string parameter) =>

@@ -1,14 +1,14 @@
 namespace LagSim.Testing.Links;
 
-/// <summary>What went through a port so far, as the wire sees it: the bytes of each datagram and of its headers.</summary>
+/// <summary>The traffic through a port so far, as the wire sees it: the bytes of each datagram and of its headers.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-/// <param name="DatagramsSent">How many were handed to the network, those it then lost included.</param>
+/// <param name="DatagramsSent">The datagrams handed to the network, including those it then lost.</param>
 /// <param name="BytesSent">Their bytes, with <see cref="HeaderBytes"/> for each.</param>
-/// <param name="DatagramsReceived">How many came in, copies included.</param>
+/// <param name="DatagramsReceived">The datagrams that arrived, copies included.</param>
 /// <param name="BytesReceived">Their bytes, with <see cref="HeaderBytes"/> for each.</param>
 public readonly record struct PortTraffic(long DatagramsSent, long BytesSent, long DatagramsReceived, long BytesReceived)
 {
-    /// <summary>What each datagram costs on top of its own bytes: 20 for IPv4, 8 for UDP.</summary>
+    /// <summary>The bytes of headers on each datagram: 20 for IPv4, 8 for UDP.</summary>
     public const int HeaderBytes = 28;
 
     internal PortTraffic WithSent(int datagramBytes) =>

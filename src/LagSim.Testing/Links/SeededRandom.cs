@@ -3,10 +3,10 @@ using System.Numerics;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A random generator that is all ours: the same seed gives the same bits on every runtime, build and processor.</summary>
+/// <summary>A self-contained random generator: the same seed gives the same bits on every runtime, build and processor.</summary>
 /// <remarks>
 /// <para>xoshiro256** (Blackman and Vigna), its state filled by SplitMix64. <see cref="Random"/> promises no sequence between versions, and
-/// a result that cannot be run again cannot be looked into.</para>
+/// a result that cannot be reproduced cannot be investigated.</para>
 /// <para>Only integers, <c>+ - * /</c> and <see cref="Math.Sqrt"/> are used; logarithm and exponential are our own, since those of the
 /// platform may differ in their last bits. Not thread-safe: one generator belongs to one thread or one lock.</para>
 /// </remarks>
@@ -21,7 +21,7 @@ internal sealed class SeededRandom
     private double spare;
     private bool hasSpare;
 
-    /// <summary>A generator for that seed; every seed is good, zero too.</summary>
+    /// <summary>Creates a generator for that seed; every seed is good, zero too.</summary>
     public SeededRandom(ulong seed)
     {
         this.seed = seed;
@@ -76,9 +76,11 @@ internal sealed class SeededRandom
         return u * scale;
     }
 
-    /// <summary>An independent generator for a named purpose.</summary>
-    /// <remarks>Depends on this generator's seed and <paramref name="stream"/> only, not on what was drawn so far: the order in which
-    /// things are set up changes nothing, and one more draw in one stream shifts no other.</remarks>
+    /// <summary>Creates an independent generator for a named purpose.</summary>
+    /// <remarks>
+    /// Depends only on this generator's seed and <paramref name="stream"/>, not on earlier draws: the order of setup changes nothing, and
+    /// one more draw in one stream shifts no other.
+    /// </remarks>
     public SeededRandom Fork(ulong stream)
     {
         ulong streamState = ~stream;
@@ -86,7 +88,9 @@ internal sealed class SeededRandom
         return new SeededRandom(SplitMix(ref state));
     }
 
-    /// <summary>Natural logarithm of a normal number in (0, 1): ln(m 2^e) = e ln 2 + 2 artanh((m - 1) / (m + 1)), m in [0.5, 1) x sqrt 2.</summary>
+    /// <summary>
+    /// Natural logarithm of a normal number in (0, 1): ln(m 2^e) = e ln 2 + 2 artanh((m - 1) / (m + 1)), m in [0.5, 1) x sqrt 2.
+    /// </summary>
     internal static double Log(double x)
     {
         long bits = BitConverter.DoubleToInt64Bits(x);
@@ -109,7 +113,9 @@ internal sealed class SeededRandom
         return (exponent * Ln2) + (2.0 * f * sum);
     }
 
-    /// <summary>e to that power: 2^k e^r, r within half of ln 2 either way. Zero below -708, infinite above 709, in between to the last bits.</summary>
+    /// <summary>
+    /// e to that power: 2^k e^r, r within half of ln 2 either way. Zero below -708, infinite above 709, in between to the last bits.
+    /// </summary>
     internal static double Exp(double x)
     {
         if (!(x is >= -708 and <= 709))

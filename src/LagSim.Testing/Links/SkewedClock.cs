@@ -3,8 +3,10 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>The clock of a machine whose clock is wrong: true time x (1 + skew) + offset.</summary>
-/// <remarks>Exact to a tick, rounded down; never goes back. Deterministic: integers only. As safe on any thread as the clock it wraps.</remarks>
+/// <summary>The clock of a machine that runs wrong: true time x (1 + skew) + offset.</summary>
+/// <remarks>
+/// Exact to a tick, rounded down; never goes back. Deterministic: integers only. As safe on any thread as the clock it wraps.
+/// </remarks>
 internal sealed class SkewedClock : IClock
 {
     /// <summary>The largest skew either way, in parts per million: a tenth.</summary>
@@ -14,11 +16,13 @@ internal sealed class SkewedClock : IClock
     private readonly IClock trueClock;
     private readonly long skew; // in units of 2^-40, about one part in 10^12
 
-    /// <summary>A clock that is off from another.</summary>
-    /// <param name="trueClock">What it is off from.</param>
+    /// <summary>Creates a clock that deviates from another.</summary>
+    /// <param name="trueClock">The clock it deviates from.</param>
     /// <param name="partsPerMillion">How much faster it runs; real crystals are within 100 either way.</param>
-    /// <param name="offset">What it reads when <paramref name="trueClock"/> reads zero.</param>
-    /// <exception cref="ArgumentOutOfRangeException"><paramref name="partsPerMillion"/> is not finite or beyond <see cref="MaxPartsPerMillion"/>.</exception>
+    /// <param name="offset">Its reading when <paramref name="trueClock"/> reads zero.</param>
+    /// <exception cref="ArgumentOutOfRangeException">
+    /// <paramref name="partsPerMillion"/> is not finite or beyond <see cref="MaxPartsPerMillion"/>.
+    /// </exception>
     public SkewedClock(IClock trueClock, double partsPerMillion, SimDuration offset)
     {
         ArgumentNullException.ThrowIfNull(trueClock);
@@ -33,17 +37,19 @@ internal sealed class SkewedClock : IClock
         Offset = offset;
     }
 
-    /// <summary>What this clock reads when the true one reads zero.</summary>
+    /// <summary>The reading of this clock when the true one reads zero.</summary>
     public SimDuration Offset { get; }
 
     /// <inheritdoc/>
     public SimTime Now => ReadingAt(trueClock.Now);
 
-    /// <summary>What this clock reads at that true time.</summary>
+    /// <summary>The reading of this clock at that true time.</summary>
     /// <exception cref="OverflowException">The reading is out of range.</exception>
     public SimTime ReadingAt(SimTime trueTime) => SimTime.FromTicks(checked((long)Reading(trueTime.Ticks)));
 
-    /// <summary>The first true time at which this clock reads <paramref name="reading"/> or later: when to wake who waits by this clock.</summary>
+    /// <summary>
+    /// The first true time at which this clock reads <paramref name="reading"/> or later: when to wake a thread that waits by this clock.
+    /// </summary>
     /// <exception cref="OverflowException">The true time is out of range.</exception>
     public SimTime TrueTimeOf(SimTime reading)
     {

@@ -3,8 +3,11 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>Tokens that come in at a rate, up to a burst, and are taken by what leaves. Exact: whole numbers, rounded up to a tick once a datagram.</summary>
-/// <remarks>Begins full. A token is a bit's 2^-40th part, what one bit per second brings in a tick. Not thread-safe.</remarks>
+/// <summary>
+/// A token bucket: tokens come in at a rate, up to a burst, and datagrams take them when they leave. Exact: whole numbers, rounded up to a
+/// tick once per datagram.
+/// </summary>
+/// <remarks>Begins full. A token is the 2^-40th part of a bit: what a rate of one bit per second adds in a tick. Not thread-safe.</remarks>
 internal sealed class TokenBucket
 {
     private const long TokensPerByte = 8 * SimDuration.TicksPerSecond;
@@ -13,11 +16,11 @@ internal sealed class TokenBucket
     private readonly PeriodicDip? dip;
     private readonly Cadence dips;
     private readonly long room; // 0: a line without a bucket
-    private SimTime filled = SimTime.MinValue; // up to when tokens have come in
+    private SimTime filled = SimTime.MinValue; // the time up to which tokens have been added
     private long tokens;
 
     /// <param name="bottleneck">Its rates and burst.</param>
-    /// <param name="phase">How much of a dip's period 0 has gone by at time zero, 0 to below 1.</param>
+    /// <param name="phase">The fraction of a dip's period 0 that has elapsed at time zero, 0 to below 1.</param>
     internal TokenBucket(Bottleneck bottleneck, double phase)
     {
         rate = bottleneck.RateBitsPerSecond;
@@ -28,9 +31,9 @@ internal sealed class TokenBucket
     }
 
     /// <summary>Takes a datagram's tokens as soon as there are enough.</summary>
-    /// <param name="from">Not earlier than any time that was given or returned before.</param>
+    /// <param name="from">Not earlier than any time given or returned before.</param>
     /// <param name="bytes">Its bytes on the wire; at most the burst, if there is one.</param>
-    /// <returns>When that is; not before <paramref name="from"/>.</returns>
+    /// <returns>When there are enough; not before <paramref name="from"/>.</returns>
     internal SimTime Take(SimTime from, int bytes)
     {
         long need = bytes * TokensPerByte;

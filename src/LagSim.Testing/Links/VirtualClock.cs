@@ -10,10 +10,10 @@ public sealed class VirtualClock : IClock
 {
     private long ticks;
 
-    /// <summary>A clock that reads <paramref name="start"/>.</summary>
+    /// <summary>Creates a clock that reads <paramref name="start"/>.</summary>
     public VirtualClock(SimTime start = default) => ticks = start.Ticks;
 
-    /// <summary>What the clock reads. Setting it moves it forward, or leaves it where it is.</summary>
+    /// <summary>The reading of the clock. Setting it moves it forward, or leaves it where it is.</summary>
     /// <exception cref="ArgumentOutOfRangeException">Set to an earlier time.</exception>
     public SimTime Now
     {

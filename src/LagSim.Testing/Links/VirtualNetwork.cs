@@ -5,13 +5,15 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Links;
 
-/// <summary>A network of any number of nodes in virtual time and one thread: nothing waits, and the same seed gives the same run.</summary>
+/// <summary>
+/// A network of any number of nodes in virtual time and one thread: nothing waits in real time, and the same seed gives the same run.
+/// </summary>
 /// <remarks>
-/// <para>For those who step sessions, or a carrier of datagrams of their own, by themselves; <see cref="SessionTest"/> does all this for a
-/// whole game. Drive it so: call <see cref="DeliverUntil"/> to go to the next moment at which something is due, let the nodes act, repeat.
-/// Datagrams that arrive at the same tick do so in the order in which they were sent.</para>
-/// <para>Each ordered pair of nodes has its own luck, a function of seed and pair only: who is added changes nothing for the others. Not
-/// thread-safe.</para>
+/// <para>For programs that step sessions, or their own datagram protocol, by themselves; <see cref="SessionTest"/> does all this for a
+/// whole game. To drive it, call <see cref="DeliverUntil"/> to go to the next moment at which something is due, let the nodes act, and
+/// repeat. Datagrams that arrive at the same tick do so in the order in which they were sent.</para>
+/// <para>Each ordered pair of nodes has its own random draws, a function of seed and pair only: adding a node changes nothing for the
+/// others. Not thread-safe.</para>
 /// </remarks>
 public sealed class VirtualNetwork
 {
@@ -20,22 +22,22 @@ public sealed class VirtualNetwork
 
     private readonly SeededRandom random;
     private readonly LinkProfile profile;
-    private readonly Dictionary<PeerAddress, VirtualPort> ports = []; // by where they are now
+    private readonly Dictionary<PeerAddress, VirtualPort> ports = []; // by current address
     private readonly Dictionary<int, VirtualPort> numbers = [];
     private readonly Dictionary<(int From, int To), LinkModel> links = [];
     private readonly List<(int From, int To, BulkTransfer Transfer)> transfers = [];
     private readonly List<Func<int, int, ReadOnlyMemory<byte>, bool>> lossRules = [];
     private readonly PriorityQueue<Flight, (SimTime Time, long Sequence)> inFlight = new();
-    private readonly List<LinkQueue> undecided = []; // those that decide later; one that a link no longer has may still hold some
+    private readonly List<LinkQueue> undecided = []; // those that decide later; one that was removed from its link may still hold datagrams
     private long sequence;
     private ulong linksMade;
     private ulong transfersMade;
 
-    /// <summary>A network without nodes.</summary>
-    /// <param name="clock">True time. Who else moves it must not move it past <see cref="NextDelivery"/> without delivering.</param>
-    /// <param name="seed">The luck of all links.</param>
+    /// <summary>Creates a network without nodes.</summary>
+    /// <param name="clock">True time. Other code that moves it must not move it past <see cref="NextDelivery"/> without delivering.</param>
+    /// <param name="seed">The seed of all links.</param>
     /// <param name="profile">
-    /// What a pair gets that nothing else was said of; the lower number counts as the host. Default: no delay at all.
+    /// The profile of pairs without one of their own; the lower number counts as the host. Default: no delay at all.
     /// </param>
     public VirtualNetwork(VirtualClock clock, ulong seed, LinkProfile? profile = null)
     {
@@ -48,20 +50,22 @@ public sealed class VirtualNetwork
     /// <summary>True time.</summary>
     public VirtualClock Clock { get; }
 
-    /// <summary>When the next datagram arrives, or a queue of CoDel decides on one; null when none is in flight.</summary>
+    /// <summary>When the next datagram arrives, or a CoDel queue decides on one; null if none is in flight.</summary>
     public SimTime? NextDelivery => NextDecision is SimTime decision && !(NextArrival < decision) ? decision : NextArrival;
 
-    /// <summary>How many datagrams did not arrive: lost by a link or a rule, sent to nobody, or to a port that had no room.</summary>
+    /// <summary>
+    /// The number of datagrams that did not arrive: lost by a link or a rule, sent to an unknown address, or to a port without room.
+    /// </summary>
     public long DatagramsLost { get; private set; }
 
     /// <summary>
-    /// How many datagrams may wait at a port that does not take them, as in the buffer of a socket; newer ones are lost. Default: any
-    /// number.
+    /// The number of datagrams that may wait at a port, as in a socket's buffer; newer ones are lost. Default: any number.
     /// </summary>
     internal int PortRoom { get; set; } = int.MaxValue;
 
     /// <summary>
-    /// A node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be made anew.
+    /// Creates a node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be created
+    /// again.
     /// </summary>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="number"/> is negative.</exception>
     /// <exception cref="InvalidOperationException">The number is taken, or the address.</exception>
@@ -86,11 +90,11 @@ public sealed class VirtualNetwork
     }
 
     /// <summary>
-    /// Gives a port another address, as an address translator does that forgets a player: it sends from there from now on, and what is sent
-    /// to the former one, or on its way there, is lost. Its links stay what they are.
+    /// Gives a port another address, as when an address translator forgets a player: it sends from there from now on, and datagrams to the
+    /// former address, including those in flight, are lost. Its links stay the same.
     /// </summary>
     /// <param name="number">The port's number, which stays.</param>
-    /// <param name="address">The number of the new address, at which nobody is.</param>
+    /// <param name="address">The number of the new address, which must be unused.</param>
     /// <exception cref="KeyNotFoundException">There is no such port.</exception>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="address"/> is negative.</exception>
     /// <exception cref="InvalidOperationException">The address is taken.</exception>
@@ -129,15 +133,17 @@ public sealed class VirtualNetwork
     }
 
     /// <summary>
-    /// Joins a player and the host by a link of that profile, both ways, from now on; what is in flight arrives as it would have.
+    /// Connects a player and the host by a link with that profile, both ways, from now on; datagrams in flight arrive as before.
     /// </summary>
     /// <remarks>With <see cref="LinkProfile.HasBulkTransfer"/> a bulk transfer over it begins now.</remarks>
     /// <param name="player">The player's number.</param>
-    /// <param name="host">The host's.</param>
-    /// <param name="link">What the link does.</param>
+    /// <param name="host">The host's number.</param>
+    /// <param name="link">The profile of the link.</param>
     public void Connect(int player, int host, LinkProfile link) => Connect(player, host, link, null, null);
 
-    /// <summary>The same, where either direction may go through a queue that it shares with others, as for <see cref="SetLink"/>.</summary>
+    /// <summary>
+    /// Connects the two likewise, where either direction may go through a queue shared with others, as for <see cref="SetLink"/>.
+    /// </summary>
     internal void Connect(int player, int host, LinkProfile link, LinkQueue? up, LinkQueue? down)
     {
         ArgumentNullException.ThrowIfNull(link);
@@ -150,19 +156,19 @@ public sealed class VirtualNetwork
     }
 
     /// <summary>
-    /// Says what the direction from one node to another does from now on; what is in flight, or waits in a queue, arrives as it would have,
-    /// and bulk transfers between the two end.
+    /// Sets the properties of the direction from one node to another from now on. Datagrams in flight or in a queue arrive as before, and
+    /// bulk transfers between the two end.
     /// </summary>
     /// <param name="from">The sender's number.</param>
-    /// <param name="to">The receiver's.</param>
-    /// <param name="leg">What the direction does.</param>
+    /// <param name="to">The receiver's number.</param>
+    /// <param name="leg">The properties of the direction.</param>
     /// <param name="queue">
-    /// A queue through which other directions go too, of this network or any at the same true time; it stands in place of the leg's own
+    /// A queue shared with other directions, of this network or any with the same true time; it replaces the leg's own
     /// <see cref="LinkLeg.Bottleneck"/>. Default: the leg's own, if it has one.
     /// </param>
     internal void SetLink(int from, int to, LinkLeg leg, LinkQueue? queue = null)
     {
-        // A link made anew in the middle of a run must not repeat the luck of the one that it follows.
+        // A link replaced in the middle of a run must not repeat the random draws of its predecessor.
         ulong generation = links.ContainsKey((from, to)) ? ++linksMade : 0;
         LinkModel link = new(leg, Luck(from, to).Fork(generation), PathLuck(from, to), queue);
         links[(from, to)] = link;
@@ -182,10 +188,10 @@ public sealed class VirtualNetwork
     /// Begins a bulk TCP transfer from one node to another: competing traffic on the link between them, and on all that share its queues.
     /// </summary>
     /// <remarks>
-    /// It takes the links as they are; nodes at both ends are not needed, and hear nothing of it. It ends when one of the two directions is
-    /// set anew.
+    /// It uses the links as they are; it needs no nodes at its ends, and they do not see it. It ends when one of the two directions is set
+    /// again.
     /// </remarks>
-    /// <exception cref="InvalidOperationException">The direction has no bottleneck: nothing would hold the transfer back.</exception>
+    /// <exception cref="InvalidOperationException">The direction has no bottleneck, so nothing would limit the transfer.</exception>
     internal BulkTransfer StartBulkTransfer(int from, int to)
     {
         LinkModel there = Link(from, to), back = Link(to, from);
@@ -201,9 +207,9 @@ public sealed class VirtualNetwork
         return transfer;
     }
 
-    /// <summary>Loses for good each datagram of which the rule says so; all rules given count.</summary>
+    /// <summary>Drops every datagram for which the rule returns true; all rules given apply.</summary>
     /// <param name="rule">
-    /// Gets sender, receiver and datagram when it is sent; true loses it. Each rule sees every datagram, in order.
+    /// Called with sender, receiver and datagram when it is sent; true drops it. Each rule sees every datagram, in order.
     /// </param>
     public void Lose(Func<int, int, ReadOnlyMemory<byte>, bool> rule)
     {
@@ -211,17 +217,17 @@ public sealed class VirtualNetwork
         lossRules.Add(rule);
     }
 
-    /// <summary>The queue that what one node sends to another goes through first; null if there is none.</summary>
+    /// <summary>The queue that one node's datagrams to another pass first; null if there is none.</summary>
     internal LinkQueue? Queue(int from, int to) => Link(from, to).Queue;
 
-    /// <summary>What went through a node's port so far. Received is what arrived, taken or not.</summary>
+    /// <summary>The traffic through a node's port so far. Received counts what arrived, taken or not.</summary>
     /// <exception cref="KeyNotFoundException">There is no such port.</exception>
     public PortTraffic Traffic(int number) => numbers[number].Traffic;
 
     /// <summary>
-    /// Moves true time to <paramref name="now"/> and delivers what arrives until then, that included, each at its own time.
+    /// Moves true time to <paramref name="now"/> and delivers what arrives up to and including then, each datagram at its own time.
     /// </summary>
-    /// <returns>How many datagrams were delivered.</returns>
+    /// <returns>The number of datagrams delivered.</returns>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="now"/> is before the clock.</exception>
     public int DeliverUntil(SimTime now)
     {
@@ -243,7 +249,7 @@ public sealed class VirtualNetwork
         Clock.Now = now;
         foreach ((int _, int _, BulkTransfer transfer) in transfers)
         {
-            transfer.RunUntil(now); // whatever goes through its queues finds it where it should be; who only reads its figures does so by this
+            transfer.RunUntil(now); // senders through its queues run it as needed; this is for a caller that only reads its figures
         }
 
         return delivered;
@@ -254,7 +260,7 @@ public sealed class VirtualNetwork
         from.Traffic = from.Traffic.WithSent(datagram.Length);
         if (!ports.TryGetValue(to, out VirtualPort? receiver))
         {
-            DatagramsLost++; // as UDP does with an address where nobody is
+            DatagramsLost++; // as UDP does with an unused address
             return;
         }
 
@@ -262,7 +268,7 @@ public sealed class VirtualNetwork
         PeerAddress sender = from.LocalAddress;
         if (link.DecidesAtOnce)
         {
-            // The link is asked even for what a rule loses, so that a test which loses one datagram changes the luck of no other.
+            // The link draws even for a datagram that a rule drops, so that dropping one datagram changes the draws of no other.
             LinkDeliveries deliveries = link.Send(Clock.Now, datagram.Length);
             Fly(deliveries, IsLostByRule(from.Number, receiver.Number, datagram), new Flight(datagram, sender, to));
         }
@@ -298,7 +304,7 @@ public sealed class VirtualNetwork
         }
     }
 
-    /// <summary>Has the queues decide what is to be decided before anything else arrives.</summary>
+    /// <summary>Makes the queues decide what is due before anything else arrives.</summary>
     private bool DecideUntil(SimTime now)
     {
         while (NextDecision is SimTime decision && decision <= now && !(NextArrival < decision))

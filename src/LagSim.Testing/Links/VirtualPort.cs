@@ -70,7 +70,7 @@ internal sealed class VirtualPort : IDatagramPort
         inbox.Clear();
     }
 
-    /// <summary>Takes in what arrived; false where so many wait already that there is no room.</summary>
+    /// <summary>Accepts a datagram that arrived; false if too many wait already.</summary>
     internal bool Deliver(byte[] datagram, PeerAddress from, int room)
     {
         Traffic = Traffic.WithReceived(datagram.Length);

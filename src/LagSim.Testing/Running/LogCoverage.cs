@@ -6,33 +6,38 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>Counts the accepted events of hosts' logs that a client was to hear of, from each copy of a world that it got to where it came, and those that it did not.</summary>
+/// <summary>
+/// Counts the accepted events of the hosts' logs that a client should have received, from each snapshot it got to where its log ends, and
+/// those that it missed.
+/// </summary>
 /// <remarks>
-/// What was missed counts also where a later copy, or another host's world, made up for it: repair is not to hide a fault. It looks at what hosts and clients told of
-/// their logs, and adds what clients themselves counted as too late for their worlds.
+/// A missed event counts even if a later snapshot, or another host's world, made up for it: a repair must not hide a fault. It uses the
+/// logs that hosts and clients report, and adds what clients themselves counted as too late for their worlds.
 /// </remarks>
 internal sealed class LogCoverage
 {
     private readonly Func<SimTime, IEnumerable<uint>> accepted;
     private readonly Func<uint, bool>? isOverlooked;
     private readonly List<Session> sessions = [];
-    private readonly HashSet<uint> heard = []; // of the log, since it last began
-    private SimTime world; // the start of the one that it is in
-    private uint copied; // up to where that log is in its copy
-    private uint reached; // up to where it has the log
-    private long expected; // by the time it last began
+    private readonly HashSet<uint> heard = []; // entries of the log since it last began
+    private SimTime world; // the start of the world that it is in
+    private uint copied; // the last entry included in its snapshot
+    private uint reached; // the last entry that it has
+    private long expected; // as of when it last began
     private long missed;
 
-    /// <summary>Of a client that has no session yet.</summary>
-    /// <param name="accepted">Gives, for the start of a world, the numbers of the entries in its host's log that are accepted events.</param>
-    /// <param name="isOverlooked">Which entries this does not see, to find out whether what is missed is found; null for none.</param>
+    /// <summary>Creates the coverage of a client that has no session yet.</summary>
+    /// <param name="accepted">
+    /// Returns, for the start of a world, the numbers of the entries in its host's log that are accepted events.
+    /// </param>
+    /// <param name="isOverlooked">Entries to overlook, to check that a miss is found; null for none.</param>
     public LogCoverage(Func<SimTime, IEnumerable<uint>> accepted, Func<uint, bool>? isOverlooked = null)
     {
         this.accepted = accepted;
         this.isOverlooked = isOverlooked;
     }
 
-    /// <summary>Listens to a session of the client, from before it is stepped; several in turn if the client is started again.</summary>
+    /// <summary>Follows a session of the client, from before it is stepped; several in turn if the client is restarted.</summary>
     public void Follow(Session session)
     {
         ArgumentNullException.ThrowIfNull(session);
@@ -49,7 +54,7 @@ internal sealed class LogCoverage
         };
     }
 
-    /// <summary>How many accepted events it was to hear of by now, and how many of those it did not, or too late.</summary>
+    /// <summary>Returns how many accepted events it should have received by now, and how many of those it missed or got too late.</summary>
     public (long Expected, long Lost) Count()
     {
         (long now, long missing) = CountSinceItBegan();

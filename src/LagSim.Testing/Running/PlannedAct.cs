@@ -2,9 +2,9 @@ using System;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>Something that a player of a test does.</summary>
-/// <param name="AtSeconds">When, in seconds since the start; of what is repeated the first time.</param>
-/// <param name="EverySeconds">How far apart the times are; null for what is done once.</param>
-/// <param name="Player">Who does it.</param>
-/// <param name="Act">What it does.</param>
+/// <summary>An action of a player in a test.</summary>
+/// <param name="AtSeconds">The time, in seconds since the start; for a repeated action the first time.</param>
+/// <param name="EverySeconds">The interval in seconds; null for an action done once.</param>
+/// <param name="Player">The player.</param>
+/// <param name="Act">The action.</param>
 internal sealed record PlannedAct(double AtSeconds, double? EverySeconds, int Player, Action<TestPlayer> Act);

@@ -14,25 +14,25 @@ using LagSim.Time;
 namespace LagSim.Testing.Running;
 
 /// <summary>
-/// One run of a <see cref="SessionTest"/>: plays it, then holds every player's worlds against the one that had all accepted events on time.
+/// One run of a <see cref="SessionTest"/>: plays it, then compares every player's worlds with the one that had all accepted events on time.
 /// </summary>
 internal sealed class SessionRun
 {
-    /// <summary>Two machines' clocks: up to an hour apart, and up to 20 millionths fast or slow.</summary>
+    /// <summary>The offset of two machines' clocks: up to an hour, and up to 20 millionths fast or slow.</summary>
     private const double ClockSpreadSeconds = 3600;
     private const double ClockDriftPartsPerMillion = 20;
 
     private const double FramesPerSecond = 60;
 
     /// <summary>
-    /// How long a client may take to get in, and the last events to get everywhere, in seconds; much longer than on the worst of links.
+    /// How long a client may take to get in, and the last events to reach every player, in seconds; much longer than on the worst of links.
     /// </summary>
     private const double Timeout = 120;
 
-    /// <summary>How long what is due may wait for a player whose clock is behind the host's.</summary>
+    /// <summary>How long an action may wait for a player whose clock is behind the host's.</summary>
     private static readonly SimDuration ClockTimeout = SimDuration.FromSeconds(1);
 
-    /// <summary>Long enough for the whole of most tests, and the most that a session keeps.</summary>
+    /// <summary>The history to keep: the whole of most tests, and the most that a session keeps.</summary>
     private static readonly SimDuration WholeTimelines = SimDuration.FromSeconds(60);
 
     private readonly Scene scene;
@@ -90,14 +90,14 @@ internal sealed class SessionRun
         }
         catch (SessionTestException thrown) when (members[0] is not null && Members.All(member => member.Session.World is not null))
         {
-            failure = thrown; // a world that differs explains most of what fails, and is told first
+            failure = thrown; // a world that differs explains most other failures, so it is reported first
         }
 
         SessionTestResult result = Compare(seconds);
         return failure is not null && result.WorldsAgree ? throw failure : result;
     }
 
-    /// <summary>Lets the clients of the start in, one by one so that their numbers are theirs, and waits until the world begins.</summary>
+    /// <summary>Lets the initial clients in one by one, so that each gets its number, and waits until the world begins.</summary>
     private void Connect()
     {
         int expected = clients.Count(client => client.AsksAtSeconds is null);
@@ -118,7 +118,7 @@ internal sealed class SessionRun
         nextFrame = clock.Now;
     }
 
-    /// <summary>Lets everything happen that is planned, until the end of the run.</summary>
+    /// <summary>Performs everything that is planned, until the end of the run.</summary>
     private void Act(double seconds)
     {
         SimTime start = clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now); // true time
@@ -129,7 +129,7 @@ internal sealed class SessionRun
         }
     }
 
-    /// <summary>All that is to happen from the start on, in order; of one instant as it was planned.</summary>
+    /// <summary>Returns everything planned from the start on, in order of time and then of planning.</summary>
     private List<(double At, Action Act)> Plan(double seconds)
     {
         List<(double At, Action Act)> plan = [];
@@ -193,7 +193,7 @@ internal sealed class SessionRun
 
     private void Settle()
     {
-        nextFrame = SimTime.MaxValue; // what is watched has ended
+        nextFrame = SimTime.MaxValue; // the watched session has ended
         RunUntil(() => Members.All(HasHeardAll), "Not every player had heard of everything");
     }
 
@@ -242,7 +242,7 @@ internal sealed class SessionRun
         return options with { Accelerations = options.Accelerations ?? scene.Accelerations };
     }
 
-    /// <summary>Long enough for all who are there from the start to hear of it before it comes, unless much is lost.</summary>
+    /// <summary>A lead long enough for every initial client to receive the start in time, unless much is lost.</summary>
     private SimDuration StartLead()
     {
         double worst = clients.Select(client => OneWay(client.Link.FromHost)).DefaultIfEmpty(0).Max();
@@ -265,7 +265,7 @@ internal sealed class SessionRun
             member.Coverage.Follow(client);
             client.Interrupted += _ =>
             {
-                // What is repaired still counts: the world as it was is held against the one that never had a delay.
+                // A repaired world still counts: it is compared, as it was, with the one that never had a delay.
                 if (client.Counters.StatesDiffered > 0 && client.World is not null)
                 {
                     member.Wrong.Add(client.World.Simulation);
@@ -332,7 +332,7 @@ internal sealed class SessionRun
 
     private SessionTestResult Compare(double seconds)
     {
-        // As far as any world has got, and as long as was asked for.
+        // As far as any world has got, and as long as requested.
         SimTime start = Host.World!.Simulation.Start;
         SimTime end = start + SimDuration.FromSeconds(seconds);
         foreach (Member member in Members)
@@ -377,12 +377,12 @@ internal sealed class SessionRun
         };
     }
 
-    /// <summary>A sentence where a strategy promises no agreement; else null.</summary>
+    /// <summary>A sentence if a strategy promises no agreement; otherwise null.</summary>
     private string? NoPromise() => Members.FirstOrDefault(m => !m.Session.PromisesAgreement) is Member without
         ? $"Not every player promises agreement: player {without.Player.Number} has a strategy that leaves late events as they are."
         : null;
 
-    /// <summary>One player as the run goes on.</summary>
+    /// <summary>The state of one player during the run.</summary>
     private sealed class Member
     {
         internal Member(LinkProfile? link, Session session, TestPlayer player, Func<SimTime, IEnumerable<uint>> accepted)
@@ -399,12 +399,12 @@ internal sealed class SessionRun
 
         internal TestPlayer Player { get; }
 
-        /// <summary>What of the host's log came to it; nothing for the host.</summary>
+        /// <summary>The part of the host's log that it received; nothing for the host.</summary>
         internal LogCoverage Coverage { get; }
 
         internal List<CommittedState> Committed { get; } = [];
 
-        /// <summary>Its worlds that turned out to differ, and were replaced.</summary>
+        /// <summary>Its worlds that turned out to differ and were replaced.</summary>
         internal List<Simulation> Wrong { get; } = [];
 
         internal long Frames { get; private set; }
@@ -424,7 +424,7 @@ internal sealed class SessionRun
         {
             if (Session.World is null || Player.HasLeft || Session.SharedTime.Now < Session.World.Simulation.Start)
             {
-                return; // there is nothing to be seen yet, or nobody who looks
+                return; // nothing to be seen yet, or no viewer
             }
 
             Frames++;

@@ -8,11 +8,13 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>Steps sessions in virtual time, each when it is due or something has arrived for it, in the order in which they were added.</summary>
+/// <summary>
+/// Steps sessions in virtual time, each when it is due or something has arrived for it, in the order in which they were added.
+/// </summary>
 /// <remarks>Deterministic. For the network's one thread.</remarks>
 internal sealed class VirtualSteps
 {
-    /// <summary>What is due later than this is due never, so that no sum runs out of the range of a time.</summary>
+    /// <summary>The time after which anything due counts as never due, so that no sum overflows.</summary>
     private static readonly SimDuration Never = SimDuration.FromSeconds(3600);
 
     private readonly VirtualNetwork network;
@@ -21,7 +23,7 @@ internal sealed class VirtualSteps
     private readonly List<bool> frozen = [];
     private readonly List<SimTime> busy = []; // until when its last step takes
 
-    /// <summary>No sessions yet.</summary>
+    /// <summary>Creates an instance without sessions.</summary>
     public VirtualSteps(VirtualNetwork network)
     {
         ArgumentNullException.ThrowIfNull(network);
@@ -34,18 +36,20 @@ internal sealed class VirtualSteps
     /// <summary>Called with a session's number before each of its steps.</summary>
     public Action<int>? BeforeStep { get; set; }
 
-    /// <summary>Called with a session's number after each of its steps, once its world is where it should be, or given up for now.</summary>
+    /// <summary>
+    /// Called with a session's number after each of its steps, once its world is where it should be, or abandoned for now.
+    /// </summary>
     public Action<int>? AfterStep { get; set; }
 
     /// <summary>
-    /// How much virtual time a step takes that leaves a world behind; default none: the machines are as fast as they need be, and such a session is stepped until
-    /// its world is there. With a machine that is too slow its port is served meanwhile.
+    /// The virtual time that a step takes if it leaves a world behind. With the default, none, machines are as fast as needed, and a
+    /// session is stepped until its world is there; on a slow machine its port is served meanwhile.
     /// </summary>
     public SimDuration BusyStep { get; set; }
 
     /// <summary>
-    /// How much work a second of virtual time the machines do, as <see cref="WorkLedger"/> counts it; default 0, for machines as fast as they need be. A step takes as long as its
-    /// work does, and what arrives meanwhile waits.
+    /// The work that machines do per second of virtual time, as <see cref="WorkLedger"/> counts it; default 0, for machines as fast as
+    /// needed. A step takes as long as its work does, and datagrams that arrive meanwhile wait.
     /// </summary>
     public double WorkPerSecond { get; set; }
 
@@ -63,7 +67,10 @@ internal sealed class VirtualSteps
         return number;
     }
 
-    /// <summary>Takes out the session that was added last. Its port must be disposed, for what arrives there wakes whoever gets its number.</summary>
+    /// <summary>
+    /// Removes the session added last. Its port must be disposed, since datagrams arriving there would wake the next session with its
+    /// number.
+    /// </summary>
     public void RemoveLast()
     {
         sessions.RemoveAt(sessions.Count - 1);
@@ -73,8 +80,8 @@ internal sealed class VirtualSteps
     }
 
     /// <summary>
-    /// Stops a session as a process is stopped: it is not stepped until <see cref="Thaw"/>, what is sent to it waits at its port
-    /// (<see cref="VirtualNetwork.PortRoom"/>), and its clock goes on. With its port disposed it is one that was killed.
+    /// Freezes a session like a stopped process: it is not stepped until <see cref="Thaw"/>, datagrams to it wait at its port
+    /// (<see cref="VirtualNetwork.PortRoom"/>), and its clock goes on. With its port disposed it is like a killed process.
     /// </summary>
     public void Freeze(int number)
     {
@@ -82,19 +89,17 @@ internal sealed class VirtualSteps
         due[number] = SimTime.MaxValue;
     }
 
-    /// <summary>Lets a session go on; it is due at once.</summary>
+    /// <summary>Resumes a frozen session; it is due at once.</summary>
     public void Thaw(int number)
     {
         frozen[number] = false;
         due[number] = network.Clock.Now;
     }
 
-    /// <summary>Whether a session is stopped.</summary>
+    /// <summary>Whether a session is frozen.</summary>
     public bool IsFrozen(int number) => frozen[number];
 
-    /// <summary>
-    /// Puts another session in the place of one that was killed: the same program, started again. The former one's port must be disposed.
-    /// </summary>
+    /// <summary>Replaces a killed session by another: the same program, started again. The former one's port must be disposed.</summary>
     public void Replace(int number, Session session, IDatagramPort port)
     {
         ArgumentNullException.ThrowIfNull(session);
@@ -104,7 +109,7 @@ internal sealed class VirtualSteps
         Thaw(number);
     }
 
-    /// <summary>Has a session stepped next, because something was done with it; not one that is stopped.</summary>
+    /// <summary>Steps a session next, because something was done with it; a frozen one stays frozen.</summary>
     public void Wake(int number)
     {
         if (number < due.Count && !frozen[number])
@@ -147,7 +152,7 @@ internal sealed class VirtualSteps
         }
     }
 
-    /// <summary>Whether a step would have the world do more; one that an instant blocks waits for an event.</summary>
+    /// <summary>Whether another step would advance the world; a blocked world waits for an event.</summary>
     private static bool IsBehind(Session session) => session.State is not (SessionState.Ended or SessionState.Rejoining)
         && session.World is LiveWorld world && world.IsBehind && world.BlockedAt == SimTime.MaxValue;
 

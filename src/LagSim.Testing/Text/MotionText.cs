@@ -2,10 +2,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Testing.Text;
 
-/// <summary>What a motion law is called in an error and in a scene file.</summary>
+/// <summary>The names of motion laws in errors and scene files.</summary>
 internal static class MotionText
 {
-    /// <summary>The name of any law, those a scene cannot choose included.</summary>
+    /// <summary>The name of any law, including those a scene cannot choose.</summary>
     internal static string Of(MotionLaw law) => law switch
     {
         MotionLaw.Ballistic => "ballistic",

@@ -3,10 +3,10 @@ using System.Globalization;
 
 namespace LagSim.Testing.Text;
 
-/// <summary>Numbers for a reader's eye, the same in every culture.</summary>
+/// <summary>Formats numbers for people, the same in every culture.</summary>
 internal static class ShortNumber
 {
-    /// <summary>Four significant digits, with an exponent only where a plain number would be unwieldy.</summary>
+    /// <summary>Formats four significant digits, with an exponent only if a plain number would be unwieldy.</summary>
     internal static string Of(double value)
     {
         double size = Math.Abs(value);

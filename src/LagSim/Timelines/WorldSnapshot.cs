@@ -5,18 +5,18 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// The complete state of a world after everything before an instant has happened: a world that continues from it is the same, bit for bit.
+/// The complete state of a world after everything before an instant: a simulation that continues from it stays identical, bit for bit.
 /// </summary>
-/// <remarks>Immutable, safe on any thread. It holds no external event that is stamped at its time or later.</remarks>
+/// <remarks>Immutable, safe on any thread. It contains no external event stamped at its time or later.</remarks>
 public sealed class WorldSnapshot
 {
     private readonly BodySnapshot[] bodies;
 
-    /// <summary>A world of these parts.</summary>
+    /// <summary>Creates a snapshot from its parts.</summary>
     /// <param name="start">See <see cref="Start"/>.</param>
     /// <param name="time">See <see cref="Time"/>.</param>
     /// <param name="eventHash">See <see cref="EventHash"/>.</param>
-    /// <param name="bodies">Those that are there, by ascending identity; copied.</param>
+    /// <param name="bodies">The bodies that exist, by ascending identity; copied.</param>
     public WorldSnapshot(SimTime start, SimTime time, ulong eventHash, ReadOnlySpan<BodySnapshot> bodies)
         : this(start, time, eventHash, bodies.ToArray())
     {
@@ -39,7 +39,7 @@ public sealed class WorldSnapshot
     /// <summary>The hash of every event before <see cref="Time"/>, as <see cref="Simulation.EventHash"/> gives it.</summary>
     public ulong EventHash { get; }
 
-    /// <summary>The bodies that are there, by ascending identity.</summary>
+    /// <summary>The bodies that exist, by ascending identity.</summary>
     public IReadOnlyList<BodySnapshot> Bodies => bodies;
 
     internal BodySnapshot[] BodyArray => bodies;

@@ -11,11 +11,11 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>
-/// A client's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.
+/// The client side of the session protocol: routes each datagram to the part that handles it, and lets each part do what is due.
 /// </summary>
 internal sealed class ClientProtocol : ISessionProtocol
 {
-    /// <summary>By less than this a clock's estimate may be corrected on a bad link too.</summary>
+    /// <summary>A clock estimate may be corrected by up to this much even on a bad link.</summary>
     private static readonly SimDuration LeastJump = SimDuration.FromSeconds(1);
 
     private readonly JoinAttempts attempts;
@@ -129,7 +129,7 @@ internal sealed class ClientProtocol : ISessionProtocol
                 Seat.OnSeat(seat);
                 break;
             case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery or DatagramType.Move:
-                counters.DatagramsIgnored++; // a client's own words
+                counters.DatagramsIgnored++; // only a client sends these
                 break;
         }
     }
@@ -140,7 +140,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         if (isOurs && Parts.Status.HasEnded)
         {
             Parts.Counters.DatagramsIgnored++;
-            Connection.SayGoodbye(); // it has not heard the first one
+            Connection.SayGoodbye(); // it missed the first goodbye
         }
         else if (!isOurs || update.Peer != 0)
         {
@@ -158,7 +158,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         SimDuration slept = suspend.Look(now);
         if (slept > SimDuration.Zero)
         {
-            // It was this machine that slept, or whose clock jumped: who was not listened to was not silent.
+            // This machine slept, or its clock jumped: the host was not silent, we were not listening.
             Connection.Link?.NoteHeard(now);
             Loss.NoteSuspend(slept);
             attempts.NoteSuspend(slept, now);
@@ -186,7 +186,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         ? attempts.Current!.Due
         : SimTime.Min(SimTime.Min(Connection.Link?.Due ?? now, snapshot.Due), Finder.Due);
 
-    /// <summary>Takes in an update of the host.</summary>
+    /// <summary>Handles an update from the host.</summary>
     private void Take(UpdateDatagram update, UpdateLink link, SimTime now)
     {
         if (!link.Note(update, now, out bool isNewest))
@@ -204,12 +204,13 @@ internal sealed class ClientProtocol : ISessionProtocol
 
         if (Parts.KeepAlive.IsOverdue(link.Silence(now)))
         {
-            link.Flush(now); // the host has not heard of this peer; it answers every update at once, so the other way is looked after
+            // The host has not heard from this peer; it answers every update at once, so the other direction takes care of itself.
+            link.Flush(now);
         }
 
-        // Its clock is set first: events are late or not by it.
+        // The clock is set first: it decides whether events are late.
         Connection.IsStartTold = update.Start != SimTime.MinValue;
-        log.Keep(update); // in any case: the host hears that this update came, and does not send again what was in it
+        log.Keep(update); // flush in any case, so that the host does not send the same entries again
         if (attempts.Current is not null)
         {
             TryBegin(update.Start);
@@ -218,7 +219,7 @@ internal sealed class ClientProtocol : ISessionProtocol
                 return;
             }
 
-            link.Flush(now); // until the host hears that it has begun, it is told so again and again
+            link.Flush(now); // repeated until the host knows that the world has begun
         }
 
         link.Acknowledge(Math.Min(update.EventsReceived, Parts.Self.LastSequence), now);
@@ -226,7 +227,7 @@ internal sealed class ClientProtocol : ISessionProtocol
     }
 
     /// <summary>Sets this peer's clock by the host's.</summary>
-    /// <returns>False if they are so far apart that this peer left its world.</returns>
+    /// <returns>False if the two are so far apart that this peer abandoned its world.</returns>
     private bool FollowClock(UpdateDatagram update, UpdateLink link, SimTime now, bool isNewest)
     {
         bool isIn = attempts.Current is null;
@@ -241,20 +242,20 @@ internal sealed class ClientProtocol : ISessionProtocol
         SharedClock sharedTime = Parts.SharedTime;
         sharedTime.Adjust(clock.Estimate);
         SimDuration off = sharedTime.Remaining < SimDuration.Zero ? -sharedTime.Remaining : sharedTime.Remaining;
-        // An exchange that waited long, in a stall, says little.
+        // An exchange that waited long, in a stall, is imprecise.
         if (off <= Connection.History || off <= LeastJump || off <= clock.Estimate.ErrorBound)
         {
             return true;
         }
 
-        // To bend it back at 5 % takes twenty times as long, and until then all that is done here would be refused.
+        // Bending the clock back at 5 % takes twenty times as long, and until then every action here would be refused.
         string why = FormattableString.Invariant($"This machine's clock and the host's are {off.ToSeconds():0.###} s further apart than")
             + " before: one of them jumped, or the machine slept.";
         Loss.Rejoin(SessionEnd.Failed, why, isLinkGood: false);
         return false;
     }
 
-    /// <summary>Begins the world, or the fresh copy of it, if all is there for it.</summary>
+    /// <summary>Begins the world, or replaces it with a fresh snapshot, if everything needed is there.</summary>
     private void TryBegin(SimTime start)
     {
         if (!entry.TryBegin(start))
@@ -275,7 +276,8 @@ internal sealed class ClientProtocol : ISessionProtocol
         long lost = Parts.Counters.EventsLost;
         if (!log.TakeEntries(now) && update.Held.Length > 0 && update.FirstIndex > Connection.Log.Received)
         {
-            Connection.Link?.Answer(now); // what came before its turn is acknowledged too, else it goes again (RFC 9000, 13.2.1)
+            // Entries that arrived early are acknowledged too, otherwise they are sent again (RFC 9000, 13.2.1).
+            Connection.Link?.Answer(now);
         }
 
         if (Parts.Counters.EventsLost > lost && Parts.World.PromisesAgreement)
@@ -288,7 +290,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         }
     }
 
-    /// <summary>What is known to be wrong is not gone on with; that it was stays counted, and the first such state told.</summary>
+    /// <summary>Abandons a world that is known to be wrong. The counters and the first differing state are kept.</summary>
     private void GiveUpWorld()
     {
         if (Parts.World.PromisesAgreement)

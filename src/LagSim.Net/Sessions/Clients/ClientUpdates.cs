@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>Sends a client's updates to the host: its events, what it has of the log, and how far it is on its way in.</summary>
+/// <summary>Sends a client's updates to the host: its events, what it has of the log, and how far along its join is.</summary>
 internal sealed class ClientUpdates(
     HostConnection connection, JoinAttempts attempts, SharedWorld world, KeepAlivePolicy keepAlive,
     DatagramSender sender)

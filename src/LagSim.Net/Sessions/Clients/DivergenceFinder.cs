@@ -7,37 +7,39 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>Finds out of a committed state that is not the host's since when, and which event makes the difference.</summary>
+/// <summary>Finds out since when a committed state differs from the host's, and which event makes the difference.</summary>
 internal sealed class DivergenceFinder(
     HostConnection connection, SharedWorld world, EventJournal journal, PlayerIdentity self, DatagramSender sender,
     SessionCounters counters, IClock clock, SimDuration timeout)
 {
     private Inquiry? inquiry;
-    // The newest committed time at which the states were the same, before the first at which they were not.
+    // The newest committed time at which the states still agreed.
     private SimTime agreed = SimTime.MinValue;
     private CommittedState differing;
     private ulong hostHash;
     private volatile Divergence? divergence;
 
-    /// <summary>Raised once, when it is found out what the first differing state comes from, or that this cannot be.</summary>
+    /// <summary>Raised once, when the cause of the first differing state is known, or known to be out of reach.</summary>
     internal event Action<Divergence>? Found;
 
-    /// <summary>Raised after that, and for every later state that differs: what is known to be wrong is not gone on with.</summary>
+    /// <summary>
+    /// Raised after <see cref="Found"/>, and again for every later state that differs, because a world known to be wrong is abandoned.
+    /// </summary>
     internal event Action? Confirmed;
 
-    /// <summary>The first state that differed, and what is known of it by now; null while there is none. From any thread.</summary>
+    /// <summary>The first state that differed, with what is known about it so far; null while there is none. From any thread.</summary>
     internal Divergence? First => divergence;
 
-    /// <summary>When the host is to be asked next.</summary>
+    /// <summary>When to send the next query to the host.</summary>
     internal SimTime Due => inquiry?.Due ?? SimTime.MaxValue;
 
-    /// <summary>Starts anew with another world. That one was wrong stays known.</summary>
+    /// <summary>Starts over with another world. <see cref="First"/> is kept.</summary>
     internal void Reset() => agreed = SimTime.MinValue;
 
-    /// <summary>Asks no more.</summary>
+    /// <summary>Stops querying.</summary>
     internal void Cancel() => inquiry = null;
 
-    /// <summary>An own committed state was held against the hash that the host told for it.</summary>
+    /// <summary>Called when an own committed state has been compared with the hash that the host reported.</summary>
     internal void OnCompared(CommittedState own, ulong theirs)
     {
         if (own.StateHash == theirs)
@@ -69,7 +71,7 @@ internal sealed class DivergenceFinder(
         divergence = Describe(after, DivergenceFinding.Asking);
     }
 
-    /// <summary>Asks the host if it is time to.</summary>
+    /// <summary>Queries the host if it is time to.</summary>
     internal void Tend(SimTime now)
     {
         if (inquiry is null || connection.Link is not UpdateLink link)
@@ -111,7 +113,7 @@ internal sealed class DivergenceFinder(
         }
 
         List<LogEntry> theirs = inquiry.Events;
-        theirs.Sort(RecentEvents.Compare); // the other's order is not believed
+        theirs.Sort(RecentEvents.Compare); // the order in which the host sent them is not trusted
         EventDifference first = EventDifference.First(theirs, journal.Recent.Between(inquiry.After, inquiry.UpTo), journal.Recent);
         Conclude(inquiry.After, first.IsNone ? DivergenceFinding.EventsAgree : DivergenceFinding.EventDiffers, first);
     }

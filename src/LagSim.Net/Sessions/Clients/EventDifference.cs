@@ -3,7 +3,7 @@ using LagSim.Net.Sessions.Core;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>The first event in which two peers' accounts of a span of time differ, in both versions; of equal accounts nothing.</summary>
+/// <summary>The first event in which two peers' logs of a span of time differ, in both versions; empty if they are equal.</summary>
 internal readonly struct EventDifference
 {
     private EventDifference(LogEntry? hosts, LogEntry? own, bool hasOwnEffect)
@@ -13,22 +13,22 @@ internal readonly struct EventDifference
         HasOwnEffect = hasOwnEffect;
     }
 
-    /// <summary>Whether there is none.</summary>
+    /// <summary>Whether there is no difference.</summary>
     internal bool IsNone => Hosts is null && Own is null;
 
-    /// <summary>As the host has it; null if it has no such event.</summary>
+    /// <summary>The host's version; null if it has no such event.</summary>
     internal LogEntry? Hosts { get; }
 
-    /// <summary>As this peer has it; null if it has never heard of it.</summary>
+    /// <summary>This peer's version; null if it never received the event.</summary>
     internal LogEntry? Own { get; }
 
-    /// <summary>Whether it has had its effect here.</summary>
+    /// <summary>Whether the event took effect here.</summary>
     internal bool HasOwnEffect { get; }
 
-    /// <summary>Finds the first event that only one of the two has, or that both have otherwise.</summary>
-    /// <param name="theirs">The host's, in the order of <see cref="RecentEvents.Compare"/>.</param>
-    /// <param name="own">This peer's that had an effect, in that order.</param>
-    /// <param name="recent">All of this peer's.</param>
+    /// <summary>Finds the first event that only one side has, or that the two have in different versions.</summary>
+    /// <param name="theirs">The host's events, in the order of <see cref="RecentEvents.Compare"/>.</param>
+    /// <param name="own">This peer's events that took effect, in that order.</param>
+    /// <param name="recent">All recent events of this peer.</param>
     internal static EventDifference First(List<LogEntry> theirs, List<LogEntry> own, RecentEvents recent)
     {
         int same = 0;

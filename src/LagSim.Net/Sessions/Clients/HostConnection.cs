@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>A client's end of its link to the host, with what is under way on it: its own events up, the host's log down.</summary>
+/// <summary>A client's end of the link to the host, with the data in transit: its own events up, the host's log down.</summary>
 internal sealed class HostConnection
 {
     private readonly LinkFactory links;
@@ -24,31 +24,31 @@ internal sealed class HostConnection
         this.counters = counters;
     }
 
-    /// <summary>Where the host is.</summary>
+    /// <summary>The host's address.</summary>
     internal PeerAddress Host { get; }
 
     /// <summary>The link; null while there is none.</summary>
     internal UpdateLink? Link { get; private set; }
 
-    /// <summary>How late the host accepts an event, as it said; zero before it has.</summary>
+    /// <summary>How late the host accepts an event, as announced by the host; zero before that.</summary>
     internal SimDuration History { get; private set; }
 
-    /// <summary>The host's log.</summary>
+    /// <summary>The entries received of the host's log.</summary>
     internal ReceiveWindow Log { get; private set; } = new(0);
 
-    /// <summary>The own events whose verdict has not come.</summary>
+    /// <summary>Own events that have no verdict yet.</summary>
     internal OwnEvents Unconfirmed { get; private set; } = new(0);
 
-    /// <summary>The last sequence number of those who had this peer's number before.</summary>
+    /// <summary>The last sequence number of the former holders of this peer's number.</summary>
     internal uint FirstSequence { get; private set; }
 
-    /// <summary>Of the own events: the newest that nothing later makes up for.</summary>
+    /// <summary>The newest own event that no later event supersedes.</summary>
     internal uint LastUrgent { get; private set; }
 
-    /// <summary>Whether the host still tells the start: it does until it has heard that it is known here.</summary>
+    /// <summary>Whether the host still sends the start: it does until it knows that it has arrived here.</summary>
     internal bool IsStartTold { get; set; }
 
-    /// <summary>Begins a new link, by the host's welcome.</summary>
+    /// <summary>Begins a new link from the host's welcome.</summary>
     internal void Open(in WelcomeDatagram welcome, SimTime now)
     {
         History = welcome.History;
@@ -58,7 +58,7 @@ internal sealed class HostConnection
         Link = links.To(Host, welcome.SessionId, 0, now);
     }
 
-    /// <summary>Gives the link up: what it was is over, or what it was about to be.</summary>
+    /// <summary>Drops the link, whether established or still being set up.</summary>
     internal void Close() => Link = null;
 
     /// <summary>Takes the number that the host gave over the link.</summary>
@@ -71,7 +71,7 @@ internal sealed class HostConnection
         link.Outgoing.StartAfter(lastSequence);
     }
 
-    /// <summary>Sees to it that the host hears of an own event.</summary>
+    /// <summary>Queues an own event for sending to the host.</summary>
     internal void Publish(in ExternalEvent external, SimTime now)
     {
         Unconfirmed.Add(external);
@@ -79,15 +79,15 @@ internal sealed class HostConnection
         Link!.NoteLateEvent(UpdateDatagram.LengthOf(new UpdateEntry(Verdict.Pending, external)), now);
     }
 
-    /// <summary>Takes the oldest own event, of which the verdict has come.</summary>
+    /// <summary>Takes the oldest own event, whose verdict has arrived.</summary>
     internal ExternalEvent TakeConfirmed(SimTime now)
     {
         ExternalEvent external = Unconfirmed.Take();
-        Link!.Acknowledge(external.Sequence, now); // an update that was overtaken may tell the verdict first
+        Link!.Acknowledge(external.Sequence, now); // the verdict may overtake the acknowledgement
         return external;
     }
 
-    /// <summary>Tells the host that this peer leaves, if there is a link.</summary>
+    /// <summary>Notifies the host that this peer leaves, if there is a link.</summary>
     internal void SayGoodbye()
     {
         if (Link is not null)
@@ -96,7 +96,7 @@ internal sealed class HostConnection
         }
     }
 
-    /// <summary>The same as often as it takes for one of them to arrive.</summary>
+    /// <summary>Says goodbye several times, so that one of them arrives.</summary>
     internal void Farewell()
     {
         for (int n = 0; n < DatagramSender.Goodbyes; n++)

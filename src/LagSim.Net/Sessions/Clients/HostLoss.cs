@@ -7,9 +7,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>
-/// What a client does that lost its host, or its world: it asks to be let in again, as the same player, and gets a fresh copy. Where that
-/// is of no use or not
-/// wanted the session ends.
+/// Rejoins the session after a client has lost its host or its world: it asks to be let in again as the same player and downloads a fresh
+/// snapshot. Where rejoining is disabled or pointless, it ends the session.
 /// </summary>
 internal sealed class HostLoss(
     JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters,
@@ -18,36 +17,38 @@ internal sealed class HostLoss(
     private const int MostUseless = 3;
 
     /// <summary>
-    /// A fresh copy that did not last this long was of no use: four dips of a link that has one each half minute. So many of those in a row
-    /// end the session; one
-    /// is enough where it is the link that does not keep up, since the next copy would come over the same link.
+    /// A fresh snapshot that did not last this long was useless. The value spans four dips of a link that dips every 30 s.
     /// </summary>
+    /// <remarks>
+    /// <see cref="MostUseless"/> useless ones in a row end the session; a single one does when the link is too slow, since the next
+    /// snapshot would come over the same link.
+    /// </remarks>
     private static readonly SimDuration UsefulFor = SimDuration.FromSeconds(120);
 
-    private SimTime rejoining; // since when, by the own clock
-    private SessionEnd rejoiningFor; // what the session ends by if it is not let in
-    private SimTime renewed = SimTime.MinValue; // when it was last in again
+    private SimTime rejoining; // when it began, by the local clock
+    private SessionEnd rejoiningFor; // how the session ends if it is not let in
+    private SimTime renewed = SimTime.MinValue; // when this peer last got back in
     private int useless;
 
-    /// <summary>Raised when this peer begins to ask to be let in again, with why.</summary>
+    /// <summary>Raised when this peer begins to ask to be let in again, with the reason.</summary>
     internal event Action<string>? Interrupted;
 
-    /// <summary>Raised when a host that had fallen silent was heard again before it disconnected this peer.</summary>
+    /// <summary>Raised when a silent host answers again before it has disconnected this peer.</summary>
     internal event Action? Regained;
 
     private string Silence =>
         FormattableString.Invariant($"The host at {connection.Host} fell silent for {options.Timeout.ToSeconds():0.###} s.");
 
-    /// <summary>How long one that is coming in, and is pushed out, asks again.</summary>
+    /// <summary>How long a joining client that was pushed out keeps asking.</summary>
     private SimDuration LongestComing => options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
 
-    /// <summary>Notes that this machine slept for so long: nobody was silent meanwhile.</summary>
+    /// <summary>Discounts a suspend of this machine: the host was not silent meanwhile.</summary>
     internal void NoteSuspend(SimDuration slept) => rejoining += slept;
 
-    /// <summary>Notes that this peer is in again.</summary>
+    /// <summary>Records that this peer is back in.</summary>
     internal void NoteRenewed() => renewed = clock.Now;
 
-    /// <summary>Sees to it that the host has not been silent for too long, or that asking for it is not in vain.</summary>
+    /// <summary>Rejoins or ends the session if the host has been silent for too long, or if asking has not helped.</summary>
     internal void Tend(SimTime now)
     {
         if (status.IsRejoining)
@@ -93,7 +94,7 @@ internal sealed class HostLoss(
                 attempts.Restart(now);
             }
 
-            connection.Close(); // what it was is over, or what it was about to be
+            connection.Close(); // the old link, or the one being set up, is over
         }
         else if (world.Live is not null)
         {
@@ -102,7 +103,7 @@ internal sealed class HostLoss(
         else if (leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true
             && now - attempts.Began <= LongestComing)
         {
-            AskAnew(now); // others who came in pushed it out, or it stood still, or the host is another one
+            AskAnew(now); // newer joiners pushed it out, or it stalled, or this is another host
         }
         else
         {
@@ -111,15 +112,15 @@ internal sealed class HostLoss(
     }
 
     /// <summary>
-    /// Asks for a fresh copy in place of a world that cannot be gone on with; false where none is wanted, or none is of use and the session
-    /// has ended.
+    /// Asks for a fresh snapshot to replace an unusable world. Returns false if rejoining is disabled, or if it is pointless and the
+    /// session has ended.
     /// </summary>
     internal bool TryRenew(SessionEnd by, string why) => options.RejoinTime > SimDuration.Zero && Rejoin(by, why, isLinkGood: false);
 
-    /// <summary>Asks to be let in again, or ends the session where that is of no use or not wanted.</summary>
-    /// <param name="by">What the session ends by then.</param>
-    /// <param name="why">As a sentence.</param>
-    /// <param name="isLinkGood">Whether all is well as soon as the host is heard again.</param>
+    /// <summary>Asks to be let in again, or ends the session where that is disabled or pointless.</summary>
+    /// <param name="by">How the session ends in that case.</param>
+    /// <param name="why">The reason, as a sentence.</param>
+    /// <param name="isLinkGood">Whether hearing from the host again is enough to continue.</param>
     /// <returns>False if the session has ended.</returns>
     internal bool Rejoin(SessionEnd by, string why, bool isLinkGood)
     {
@@ -129,13 +130,13 @@ internal sealed class HostLoss(
             return true;
         }
 
-        // Who stood still, or was cut off, has nothing against the copy it got.
+        // A client that stalled or was cut off has nothing to hold against its snapshot.
         bool isSilence = by is SessionEnd.HostSilent or SessionEnd.Disconnect;
         useless = isSilence ? useless : renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
         bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
         if (options.RejoinTime == SimDuration.Zero || isUseless)
         {
-            connection.Farewell(); // or its place stays taken until the time-out
+            connection.Farewell(); // otherwise its place stays taken until the timeout
             if (isUseless)
             {
                 why += useless == 1 ? " A fresh copy was of no use." : $" {useless} fresh copies in a row were of no use.";
@@ -158,7 +159,7 @@ internal sealed class HostLoss(
         return true;
     }
 
-    /// <summary>Goes on as before if the host is heard again over the link that it had.</summary>
+    /// <summary>Resumes if the host is heard from again over the existing link.</summary>
     internal void NoteHeard()
     {
         if (status.IsRejoining && attempts.IsAsking)
@@ -169,26 +170,25 @@ internal sealed class HostLoss(
         }
     }
 
-    /// <summary>What is due while it asks.</summary>
+    /// <summary>The periodic work while rejoining.</summary>
     private void TendRejoining(SimTime now)
     {
         bool isWelcome = attempts.Current is { IsWelcome: true };
-        if (now - rejoining > options.RejoinTime && !isWelcome) // a copy may take longer than that
+        if (now - rejoining > options.RejoinTime && !isWelcome) // the download may take longer than that
         {
             status.End(rejoiningFor, FormattableString.Invariant(
                 $"{status.RejoiningBecause} It asked for {options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain."));
         }
         else if (isWelcome && connection.Link is UpdateLink link && now - link.Heard > options.Timeout)
         {
-            attempts.Restart(now); // what welcomed it is gone again
+            attempts.Restart(now); // the host that welcomed it is gone again
             connection.Close();
         }
     }
 
     /// <summary>
-    /// What a client does that was not let in: one that comes back after a restart, with its pass, asks for as long as one that lost its
-    /// host; for it the host
-    /// may stand still as well. Any other session ends.
+    /// Handles a client that was not let in. One that returns with a pass after a restart keeps asking as long as one that lost its host,
+    /// since the host may be stalled too; any other session ends.
     /// </summary>
     private void AskAgainOrEnd(SimTime now, SessionEnd by, string why)
     {
@@ -198,7 +198,7 @@ internal sealed class HostLoss(
         }
         else if (connection.Link is not null)
         {
-            AskAnew(now); // what welcomed it is gone again
+            AskAnew(now); // the host that welcomed it is gone again
         }
     }
 
@@ -210,7 +210,7 @@ internal sealed class HostLoss(
     }
 
     /// <summary>
-    /// Names the longest of the times for which there was certainly no answer: who has a pass asks for more than the time-out.
+    /// Names the longest time that certainly passed without an answer; a client with a pass asks for longer than the timeout.
     /// </summary>
     private string NoAnswer(SimTime now)
     {

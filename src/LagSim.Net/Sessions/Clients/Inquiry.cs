@@ -5,8 +5,8 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>A client's asking for the host's events of a span of time: what has come, and when to ask again.</summary>
-/// <remarks>Takes in one event after the other, at most as many as a host keeps, so that memory follows what was received.</remarks>
+/// <summary>A client's query for the host's events in a span of time: what has arrived, and when to ask again.</summary>
+/// <remarks>Events are taken one at a time, and no more than a host keeps, so memory grows only with what was received.</remarks>
 internal sealed class Inquiry
 {
     private readonly List<LogEntry> events = new();
@@ -24,19 +24,19 @@ internal sealed class Inquiry
 
     internal SimTime UpTo { get; }
 
-    /// <summary>When it was begun, by the own clock.</summary>
+    /// <summary>When it began, by the local clock.</summary>
     internal SimTime Began { get; }
 
-    /// <summary>When to ask again, by the own clock.</summary>
+    /// <summary>When to ask again, by the local clock.</summary>
     internal SimTime Due { get; private set; }
 
-    /// <summary>Whether all that the host has is here.</summary>
+    /// <summary>Whether everything the host has is here.</summary>
     internal bool IsComplete { get; private set; }
 
-    /// <summary>Whether the host still had all of it.</summary>
+    /// <summary>Whether the host still had all the events of the span.</summary>
     internal bool IsWhole { get; private set; } = true;
 
-    /// <summary>The host's accepted events, as far as they have come.</summary>
+    /// <summary>The host's accepted events that have arrived so far.</summary>
     internal List<LogEntry> Events => events;
 
     internal DesyncQueryDatagram Ask(ulong sessionId, byte peer, SimTime now, SimDuration timeout)
@@ -45,7 +45,7 @@ internal sealed class Inquiry
         return new DesyncQueryDatagram(sessionId, peer, ++asked, After, UpTo, (uint)events.Count);
     }
 
-    /// <summary>Takes in what the host tells; false for what is not the next, or not what was asked for.</summary>
+    /// <summary>Takes a report from the host; false if it is not the next one, or not what was asked for.</summary>
     internal bool Take(in DesyncReportDatagram report, SimTime now)
     {
         bool hasEvent = report.Total > 0;
@@ -65,7 +65,7 @@ internal sealed class Inquiry
         IsComplete = events.Count == report.Total;
         if (events.Count % DesyncQueryDatagram.MaxEvents == 0)
         {
-            Due = now; // all that is told at once
+            Due = now; // one query's worth is here: ask for the next
         }
 
         return true;

@@ -4,29 +4,32 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>One try of a client to come in, from its first connect request until it has a world: cookie, copy, clock and number.</summary>
-/// <remarks>Its steps are the client's; this is what is known so far.</remarks>
+/// <summary>
+/// One attempt of a client to join, from its first connect request until it has a world: cookie, snapshot, clock and number.
+/// </summary>
+/// <remarks>It holds what is known so far; the client drives the steps.</remarks>
 internal sealed class JoinAttempt
 {
-    /// <summary>How long between the first tries to be heard, and between two exchanges while the clock is set.</summary>
+    /// <summary>The interval between the first tries, and between exchanges while the clock is being set.</summary>
     internal static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
 
-    /// <summary>The longest time between two tries: short, since links lose several datagrams in a row, however far apart.</summary>
+    /// <summary>The longest interval between tries. It is short, since links lose several datagrams in a row, however far apart.</summary>
     private static readonly SimDuration MostPace = SimDuration.FromMilliseconds(100);
 
-    /// <summary>A cookie that was of no use for so long is stale: another one is asked for.</summary>
+    /// <summary>The age at which an unsuccessful cookie is stale, and another is requested.</summary>
     private static readonly SimDuration CookieAge = SimDuration.FromSeconds(20);
 
     /// <summary>
-    /// Each so-many-th try with a cookie is sent without it: a cookie is good for one address, and this peer's may have changed since, which it cannot see.
+    /// How often a try is sent without the cookie: every fifth time. A cookie is good for one address, and this peer's may have changed
+    /// unnoticed.
     /// </summary>
     private const int RequestAfresh = 5;
 
     private SimDuration pace = Pace;
     private int tries; // with this cookie
 
-    /// <param name="nonce">An answer must bear it.</param>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="nonce">An answer must carry it.</param>
+    /// <param name="now">The time by the local clock.</param>
     internal JoinAttempt(ulong nonce, SimTime now)
     {
         Nonce = nonce;
@@ -36,45 +39,48 @@ internal sealed class JoinAttempt
 
     internal ulong Nonce { get; }
 
-    /// <summary>When it was begun, by the own clock.</summary>
+    /// <summary>When it began, by the local clock.</summary>
     internal SimTime Began { get; }
 
     /// <summary>When to ask again, until there is a welcome.</summary>
     internal SimTime Due { get; private set; }
 
-    /// <summary>When the cookie came.</summary>
+    /// <summary>When the cookie arrived.</summary>
     internal SimTime Challenged { get; private set; }
 
-    /// <summary>From the cookie to the welcome: a round trip at least, and more where something was lost.</summary>
+    /// <summary>The time from the cookie to the welcome: a round trip at least, and more if something was lost.</summary>
     internal SimDuration Took { get; private set; }
 
     /// <summary>Whether the host has welcomed it.</summary>
     internal bool IsWelcome { get; private set; }
 
-    /// <summary>How many lines of the log are in the copy.</summary>
+    /// <summary>The number of log entries that the snapshot includes.</summary>
     internal uint LogStart { get; private set; }
 
-    /// <summary>What the copy's hash is to be.</summary>
+    /// <summary>The expected hash of the snapshot.</summary>
     internal ulong CopyHash { get; private set; }
 
-    /// <summary>The fetching of the copy; null before and after it.</summary>
+    /// <summary>The download in progress; null before and after it.</summary>
     internal SnapshotDownload? Download { get; set; }
 
-    /// <summary>The copy, once it is here.</summary>
+    /// <summary>The snapshot, once it is here.</summary>
     internal WorldCopy? Copy { get; set; }
 
-    /// <summary>How far the host's clock is.</summary>
+    /// <summary>The estimate of the host's clock.</summary>
     internal ClockSync Clock { get; } = new();
 
-    /// <summary>The number that the host gave, and what comes with it; null before it did.</summary>
+    /// <summary>The number that the host gave, and what comes with it; null before that.</summary>
     internal SeatDatagram? Seat { get; set; }
 
     private Token128? Cookie { get; set; }
 
-    /// <summary>Whether copy and clock are here: a number is all that is missing, or not even that.</summary>
+    /// <summary>Whether snapshot and clock are ready, so that at most the number is missing.</summary>
     internal bool IsReady => Copy is not null && Clock.IsReady;
 
-    /// <summary>The cookie, if there is one that may still be good; null where another is to be asked for. The next try is later, twice as long each time.</summary>
+    /// <summary>
+    /// Returns the cookie if it may still be good, null if another is needed, and schedules the next try; the interval doubles each time,
+    /// up to <see cref="MostPace"/>.
+    /// </summary>
     internal Token128? Ask(SimTime now)
     {
         Due = now + pace;
@@ -82,7 +88,7 @@ internal sealed class JoinAttempt
         return Cookie is Token128 cookie && now - Challenged <= CookieAge && ++tries % RequestAfresh != 0 ? cookie : null;
     }
 
-    /// <summary>Takes a cookie; false for one that it has.</summary>
+    /// <summary>Takes a cookie; false if it has that one already.</summary>
     internal bool Take(Token128 cookie, SimTime now)
     {
         if (Cookie == cookie && now - Challenged <= CookieAge)

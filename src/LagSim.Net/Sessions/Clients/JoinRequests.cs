@@ -40,8 +40,8 @@ internal sealed class JoinRequests(
     {
         if (connection.Link is UpdateLink link && challenge.Nonce == link.SessionId)
         {
-            // The host hears this peer from an address that it does not know it to have: it is there, though it says nothing else until
-            // that is shown.
+            // The host sees an address it does not know for this peer. The host is alive, though it sends nothing else until the address is
+            // confirmed.
             link.NoteHeard(clock.Now);
             Span<byte> bytes = stackalloc byte[WireFormat.MoveBytes];
             sender.Send(bytes.Slice(0, new MoveDatagram(link.SessionId, link.Self, challenge.Cookie).Encode(bytes)), link);
@@ -73,7 +73,7 @@ internal sealed class JoinRequests(
 
     internal void OnRefusal(in RefusalDatagram refusal) => OnRefusal(refusal.Nonce, refusal.Reason, Sentence(refusal.Reason));
 
-    /// <summary>The host speaks another version of the protocol.</summary>
+    /// <summary>Handles a host that speaks another version of the protocol.</summary>
     internal void OnOtherVersion(ulong nonce, byte version) =>
         OnRefusal(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
 
@@ -103,7 +103,7 @@ internal sealed class JoinRequests(
         bool isKnown = status.IsRejoining || (options.Pass.Number > 0 && clock.Now - attempts.Began <= options.RejoinTime);
         if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
         {
-            attempts.Restart(clock.Now + SimDuration.FromSeconds(1)); // somebody may leave
+            attempts.Restart(clock.Now + SimDuration.FromSeconds(1)); // a place may become free
             connection.Close();
         }
         else

@@ -8,20 +8,20 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>
-/// Follows the host's log at a client: takes its lines in order, has others' accepted events happen and own refused ones not have happened,
-/// and commits.
+/// Follows the host's log on a client: takes its entries in order, applies accepted events of other peers, retracts own events that were
+/// refused, and commits.
 /// </summary>
 internal sealed class LogFollower(
     HostConnection connection, SharedWorld world, CommitTracker commits, EventJournal journal, PlayerIdentity self,
     SharedClock sharedTime, SessionCounters counters, IClock clock)
 {
-    /// <summary>Keeps what an update brought until its turn comes.</summary>
+    /// <summary>Buffers the entries of an update until their turn comes.</summary>
     internal void Keep(UpdateDatagram update)
     {
         uint number = update.FirstIndex;
         foreach (UpdateEntry entry in update.Held)
         {
-            connection.Log.Put(number++, entry); // what is too far ahead comes again
+            connection.Log.Put(number++, entry); // an entry too far ahead is sent again
         }
 
         if (update.Watermark != SimTime.MinValue && number > 0)
@@ -30,7 +30,7 @@ internal sealed class LogFollower(
         }
     }
 
-    /// <summary>Takes what has come, in order; false if there is nothing.</summary>
+    /// <summary>Takes the entries that have arrived, in order; false if there are none.</summary>
     internal bool TakeEntries(SimTime now)
     {
         ReceiveWindow incoming = connection.Log;
@@ -46,13 +46,13 @@ internal sealed class LogFollower(
 
         if (incoming.Promised != SimTime.MinValue)
         {
-            // What is not validated yet, or still to be done, may have to be taken back, and for that its history must be there. Own stamps
-            // never go back. That the host has an event is not enough: an older update may come between that and its verdict.
+            // An event that is not validated yet, or not stamped yet, may have to be retracted, and that needs its history. Own stamps
+            // never go back. That the host has received an event is not enough: an older update may arrive before the one with its verdict.
             SimTime needed = connection.Unconfirmed.Count > 0 ? connection.Unconfirmed.Oldest.Time : sharedTime.Now;
             commits.Commit(SimTime.Min(incoming.Promised, needed));
         }
 
-        // What was committed may have differed: then this peer has left the link for a fresh copy.
+        // A committed state may have differed; then this peer has left the link to get a fresh snapshot.
         if (!any || connection.Link is not UpdateLink link)
         {
             return any;
@@ -79,7 +79,7 @@ internal sealed class LogFollower(
         bool isNextOwn = own && unconfirmed.Count > 0 && unconfirmed.Oldest.Sequence == entry.Sequence;
         if (!isAnothers && !isNextOwn)
         {
-            counters.EventsForged++; // a host that rules on what this peer did not do, or not in order, is none of ours
+            counters.EventsForged++; // verdicts on events this peer never sent, or out of order, do not come from our host
             return;
         }
 

@@ -5,19 +5,19 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>A client's own events whose verdict has not come, oldest first; their numbers follow one another.</summary>
+/// <summary>A client's own events that have no verdict yet, oldest first, with consecutive numbers.</summary>
 internal sealed class OwnEvents : IEntrySource
 {
     private readonly List<ExternalEvent> events = new();
-    private int taken; // so many at the beginning are validated
+    private int taken; // the number of leading events that already have a verdict
 
-    /// <param name="last">The number that the first event comes after.</param>
+    /// <param name="last">The number before that of the first event.</param>
     internal OwnEvents(uint last) => Last = last;
 
-    /// <summary>How many there are.</summary>
+    /// <summary>The number of events.</summary>
     internal int Count => events.Count - taken;
 
-    /// <summary>The oldest.</summary>
+    /// <summary>The oldest event.</summary>
     internal ExternalEvent Oldest => events[taken];
 
     /// <inheritdoc/>
@@ -32,13 +32,13 @@ internal sealed class OwnEvents : IEntrySource
         Last = external.Sequence;
     }
 
-    /// <summary>Takes the oldest out.</summary>
+    /// <summary>Removes the oldest event.</summary>
     internal ExternalEvent Take()
     {
         ExternalEvent oldest = events[taken++];
         if (taken > events.Count / 2)
         {
-            events.RemoveRange(0, taken); // half at least, so that an event is moved once in the mean
+            events.RemoveRange(0, taken); // half at least, so that an event is moved once on average
             taken = 0;
         }
 

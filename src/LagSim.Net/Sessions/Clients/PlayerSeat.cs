@@ -8,7 +8,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>
-/// Takes the number that a host gives a client, which begins its part in the session: its clock is set, and its pass is there.
+/// Takes the number that a host gives a client. With it the client takes part in the session: its clock is set, and it has a pass.
 /// </summary>
 internal sealed class PlayerSeat
 {
@@ -18,7 +18,7 @@ internal sealed class PlayerSeat
     private readonly SessionStatus status;
     private readonly SessionCounters counters;
     private readonly IClock clock;
-    private volatile object? pass; // a boxed one: other threads read it whole
+    private volatile object? pass; // boxed, so that other threads read it whole
 
     internal PlayerSeat(
         JoinAttempts attempts, HostConnection connection, SharedClock sharedTime, SessionStatus status, SessionCounters counters,
@@ -33,16 +33,16 @@ internal sealed class PlayerSeat
         this.pass = pass.Number > 0 ? pass : null;
     }
 
-    /// <summary>Raised each time that the host gives a number, with what shows that this peer is that player.</summary>
+    /// <summary>Raised each time that the host gives a number, with the pass that proves that this peer is that player.</summary>
     internal event Action<PlayerPass>? PassGiven;
 
-    /// <summary>What shows the host that this is the player it was; null for none. From any thread.</summary>
+    /// <summary>The pass that proves to the host who this player was; null if there is none. From any thread.</summary>
     internal PlayerPass? Pass => (PlayerPass?)pass;
 
-    /// <summary>How many lines of the log this peer was not told, because they are in what it began from.</summary>
+    /// <summary>The number of log entries that were not sent to this peer because its initial state includes them.</summary>
     internal uint LogStart { get; private set; }
 
-    /// <summary>What is known of the distance between the two clocks.</summary>
+    /// <summary>The estimate of the offset between the two clocks.</summary>
     internal ClockSync Clock { get; private set; } = new();
 
     internal void OnSeat(in SeatDatagram seat)

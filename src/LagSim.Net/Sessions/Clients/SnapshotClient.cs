@@ -8,20 +8,18 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>
-/// Fetches the copy of scene and world that a host gives a client, piece by piece, and makes sure that it is the one that was announced.
-/// </summary>
+/// <summary>Downloads a snapshot of the scene and world from the host, chunk by chunk, and checks it against the announced hash.</summary>
 internal sealed class SnapshotClient(
     JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, DatagramSender sender,
     SessionCounters counters, IClock clock, IReadOnlyList<IAcceleration>? accelerations)
 {
-    /// <summary>The longest round trip that is assumed before one is measured.</summary>
+    /// <summary>The longest round trip to assume before one is measured.</summary>
     private static readonly SimDuration MostGuessed = SimDuration.FromMilliseconds(400);
 
-    /// <summary>When pieces are to be asked for next.</summary>
+    /// <summary>When to request the next chunks.</summary>
     internal SimTime Due => attempts.Current?.Download?.Due ?? SimTime.MaxValue;
 
-    /// <summary>Asks for pieces if it is time to.</summary>
+    /// <summary>Requests chunks if it is time to.</summary>
     internal void Tend(SimTime now)
     {
         if (attempts.Current is not JoinAttempt { Download: SnapshotDownload download } attempt || download.Due > now)

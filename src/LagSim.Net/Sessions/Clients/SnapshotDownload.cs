@@ -5,18 +5,18 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>A client's fetching of the copy of scene and world: which pieces are there, which to ask for, and when again.</summary>
+/// <summary>A client's download of the scene and world: which chunks have arrived, which to request, and when to ask again.</summary>
 /// <remarks>
-/// What arrives is appended in order, and a window of pieces that came too early is kept: memory follows what was received. How many are asked for at a time is
-/// the client's to say, since it sees how they come: twice as many each round trip while all come and no queue shows, and half as many when some do not come in
-/// time.
+/// Chunks are appended in order, and a window of early ones is buffered, so memory grows only with what was received. The client chooses
+/// how many chunks to request at a time, since it sees how they arrive: the window doubles each round trip while all arrive and no queue
+/// shows, and halves when some do not arrive in time.
 /// </remarks>
 internal sealed class SnapshotDownload
 {
-    /// <summary>So many pieces are asked for at first.</summary>
+    /// <summary>The number of chunks requested at first.</summary>
     private const uint FirstWindow = 4;
 
-    /// <summary>The least time after which pieces that did not come are asked for again.</summary>
+    /// <summary>The least time after which missing chunks are requested again.</summary>
     private static readonly SimDuration LeastTimeout = SimDuration.FromMilliseconds(50);
 
     private readonly byte[]?[] early = new byte[SnapshotRequestDatagram.MaxChunks][];
@@ -26,12 +26,12 @@ internal sealed class SnapshotDownload
     private int have;
     private uint next;
     private uint requests;
-    private uint asked; // up to which piece something was asked for
-    private uint window = FirstWindow; // how many pieces may be on their way
+    private uint asked; // one past the last chunk requested so far
+    private uint window = FirstWindow; // how many chunks may be in flight
     private bool hasQueue; // as of the last request
-    private bool isToGoOn; // the window has moved on: more is to be asked for
-    private SimDuration timeout; // how long the next piece may take
-    private SimTime cut; // when the window was last made smaller
+    private bool isToGoOn; // the window has moved on: request more
+    private SimDuration timeout; // how long the next chunk may take
+    private SimTime cut; // when the window was last reduced
     private SimTime due;
 
     internal SnapshotDownload(int length, SimTime now)
@@ -43,16 +43,16 @@ internal sealed class SnapshotDownload
 
     internal bool IsComplete => next == count;
 
-    /// <summary>The whole copy, once it is complete.</summary>
+    /// <summary>The whole snapshot, once it is complete.</summary>
     internal ReadOnlySpan<byte> Bytes => bytes.AsSpan(0, have);
 
     /// <summary>When the next request is due.</summary>
     internal SimTime Due => IsComplete ? SimTime.MaxValue : due;
 
-    /// <summary>Takes a piece in; false if it is none that is missing.</summary>
+    /// <summary>Takes in a chunk; false if it is not one that is missing.</summary>
     internal bool Take(in SnapshotChunkDatagram chunk, SimTime now)
     {
-        uint ahead = chunk.Index - next; // wraps for what is there already
+        uint ahead = chunk.Index - next; // wraps for a chunk that is there already
         bool fits = chunk.Index < count && chunk.Data.Length == LengthOf(chunk.Index);
         if (!fits || ahead >= SnapshotRequestDatagram.MaxChunks || early[chunk.Index % SnapshotRequestDatagram.MaxChunks] is not null)
         {
@@ -74,18 +74,18 @@ internal sealed class SnapshotDownload
             }
         }
 
-        isToGoOn = next == asked || asked - next <= window / 2; // before it is empty
+        isToGoOn = next == asked || asked - next <= window / 2; // before the window runs empty
         due = isToGoOn ? now : SimTime.Max(due, now + timeout);
 
         return true;
     }
 
-    /// <summary>The request that is due; what does not come in answer in time is asked for again.</summary>
-    /// <param name="sessionId">Of the link.</param>
+    /// <summary>Builds the request that is due; chunks that do not arrive in time are requested again.</summary>
+    /// <param name="sessionId">The session id of the link.</param>
     /// <param name="peer">This peer's number.</param>
-    /// <param name="now">By the own clock.</param>
-    /// <param name="trips">What is known of the link's round trips.</param>
-    /// <param name="guessed">How long one is taken to be before one is measured.</param>
+    /// <param name="now">The time by the local clock.</param>
+    /// <param name="trips">The link's measured round trips.</param>
+    /// <param name="guessed">The round trip to assume before one is measured.</param>
     internal SnapshotRequestDatagram Ask(ulong sessionId, byte peer, SimTime now, RoundTrips trips, SimDuration guessed)
     {
         SimDuration trip = trips.IsMeasured ? (trips.Timeout > trips.Newest ? trips.Timeout : trips.Newest) : guessed + (guessed / 2);

@@ -8,12 +8,12 @@ using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions.Clients;
 
-/// <summary>Begins a client's world once all is there: scene, state or start, the shared time, and the number.</summary>
+/// <summary>Begins a client's world once everything is there: scene, state or start, the shared time, and the number.</summary>
 internal sealed class WorldEntry(
     JoinAttempts attempts, HostConnection connection, WorldStart start, SharedClock sharedTime, SessionStatus status,
     IClock clock, SimDuration timeout)
 {
-    /// <summary>Begins the world if all is there. One that cannot be begun ends the session.</summary>
+    /// <summary>Begins the world if everything is there. Ends the session if the world cannot be begun.</summary>
     /// <param name="told">When the session starts; the earliest instant if the host has not said.</param>
     /// <returns>Whether it has begun.</returns>
     internal bool TryBegin(SimTime told)
@@ -39,7 +39,7 @@ internal sealed class WorldEntry(
         }
         else if (told == SimTime.MinValue)
         {
-            return false; // it is not decided
+            return false; // not decided yet
         }
         else if (told < EarliestStart(attempt))
         {
@@ -58,11 +58,11 @@ internal sealed class WorldEntry(
         return true;
     }
 
-    /// <summary>
-    /// Whoever joins later than the history after the start gets a state with the scene. The start of one who got none lies at most the
-    /// history before it
-    /// asked to be let in, and the time-out for clocks and copies; before that nothing is simulated, however long it would take.
-    /// </summary>
+    /// <summary>The earliest start to accept; simulating from any earlier one would take unbounded time.</summary>
+    /// <remarks>
+    /// A client that joins later than the history after the start gets a state with the scene. Without one, the start lies at most the
+    /// history, plus the timeout for clocks and snapshots, before it asked to join.
+    /// </remarks>
     private SimTime EarliestStart(JoinAttempt attempt) =>
         sharedTime.Now - (clock.Now - attempt.Began) - timeout
         - (connection.History < LatencyCompensationWindow.MaxHistory ? connection.History : LatencyCompensationWindow.MaxHistory);

@@ -14,7 +14,7 @@ internal sealed class CommitSchedule
     private readonly SimDuration interval;
 
     /// <param name="start">The session's start.</param>
-    /// <param name="from">The first instant that this peer can read: its own beginning.</param>
+    /// <param name="from">The first instant that this peer can read: the beginning of its world.</param>
     /// <param name="interval">The time from one instant to the next.</param>
     internal CommitSchedule(SimTime start, SimTime from, SimDuration interval)
     {
@@ -28,7 +28,7 @@ internal sealed class CommitSchedule
     /// <summary>The next instant to hash.</summary>
     internal SimTime Next { get; private set; }
 
-    /// <summary>Leaves out the instants before that time, which nobody can hash any more.</summary>
+    /// <summary>Skips the instants before a time, which can no longer be hashed.</summary>
     internal void SkipTo(SimTime time)
     {
         if (Next < time)
@@ -46,7 +46,7 @@ internal sealed class CommitSchedule
         return state;
     }
 
-    /// <summary>The hash of an instant that was hashed lately; false for one that was not, or longer ago.</summary>
+    /// <summary>Looks up the hash of an instant; false if it was not hashed, or too long ago.</summary>
     internal bool TryGet(SimTime time, out ulong stateHash)
     {
         CommittedState? state = time > start ? own[Place(time)] : null;
@@ -57,7 +57,7 @@ internal sealed class CommitSchedule
     /// <summary>The time from one instant to the next.</summary>
     internal SimDuration Interval => interval;
 
-    /// <summary>Notes what the host says; true if it can be compared now, with the own state to compare it with.</summary>
+    /// <summary>Records a hash from the host; true if it can be compared now, with the own state to compare it with.</summary>
     internal bool TryCompare(SimTime time, ulong stateHash, out CommittedState mine)
     {
         mine = default;
@@ -69,7 +69,7 @@ internal sealed class CommitSchedule
         ref (SimTime Time, ulong StateHash) last = ref heard[Place(time)];
         if (last.Time == time)
         {
-            return false; // heard before, and compared or waiting
+            return false; // received before, and compared or waiting
         }
 
         last = (time, stateHash);
@@ -77,7 +77,7 @@ internal sealed class CommitSchedule
         return own[Place(time)]?.Time == time;
     }
 
-    /// <summary>What the host said before of a state just taken; false if it did not.</summary>
+    /// <summary>Looks up the host's earlier hash for a state just taken; false if there is none.</summary>
     internal bool TryCompare(in CommittedState mine, out ulong stateHash)
     {
         (SimTime time, stateHash) = heard[Place(mine.Time)];

@@ -5,32 +5,34 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>What will not change any more of the world: hashed, compared with what the host says, and then forgotten.</summary>
+/// <summary>
+/// Commits the part of the world that can no longer change: hashes it, compares it with the host's hashes, and then drops its history.
+/// </summary>
 /// <param name="world">The world.</param>
 /// <param name="sharedTime">The session's time.</param>
-/// <param name="status">Where the session stands: what the host says of a world that is given up is not compared.</param>
-/// <param name="counters">What is counted.</param>
-/// <param name="extraHistory">How much longer timelines are kept than events may be late.</param>
+/// <param name="status">Where the session stands; hashes for an abandoned world are not compared.</param>
+/// <param name="counters">The session's counters.</param>
+/// <param name="extraHistory">How long timelines are kept beyond the lateness limit of events.</param>
 internal sealed class CommitTracker(
     SharedWorld world, SharedClock sharedTime, SessionStatus status, SessionCounters counters, SimDuration extraHistory)
 {
-    private volatile object? committed; // a boxed state: other threads read it whole
-    private SimTime settled = SimTime.MinValue; // the watermark that was last committed to
+    private volatile object? committed; // boxed, so that other threads read it whole
+    private SimTime settled = SimTime.MinValue; // the last committed watermark
     private CommitSchedule? schedule;
 
     /// <summary>Raised for every committed state, in order.</summary>
     internal event Action<CommittedState>? Committed;
 
-    /// <summary>Raised for every committed state that was held against the hash that the host told for it, with that hash.</summary>
+    /// <summary>Raised for every committed state that was compared with the host's hash, with that hash.</summary>
     internal event Action<CommittedState, ulong>? Compared;
 
     /// <summary>The newest committed state; null before there is one. From any thread.</summary>
     internal CommittedState? Newest => (CommittedState?)committed;
 
-    /// <summary>What a watermark is taken for; only a test that is to see it missed puts another rule here.</summary>
+    /// <summary>Replaces the watermark; set only by tests that check that a wrong one is noticed.</summary>
     internal Func<SimTime, SimTime>? WatermarkRule { get; set; }
 
-    /// <summary>Starts anew with another world.</summary>
+    /// <summary>Starts over with another world.</summary>
     internal void Begin(CommitSchedule ofTheWorld)
     {
         settled = SimTime.MinValue;
@@ -38,8 +40,8 @@ internal sealed class CommitTracker(
     }
 
     /// <summary>
-    /// When the next state can be committed, if the watermark follows the clock by that much, and the world by as much where it is
-    /// behind. A commit that is due before the world is there is not waited for: the world's own steps are.
+    /// When the next state can be committed, if the watermark trails the clock by this much, and the world by as much where it is behind. A
+    /// commit that is due before the world gets there is not waited for, since the world's own steps are.
     /// </summary>
     internal SimTime NextDue(SimDuration behind)
     {
@@ -53,7 +55,7 @@ internal sealed class CommitTracker(
     }
 
     /// <summary>
-    /// Puts the hashes of the newest committed states into an update, back to one that the other is known to have, as many as may travel.
+    /// Puts the hashes of the newest committed states into an update, back to one that the other peer is known to have, as many as fit.
     /// </summary>
     /// <returns>The newest instant; <paramref name="after"/> if there is none after it.</returns>
     internal SimTime PutHashes(UpdateDatagram update, SimTime after)
@@ -72,10 +74,10 @@ internal sealed class CommitTracker(
         return newest.Time;
     }
 
-    /// <summary>Notes the states that the host says it has committed.</summary>
+    /// <summary>Compares the states that the host has committed.</summary>
     internal void Compare(UpdateDatagram update)
     {
-        for (int n = update.Hashes.Length - 1; n >= 0; n--) // the oldest first, so that the first that differs is told
+        for (int n = update.Hashes.Length - 1; n >= 0; n--) // the oldest first, so that the first difference is reported
         {
             if (schedule is null || status.IsRejoining)
             {
@@ -91,7 +93,7 @@ internal sealed class CommitTracker(
     }
 
     /// <summary>
-    /// Nothing before the watermark will change any more; hash what is due, and forget it, but for what the options want kept.
+    /// Hashes what is due before the watermark, where nothing changes any more, and drops the history that the options do not keep.
     /// </summary>
     internal void Commit(SimTime watermark)
     {
@@ -114,17 +116,15 @@ internal sealed class CommitTracker(
             Committed?.Invoke(state);
         }
 
-        // What is still to be hashed is kept, and what is still to be shown.
+        // History that is still to be hashed or displayed is kept.
         SimDuration kept = extraHistory + world.DisplayDelay;
         SimTime oldest = SimTime.Max(watermark, world.Live.Simulation.HistoryEdge + kept) - kept;
         world.Live.Simulation.DropHistoryBefore(SimTime.Min(oldest, schedule.Next));
     }
 
     /// <summary>
-    /// A world that has long to go takes no more memory for it than one that is there: what has been committed to is hashed as the world
-    /// gets there, and then
-    /// forgotten. What the watermark has not passed stays, however old it is: an event of then may still come, and to have forgotten it
-    /// would be to lose it.
+    /// Bounds the memory of a world that is far behind: committed history is hashed as the world gets there, and then dropped. History
+    /// after the watermark stays, however old, because an event of that time may still arrive and would otherwise be lost.
     /// </summary>
     internal void ForgetWhileBehind() => Commit(settled);
 

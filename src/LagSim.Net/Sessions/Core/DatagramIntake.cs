@@ -4,8 +4,8 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>Tells what kind of datagram came, counts what is none, and hands on the rest.</summary>
-/// <remarks>Whoever reads the port calls it: the session itself, or what shares one port among many.</remarks>
+/// <summary>Classifies incoming datagrams, counts the malformed ones, and passes the rest on.</summary>
+/// <remarks>Called by the reader of the port: the session itself, or a dispatcher that shares one port among many.</remarks>
 internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler handler)
 {
     private readonly UpdateDatagram received = new();

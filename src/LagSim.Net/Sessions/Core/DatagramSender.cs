@@ -5,12 +5,12 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>The one way by which a session's datagrams go out: it hands them to the port and counts them.</summary>
+/// <summary>Hands a session's datagrams to the port and counts them. Every datagram a session sends goes through here.</summary>
 internal sealed class DatagramSender(IDatagramPort port, SessionCounters counters)
 {
     /// <summary>
-    /// As often a goodbye is said at once; who has not heard it hears it again in answer to what it sends, for as long as the port is
-    /// there.
+    /// The number of goodbyes sent at once. A peer that misses them all gets another in reply to whatever it sends, for as long as the port
+    /// is open.
     /// </summary>
     internal const int Goodbyes = 3;
 
@@ -26,17 +26,17 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
         link.CountSent(datagram.Length);
     }
 
-    /// <summary>Tells the other end of a link that it is over.</summary>
+    /// <summary>Informs the other end of a link that it is over.</summary>
     /// <param name="link">The link.</param>
     /// <param name="self">This peer's number.</param>
-    /// <param name="reason">Why.</param>
+    /// <param name="reason">The reason.</param>
     internal void SayGoodbye(UpdateLink link, byte self, LeaveReason reason)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
         Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, self, reason).Encode(bytes)), link);
     }
 
-    /// <summary>Tells somebody to whom there is no link that it has none, by the session id that it gave itself.</summary>
+    /// <summary>Informs a sender without a link that it has none, using the session id from its own datagram.</summary>
     internal void SayGoodbye(PeerAddress to, ulong itsSession, LeaveReason reason)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];

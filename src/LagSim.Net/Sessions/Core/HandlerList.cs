@@ -4,21 +4,19 @@ using System.Threading;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>
-/// The handlers of one event of a session, called one after the other, so that one that throws keeps no other from its turn.
-/// </summary>
+/// <summary>The handlers of one session event. They are called one after the other, and one that throws does not stop the others.</summary>
 /// <remarks>
-/// Added and removed from any thread; calling them allocates nothing. Where nobody takes what handlers throw, it goes through to whoever
-/// steps the session, and the handlers after it are not called.
+/// Added and removed from any thread; calling them allocates nothing. If the owner does not take exceptions, one propagates to the caller
+/// that steps the session, and the remaining handlers are not called.
 /// </remarks>
 /// <typeparam name="THandler">The event's type.</typeparam>
-/// <param name="owner">Who takes what handlers throw.</param>
+/// <param name="owner">Takes the exceptions that handlers throw.</param>
 internal sealed class HandlerList<THandler>(SessionOwner owner)
     where THandler : Delegate
 {
-    private THandler[] handlers = Array.Empty<THandler>(); // replaced, never changed
+    private THandler[] handlers = Array.Empty<THandler>(); // replaced, never modified
 
-    /// <summary>Whether there is none.</summary>
+    /// <summary>Whether there are no handlers.</summary>
     internal bool IsEmpty => Volatile.Read(ref handlers).Length == 0;
 
     internal void Add(THandler? handler)
@@ -37,9 +35,9 @@ internal sealed class HandlerList<THandler>(SessionOwner owner)
         }
     }
 
-    /// <summary>Calls all.</summary>
-    /// <param name="told">What they are told.</param>
-    /// <param name="call">How one is called; static, so that nothing is allocated.</param>
+    /// <summary>Calls all handlers.</summary>
+    /// <param name="told">The argument to pass.</param>
+    /// <param name="call">How to call one; static, so that nothing is allocated.</param>
     internal void Raise<T>(T told, Action<THandler, T> call)
     {
         foreach (THandler handler in Volatile.Read(ref handlers))
@@ -55,7 +53,7 @@ internal sealed class HandlerList<THandler>(SessionOwner owner)
         }
     }
 
-    // As a delegate does: the last that is equal.
+    // Removes the last equal one, as a delegate does.
     private static THandler[] Without(THandler[] all, THandler one)
     {
         int at = Array.LastIndexOf(all, one);

@@ -4,15 +4,15 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>Takes in what came for a session, one datagram at a time.</summary>
+/// <summary>Handles the datagrams of a session, one at a time.</summary>
 internal interface IDatagramHandler
 {
-    /// <summary>An update that is well formed.</summary>
+    /// <summary>Handles a well-formed update.</summary>
     void OnUpdate(UpdateDatagram update, PeerAddress from);
 
-    /// <summary>Anything else of this version of the protocol, not decoded yet.</summary>
+    /// <summary>Handles any other datagram of this protocol version, not decoded yet.</summary>
     void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from);
 
-    /// <summary>Something of another version of the protocol; of it only what is the same in all may be read.</summary>
+    /// <summary>Handles a datagram of another protocol version; only the fields common to all versions may be read.</summary>
     void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from);
 }

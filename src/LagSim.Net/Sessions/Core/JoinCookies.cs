@@ -8,11 +8,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>How a host knows, without keeping anything, that who wants to join is at the address it gives and has the connect key.</summary>
+/// <summary>
+/// Lets a host verify, without keeping any state, that a joining client is at its claimed address and has the connect key.
+/// </summary>
 /// <remarks>
-/// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is good for half a minute to a minute. The
-/// proof of a key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the secret too, so
-/// who has one cannot tell another's. For one thread.
+/// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is valid for half a minute to a minute. The
+/// proof of a key is HMAC-SHA-256 over nonce and cookie with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the
+/// secret too, so a client cannot derive another's from its own. For one thread.
 /// </remarks>
 internal sealed class JoinCookies : IDisposable
 {
@@ -24,13 +26,13 @@ internal sealed class JoinCookies : IDisposable
     internal JoinCookies()
     {
         byte[] secret = new byte[HashBytes];
-        RandomNumberGenerator.Fill(secret); // no run depends on it: a cookie, or a session id, is right or wrong whatever its bits
+        RandomNumberGenerator.Fill(secret); // does not affect determinism: a cookie or session id is right or wrong whatever its bits
         maker = new HMACSHA256(secret);
     }
 
     public void Dispose() => maker.Dispose();
 
-    /// <summary>What shows that one has the key.</summary>
+    /// <summary>Computes the proof that a client has the connect key.</summary>
     internal static Token128 Prove(string connectKey, ulong nonce, Token128 cookie)
     {
         using HMACSHA256 prover = new(Encoding.UTF8.GetBytes(connectKey));
@@ -47,7 +49,7 @@ internal sealed class JoinCookies : IDisposable
 
     internal static bool IsProof(string key, in JoinDatagram join) => join.Proof == Prove(key, join.Nonce, join.Cookie);
 
-    /// <summary>What shows that one has a player's pass.</summary>
+    /// <summary>Computes the proof that a client has a player's pass.</summary>
     internal static Token128 Prove(Token128 pass, ulong nonce, Token128 cookie)
     {
         byte[] key = new byte[Token128.Bytes];

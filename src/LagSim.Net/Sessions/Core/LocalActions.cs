@@ -8,7 +8,8 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Core;
 
 /// <summary>
-/// What this peer does itself: stamped with its number and a time, held against rights and limits, and brought into its own world at once.
+/// Performs this peer's own actions: stamps them with its number and a time, checks them against rights and limits, and applies them to its
+/// own world at once.
 /// </summary>
 internal sealed class LocalActions(PlayerIdentity self, SessionStatus status, SharedClock sharedTime, SharedWorld world)
 {
@@ -29,10 +30,10 @@ internal sealed class LocalActions(PlayerIdentity self, SessionStatus status, Sh
         }
     }
 
-    /// <summary>Does something, at a shared time, in a session that is running; the others have not heard of it yet.</summary>
+    /// <summary>Performs an action at a shared time, in a running session; it is not sent to the other peers yet.</summary>
     /// <exception cref="InvalidOperationException">That time is committed already; nothing happened.</exception>
-    /// <exception cref="SceneException">It may not enter the world, or this peer may not do it here; nothing happened.</exception>
-    /// <exception cref="SimulationException">The world cannot be simulated with it.</exception>
+    /// <exception cref="SceneException">The action may not enter the world, or this peer may not do it here; nothing happened.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated with the action.</exception>
     internal ExternalEvent Submit(in PlayerAction action, SimTime time)
     {
         ExternalEvent external = action.Stamp(time, self.Number, self.LastSequence + 1);

@@ -9,16 +9,19 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>What one player may ask of a world at most: how fast, and how many bodies. The host's verdict; a client asks it of what it does itself.</summary>
-/// <remarks>No rule of the world: what was accepted once happens everywhere, whatever others would have said to it.</remarks>
+/// <summary>
+/// The limits on one player's actions: how fast bodies may be set, and how many may be spawned. The host enforces them on events; a client
+/// checks its own actions.
+/// </summary>
+/// <remarks>These are not rules of the world: an accepted event happens on every peer, whatever their own limits.</remarks>
 internal sealed class PlayerLimits
 {
     private readonly SessionOptions options;
-    private readonly Dictionary<BodyId, Birth> spawned = new(); // those that are there or went lately
+    private readonly Dictionary<BodyId, Birth> spawned = new(); // existing and recently removed bodies
 
     internal PlayerLimits(SessionOptions options) => this.options = options;
 
-    /// <summary>Whether it keeps to the limits; if not, with which verdict and in which words.</summary>
+    /// <summary>Returns the verdict on an event, and for one that exceeds a limit the reason.</summary>
     internal Verdict WhyNot(in ExternalEvent external, Simulation world, SimTime now, out string sentence)
     {
         sentence = "";
@@ -50,12 +53,14 @@ internal sealed class PlayerLimits
         return Verdict.Invalid;
     }
 
-    /// <summary>How many bodies that a player has spawned are there. By itself, for what a lambda needs is allocated where its method begins.</summary>
+    /// <summary>
+    /// Counts a player's spawned bodies that exist. A separate method, because a lambda's closure is allocated where its method begins.
+    /// </summary>
     private int CountOf(byte player, SimTime now) => spawned.Count(s => s.Key.Peer == player && s.Value.Removed > now);
 
     /// <summary>
-    /// The bodies that a player spawned and that nobody removed, those included whose spawn is still to come, each with when it is spawned, by identity; or of some that are named
-    /// those of any player.
+    /// Returns a player's spawned bodies that are not removed, including those whose spawn is still to come, each with its spawn time, by
+    /// identity; or those among the named bodies, of any player.
     /// </summary>
     internal List<(BodyId Body, SimTime Since)> Spawned(byte player, ICollection<BodyId>? named = null) => spawned
         .Where(s => s.Value.Removed == SimTime.MaxValue && (named?.Contains(s.Key) ?? s.Key.Peer == player))
@@ -63,7 +68,7 @@ internal sealed class PlayerLimits
         .Select(s => (s.Key, s.Value.Since))
         .ToList();
 
-    /// <summary>Keeps what was accepted, or done here and not refused yet.</summary>
+    /// <summary>Records an event that was accepted, or done here and not refused yet.</summary>
     internal void Note(in ExternalEvent external)
     {
         if (external.Kind == EventKind.Spawn)
@@ -72,11 +77,11 @@ internal sealed class PlayerLimits
         }
         else if (external.Kind == EventKind.Remove && spawned.TryGetValue(external.Body, out Birth? body) && external.Time >= body.Since)
         {
-            body.Removed = SimTime.Min(body.Removed, external.Time); // before it was there nothing was removed
+            body.Removed = SimTime.Min(body.Removed, external.Time); // a removal before the spawn removed nothing
         }
     }
 
-    /// <summary>What was done here was refused.</summary>
+    /// <summary>Retracts an own event that was refused.</summary>
     internal void TakeBack(in ExternalEvent external)
     {
         if (external.Kind == EventKind.Spawn)
@@ -89,12 +94,11 @@ internal sealed class PlayerLimits
         }
     }
 
-    /// <summary>How fast the spin of a spawn moves its surface: friction makes speed of it.</summary>
+    /// <summary>The surface speed of a spinning spawn; friction turns it into linear speed.</summary>
     private static double SurfaceSpeed(in ExternalEvent spawn) => spawn.Spin.Length * spawn.Spec.Radius;
 
     /// <summary>
-    /// How fast the event leaves its body, and how fast that was; an impulse, and the way a hand has to make up for, are validated by the world as it is known
-    /// now.
+    /// Returns the speed of the body after the event, and before it. For an impulse and a lagging hold it uses the world as known now.
     /// </summary>
     private double SpeedAfter(in ExternalEvent external, Simulation world, out double before)
     {
@@ -111,7 +115,7 @@ internal sealed class PlayerLimits
 
         if (external.Body.Peer == external.Peer && external.Body.Sequence > external.Sequence)
         {
-            return double.PositiveInfinity; // on what it will spawn itself, of any mass
+            return double.PositiveInfinity; // on a body it spawns later, of any mass
         }
 
         BodyState state = default;
@@ -124,7 +128,7 @@ internal sealed class PlayerLimits
         return (state.Velocity + (external.Velocity / MassOf(external.Body, world))).Length;
     }
 
-    /// <summary>With what speed a held body gets to where the hand is now, in the mean; none if this peer does not hold it.</summary>
+    /// <summary>The mean speed at which a held body catches up with the hand; 0 if this peer does not hold it.</summary>
     private static double SpeedOfCatchingUp(in ExternalEvent external, Simulation world)
     {
         bool isKnown = external.Time >= world.HistoryEdge && external.Time <= world.Horizon;
@@ -134,7 +138,7 @@ internal sealed class PlayerLimits
             : 0;
     }
 
-    /// <summary>In kg; of a body that nobody here has heard of, as one that acts faster than its spawner is heard may mean, as if it were 1 kg.</summary>
+    /// <summary>The mass of a body in kg; 1 for an unknown body, because an event may arrive before the spawn of its body.</summary>
     private double MassOf(BodyId body, Simulation world)
     {
         if (body.Peer == 0 && body.Sequence == 0 && body.Index < world.Scene.Bodies.Count)
@@ -146,7 +150,7 @@ internal sealed class PlayerLimits
         return mass > 0 ? mass : 1;
     }
 
-    /// <summary>Forgets what went before that time: nothing that is still accepted finds it there.</summary>
+    /// <summary>Forgets bodies removed before that time; no event that is still accepted can refer to them.</summary>
     private void ForgetBefore(SimTime time)
     {
         if (spawned.Count >= options.MaxSpawned)

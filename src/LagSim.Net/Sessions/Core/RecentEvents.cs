@@ -5,16 +5,16 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>The newest lines of the log, kept beyond what is settled: what a state that turns out to differ is explained by.</summary>
-/// <remarks>Bounded; takes room as lines come.</remarks>
+/// <summary>The newest log entries, kept beyond the settled ones to explain a state that turns out to differ.</summary>
+/// <remarks>Bounded; memory is allocated as entries arrive.</remarks>
 internal sealed class RecentEvents
 {
-    /// <summary>So many lines are kept: half a minute of a lively session, and at most some 200 KB.</summary>
+    /// <summary>The number of entries kept: half a minute of a lively session, and at most some 200 KB.</summary>
     internal const int Most = 1024;
 
     private readonly List<(LogEntry Entry, bool HasEffect)> lines = new();
-    private int oldest; // once there are as many as may be
-    private SimTime forgotten = SimTime.MinValue; // the greatest stamp of an accepted event that is no longer here
+    private int oldest; // once the list is full
+    private SimTime forgotten = SimTime.MinValue; // the greatest stamp of an accepted event that was dropped
 
     internal void Add(in LogEntry entry, bool hasEffect)
     {
@@ -33,7 +33,9 @@ internal sealed class RecentEvents
     /// <summary>Whether every accepted event stamped after that time is still here.</summary>
     internal bool IsWholeAfter(SimTime after) => forgotten <= after;
 
-    /// <summary>The accepted events stamped after one time and up to another that have had their effect here, in the order of <see cref="Compare"/>.</summary>
+    /// <summary>
+    /// Returns the accepted events stamped after one time and up to another that took effect here, in the order of <see cref="Compare"/>.
+    /// </summary>
     internal List<LogEntry> Between(SimTime after, SimTime upTo)
     {
         List<LogEntry> found = new();
@@ -49,7 +51,7 @@ internal sealed class RecentEvents
         return found;
     }
 
-    /// <summary>The newest line about that event, whatever its verdict, and whether it has had its effect; false if there is none.</summary>
+    /// <summary>Finds the newest entry about an event, whatever its verdict, and whether it took effect; false if there is none.</summary>
     internal bool TryFind(in ExternalEvent what, out LogEntry entry, out bool hasEffect)
     {
         entry = default;
@@ -65,7 +67,9 @@ internal sealed class RecentEvents
         return entry.Index > 0;
     }
 
-    /// <summary>By stamp, then by who did it as which of his: the same on every peer, and no two events of a session are the same in it.</summary>
+    /// <summary>
+    /// Orders by stamp, then by peer and sequence number. The order is the same on every peer and total over the events of a session.
+    /// </summary>
     internal static int Compare(LogEntry a, LogEntry b)
     {
         int order = a.Event.Time.CompareTo(b.Event.Time);

@@ -5,10 +5,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>One step of a session after the other: what has come in, what is due, and the world.</summary>
+/// <summary>Runs the steps of a session: incoming datagrams, what is due, and the world.</summary>
 internal sealed class SessionLoop
 {
-    /// <summary>As many datagrams are taken in at a time at most: whoever floods this peer does not keep it from its own work.</summary>
+    /// <summary>The most datagrams handled in one step, so that a flood cannot keep this peer from its own work.</summary>
     private const int MaxDatagramsAStep = 256;
 
     private readonly byte[] buffer = new byte[IDatagramPort.MaxDatagramBytes];
@@ -39,7 +39,7 @@ internal sealed class SessionLoop
         }
     }
 
-    /// <summary>Nothing is to be read from a world that failed; the render snapshots that were published still can be.</summary>
+    /// <summary>Nothing may be read from a failed world, except the render snapshots published before.</summary>
     internal void EndWorld(SimulationException failure)
     {
         bool isFull = failure is TimelinesFullException;
@@ -51,7 +51,7 @@ internal sealed class SessionLoop
 
         if (parts.Status.HasEnded)
         {
-            return; // a fresh copy would be of no use: said already
+            return; // a fresh snapshot would be useless, and the end was reported already
         }
 
         protocol.Farewell();
@@ -92,13 +92,13 @@ internal sealed class SessionLoop
             return SimDuration.Zero; // there may be more
         }
 
-        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - parts.Clock.Now; // what the step itself took is not waited again
+        return due == SimTime.MaxValue ? SimDuration.MaxValue : due - parts.Clock.Now; // the time of the step itself is not waited again
     }
 
-    /// <summary>Brings the world ahead.</summary>
-    /// <param name="now">By the own clock.</param>
+    /// <summary>Advances the world.</summary>
+    /// <param name="now">The time by the local clock.</param>
     /// <param name="due">When something else is due.</param>
-    /// <returns>When something is due, by the own clock.</returns>
+    /// <returns>When something is due, by the local clock.</returns>
     private SimTime StepWorld(SimTime now, SimTime due)
     {
         SimTime shared = parts.SharedTime.Now;
@@ -110,7 +110,7 @@ internal sealed class SessionLoop
 
         if (worldDue != SimTime.MaxValue)
         {
-            // A shared clock that is behind is bent to run up to 5 % fast: by the own clock the time then comes that much sooner.
+            // A shared clock that is behind runs up to 5 % fast, so by the local clock the time comes that much sooner.
             SimDuration left = worldDue - shared;
             due = SimTime.Min(due, now + (parts.SharedTime.Remaining > SimDuration.Zero ? left - (left / 20) : left));
         }

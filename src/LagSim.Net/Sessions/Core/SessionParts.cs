@@ -7,11 +7,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>The parts that a host's session and a client's have alike, made and put together once.</summary>
+/// <summary>The parts that host and client sessions have in common, created and wired up once.</summary>
 internal sealed class SessionParts
 {
-    /// <summary>The furthest that a clock may have run, 23 days: so long a session can last.</summary>
-    // The estimate of another clock takes readings of up to 24 days.
+    /// <summary>The latest clock reading at which a session can start or run: 23 days.</summary>
+    // A clock estimate accepts readings of up to 24 days.
     internal static readonly SimTime MaxClock = SimTime.FromSeconds(2_000_000);
 
     internal SessionParts(Scene? scene, IDatagramPort port, IClock clock, SessionOptions options, SessionState first)

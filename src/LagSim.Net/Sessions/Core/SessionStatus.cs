@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Net.Sessions.Core;
 
 /// <summary>Where a session stands, and why it ended or was interrupted.</summary>
-/// <remarks>Changed on the session's thread; read from any thread, but <see cref="RejoiningBecause"/>.</remarks>
+/// <remarks>Changed on the session's thread; read from any thread, except <see cref="RejoiningBecause"/>.</remarks>
 internal sealed class SessionStatus
 {
     private volatile SessionState state;
@@ -33,14 +33,14 @@ internal sealed class SessionStatus
     /// <summary>Why this peer asks to be let in again, or did the last time.</summary>
     internal string RejoiningBecause { get; private set; } = "";
 
-    /// <summary>Notes that this peer asks to be let in again.</summary>
+    /// <summary>Records that this peer asks to be let in again.</summary>
     internal void Rejoin(string why)
     {
         RejoiningBecause = why;
         state = SessionState.Rejoining;
     }
 
-    /// <summary>Notes that the world has begun.</summary>
+    /// <summary>Records that the world has begun.</summary>
     internal void BeginRunning()
     {
         if (state is not (SessionState.Ended or SessionState.Rejoining))
@@ -58,7 +58,7 @@ internal sealed class SessionStatus
         }
 
         endedBy = by;
-        endReason = reason; // first: who reads that it ended reads why
+        endReason = reason; // set first, so that a reader that sees the end sees the reason
         state = SessionState.Ended;
         Ended?.Invoke();
     }

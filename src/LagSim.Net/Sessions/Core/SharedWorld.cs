@@ -11,9 +11,9 @@ using LagSim.Timelines;
 namespace LagSim.Net.Sessions.Core;
 
 /// <summary>
-/// This peer's copy of the shared world: how it is made, how events enter it, and how it is brought ahead of the shared time.
+/// This peer's copy of the shared world: how it is created, how events enter it, and how it is kept ahead of the shared time.
 /// </summary>
-/// <remarks>For the session's thread; which world, its scene and <see cref="DisplayTime"/> from any thread.</remarks>
+/// <remarks>For the session's thread; <see cref="Live"/>, its scene and <see cref="DisplayTime"/> from any thread.</remarks>
 internal sealed class SharedWorld
 {
     private readonly SessionOptions options;
@@ -23,16 +23,16 @@ internal sealed class SharedWorld
     private readonly ILateEventStrategy strategy;
     private readonly CancellationTokenSource interruption = new();
     private bool hasUnshown;
-    private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; there before the world is
+    private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; set before the world is
     private volatile LiveWorld? live;
     private volatile Scene? scene;
 
     /// <param name="scene">The scene that all peers share; null if it is not known yet.</param>
     /// <param name="options">How the session takes part.</param>
-    /// <param name="clock">The own clock, which work is measured by.</param>
+    /// <param name="clock">The local clock, by which work is measured.</param>
     /// <param name="sharedTime">The session's time.</param>
-    /// <param name="counters">What is counted.</param>
-    /// <exception cref="ArgumentException">There is no such strategy, or a sync test is asked of one that does not heal.</exception>
+    /// <param name="counters">The session's counters.</param>
+    /// <exception cref="ArgumentException">The strategy is unknown, or a sync test is requested for one that does not heal.</exception>
     internal SharedWorld(Scene? scene, SessionOptions options, IClock clock, SharedClock sharedTime, SessionCounters counters)
     {
         this.scene = scene;
@@ -59,13 +59,13 @@ internal sealed class SharedWorld
     /// <summary>The world; null before its start is known.</summary>
     internal LiveWorld? Live => live;
 
-    /// <summary>The committed state that it went on from; null where it began with the scene.</summary>
+    /// <summary>The committed state that it began from; null if it began with the scene.</summary>
     internal WorldSnapshot? BegunFrom { get; private set; }
 
-    /// <summary>Earlier events are in what the world went on from.</summary>
+    /// <summary>The time of its initial state, which includes all earlier events.</summary>
     internal SimTime From => BegunFrom?.Time ?? SimTime.MinValue;
 
-    /// <summary>What players may do in it at most.</summary>
+    /// <summary>The limits on what players may do in it.</summary>
     internal PlayerLimits Limits { get; private set; }
 
     internal bool PromisesAgreement => strategy.PromisesAgreement;
@@ -81,16 +81,13 @@ internal sealed class SharedWorld
         }
     }
 
-    /// <summary>
-    /// What the simulation of each world is run with, of what follows from the session's options; only a test that hands in other parts
-    /// puts another rule here.
-    /// </summary>
+    /// <summary>Modifies the simulation options derived from the session's options; set only by tests that hand in other parts.</summary>
     internal Func<SimulationOptions, SimulationOptions> OptionsRule { get; set; } = static options => options;
 
-    /// <summary>Has a step that is simulating end soon; from any thread. The world stands still from then on.</summary>
+    /// <summary>Makes a running simulation step end soon; from any thread. The world stops for good.</summary>
     internal void Interrupt() => interruption.Cancel();
 
-    /// <summary>Makes the world as the scene has it at its start, in place of the one before.</summary>
+    /// <summary>Creates the world from the scene at its start, replacing any earlier one.</summary>
     internal void Begin(SimTime start)
     {
         live?.Retire();
@@ -103,8 +100,8 @@ internal sealed class SharedWorld
         Take(made, null);
     }
 
-    /// <summary>Makes the world from what it was committed to be, in place of the one before.</summary>
-    /// <exception cref="SceneException">It is no world of the scene.</exception>
+    /// <summary>Creates the world from a committed state, replacing any earlier one.</summary>
+    /// <exception cref="SceneException">The snapshot is not a world of the scene.</exception>
     internal void Begin(WorldSnapshot snapshot)
     {
         live?.Retire();
@@ -121,7 +118,7 @@ internal sealed class SharedWorld
     /// <summary>Whether there is a world and its start has come.</summary>
     internal bool HasBegunBy(SimTime shared) => live is LiveWorld world && shared >= world.Simulation.Start;
 
-    /// <summary>Whether an event may enter this world at all; what others send is not trusted to be checked.</summary>
+    /// <summary>Whether an event may enter this world at all; events from other peers are always checked.</summary>
     internal bool MayEnter(in ExternalEvent external)
     {
         try
@@ -135,9 +132,9 @@ internal sealed class SharedWorld
         }
     }
 
-    /// <summary>Brings an event of this peer into the world, which is there.</summary>
-    /// <exception cref="InvalidOperationException">Its time is committed already.</exception>
-    /// <exception cref="SimulationException">The world cannot be simulated with it.</exception>
+    /// <summary>Applies an event of this peer. The world must exist.</summary>
+    /// <exception cref="InvalidOperationException">The event's time is committed already.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated with the event.</exception>
     internal void Submit(in ExternalEvent external)
     {
         LiveWorld world = live!;
@@ -153,8 +150,8 @@ internal sealed class SharedWorld
         Limits.Note(external);
     }
 
-    /// <summary>Brings another peer's accepted event into the world.</summary>
-    /// <returns>False if it came too late for the history that is still here, and has no effect.</returns>
+    /// <summary>Applies another peer's accepted event.</summary>
+    /// <returns>False if it came too late for the remaining history, and has no effect.</returns>
     internal bool Apply(in ExternalEvent external)
     {
         LiveWorld world = live ?? throw new InvalidOperationException("An event cannot be accepted before there is a world.");
@@ -162,7 +159,7 @@ internal sealed class SharedWorld
         SimTime now = sharedTime.Now;
         counters.AddLateness(now - external.Time);
         world.NoteLateEvent(external.Peer);
-        world.Advance(now); // what was shown up to now is simulated, so what changes it counts as changed
+        world.Advance(now); // simulate up to what was shown, so that a change to it counts as a change
         SubmitResult result = strategy.Apply(world, external, now);
         if (result == SubmitResult.RolledBack && strategy.RewritesPast && external.Time < now)
         {
@@ -173,16 +170,16 @@ internal sealed class SharedWorld
         return result != SubmitResult.TooOld;
     }
 
-    /// <summary>Takes back an event of this peer that the host refused.</summary>
+    /// <summary>Retracts an event of this peer that the host refused.</summary>
     internal void Retract(in ExternalEvent external)
     {
         counters.EventsLost += live!.Retract(external) ? 0 : 1;
         Limits.TakeBack(external);
     }
 
-    /// <summary>Brings the world, which is there, ahead of the shared time by a bounded number of events.</summary>
-    /// <returns>When it is to be brought on, in shared time.</returns>
-    /// <exception cref="SimulationException">It cannot be simulated any further.</exception>
+    /// <summary>Advances the world ahead of the shared time by a bounded number of events. The world must exist.</summary>
+    /// <returns>When to step it again, in shared time.</returns>
+    /// <exception cref="SimulationException">The world cannot be simulated any further.</exception>
     internal SimTime Step(SimTime shared)
     {
         LiveWorld world = live!;
@@ -213,7 +210,7 @@ internal sealed class SharedWorld
         BegunFrom = from;
     }
 
-    // The session itself decides what is forgotten, by the watermark; the simulation's own limit would go by its look-ahead.
+    // The session decides what history to drop, by the watermark; the simulation's own limit would go by its look-ahead.
     private SimulationOptions WorldOptions(SimTime start) => OptionsRule(new SimulationOptions(
         start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
         options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads));

@@ -6,20 +6,19 @@ using LagSim.Timelines;
 namespace LagSim.Net.Sessions.Core;
 
 /// <summary>
-/// Begins a world: the first one, or a fresh copy in the place of one that could not be gone on with. What belongs to one world starts anew
-/// with it.
+/// Begins a world: the first one, or a fresh snapshot in place of an unusable one. State that belongs to one world is reset with it.
 /// </summary>
 internal sealed class WorldStart(
     SharedWorld world, CommitTracker commits, EventJournal journal, SessionStatus status, SessionCounters counters,
     SimDuration commitInterval)
 {
-    /// <summary>Raised once, when there is a world and nothing has happened in it yet.</summary>
+    /// <summary>Raised once, when the world exists and nothing has happened in it yet.</summary>
     internal event Action? Begun;
 
-    /// <summary>Raised for each fresh copy, with why it was asked for.</summary>
+    /// <summary>Raised for each fresh snapshot, with the reason for requesting it.</summary>
     internal event Action<string>? Renewed;
 
-    /// <summary>Makes the world, once its start is known.</summary>
+    /// <summary>Creates the world, once its start is known.</summary>
     internal void Begin(SimTime start)
     {
         bool isFirst = world.Live is null;
@@ -27,8 +26,8 @@ internal sealed class WorldStart(
         Tell(isFirst, new CommitSchedule(start, start, commitInterval));
     }
 
-    /// <summary>Makes the world from what it was committed to be.</summary>
-    /// <exception cref="SceneException">It is no world of the scene.</exception>
+    /// <summary>Creates the world from a committed state.</summary>
+    /// <exception cref="SceneException">The snapshot is not a world of the scene.</exception>
     internal void Begin(WorldSnapshot snapshot)
     {
         bool isFirst = world.Live is null;

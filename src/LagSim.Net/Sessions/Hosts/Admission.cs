@@ -8,7 +8,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Answers those who ask to be let in: welcomes them, each with a link of its own and a copy to request, or tells why not.</summary>
+/// <summary>Answers requests to join: welcomes a client with a link and a snapshot to download, or refuses it with the reason.</summary>
 internal sealed class Admission(
     ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules,
     PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinCopies copies, ClientTimeouts timeouts,
@@ -22,7 +22,7 @@ internal sealed class Admission(
         Client? known = roster.All.Find(j => j.Link.Other == from && j.Claim.Nonce == nonce);
         if (!challenge.IsMet(from, nonce, join.Cookie))
         {
-            counters.DatagramsIgnored++; // whoever it is gets no answer: its address may not be its own
+            counters.DatagramsIgnored++; // no answer: the address may be forged
             return;
         }
 
@@ -35,14 +35,14 @@ internal sealed class Admission(
         }
     }
 
-    /// <summary>Tells somebody why it is not let in.</summary>
+    /// <summary>Sends a client the reason why it is not let in.</summary>
     internal void Refuse(ulong nonce, RefusalReason reason, PeerAddress to)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.RefusalBytes];
         sender.Send(bytes.Slice(0, new RefusalDatagram(nonce, reason).Encode(bytes)), to);
     }
 
-    /// <summary>One who has shown where it is, as one that is coming in; null if it may not, and was told so, or is to ask again.</summary>
+    /// <summary>Admits a client that has proved its address; null if it may not join and was refused, or if it has to ask again.</summary>
     private Client? Admit(in JoinDatagram join, PeerAddress from, SimTime now)
     {
         byte keyed = rules.NumberByKey(join);
@@ -67,12 +67,11 @@ internal sealed class Admission(
 
         if (made is null)
         {
-            return null; // the world is being simulated again; the client asks once more
+            return null; // the world is being re-simulated; the client asks again
         }
 
-        // The same address, shown by the cookie, under a new nonce: it started again. One that is in stays until the new one gets its
-        // number: if it had only
-        // fallen silent, it may be heard again first, and goes on.
+        // The same address, proved by the cookie, under a new nonce: the client restarted. One that is in stays until the new one gets its
+        // number: if it had only fallen silent, it may be heard again first, and goes on.
         roster.All.RemoveAll(j => j.Peer == 0 && j.Link.Other == from);
         room.MakeRoom(from, made);
         UpdateLink link = links.To(from, cookies.SessionId(sessionId, joins++), made.LogIndex, now);

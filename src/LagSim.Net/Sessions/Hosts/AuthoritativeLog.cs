@@ -7,25 +7,23 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>
-/// The host's log as the session keeps it: each event is recorded once with its verdict, and settled once nobody who joins needs it.
-/// </summary>
+/// <summary>The host's log: each event is recorded once with its verdict, and settled once no joining client needs it.</summary>
 internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, EventJournal journal, SessionCounters counters, IClock clock)
 {
-    /// <summary>Raised for every event that was recorded, after it was told here: the others are to hear of it.</summary>
+    /// <summary>Raised for every recorded event, after it has taken effect here, so that it is sent to the clients.</summary>
     internal event Action<ExternalEvent>? Recorded;
 
-    /// <summary>The lines.</summary>
+    /// <summary>The log entries.</summary>
     internal LogLines Lines { get; } = new();
 
-    /// <summary>The newest line that nothing later makes up for.</summary>
+    /// <summary>The newest entry that no later one supersedes.</summary>
     internal uint LastUrgent { get; private set; }
 
-    /// <summary>Up to where nobody who joins from now on needs an event: what the watermark and the world have both passed.</summary>
+    /// <summary>The time before which no later joiner needs an event: both the watermark and the world have passed it.</summary>
     internal SimTime SettledTo { get; private set; } = SimTime.MinValue;
 
     /// <param name="external">The event.</param>
-    /// <param name="verdict">What the host says.</param>
+    /// <param name="verdict">The host's verdict.</param>
     /// <param name="hasEffect">Whether it is in this host's world.</param>
     internal void Record(in ExternalEvent external, Verdict verdict, bool hasEffect)
     {
@@ -38,7 +36,7 @@ internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, E
         Recorded?.Invoke(external);
     }
 
-    /// <summary>Moves on what is settled.</summary>
+    /// <summary>Advances what is settled.</summary>
     internal void Settle()
     {
         SimTime now = watermark.Now;

@@ -10,9 +10,9 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class BodyRemoval(SharedWorld world, HostActions actions)
 {
     /// <summary>
-    /// Removes bodies that a player spawned, all if none are named, as of an instant, and those that are spawned later as they are.
+    /// Removes a player's spawned bodies, all if none are named, as of an instant, and those spawned later at their spawn.
     /// </summary>
-    /// <returns>How many.</returns>
+    /// <returns>The number of bodies removed.</returns>
     internal int RemoveSpawned(IEnumerable<BodyId>? some, byte player, SimTime from)
     {
         HashSet<BodyId>? named = some is null ? null : [.. some];

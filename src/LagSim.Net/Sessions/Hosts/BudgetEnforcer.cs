@@ -8,17 +8,17 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Sends away who has used up its budget, removes its bodies, and stops what else it moved.</summary>
+/// <summary>Expels a player that has used up its budget, removes its bodies, and stops others that it moved.</summary>
 internal sealed class BudgetEnforcer(
     WorkBudget budget, ForeignActs acts, ClientRoster roster, ShutOuts shutOuts, BodyRemoval removal,
     HostActions actions, SharedWorld world, Watermark watermark, SessionStatus status)
 {
     private const int MostStops = 1024;
 
-    /// <summary>Raised when a player is sent away, with why, and what was removed.</summary>
+    /// <summary>Raised when a player is expelled, with the cost and what was removed.</summary>
     internal event Action<PlayerExpulsion>? Expelled;
 
-    /// <summary>Counts what the world's last step cost; true if somebody had to go for it, which changed the world.</summary>
+    /// <summary>Charges the work of the world's last step; true if a player was expelled for it, which changed the world.</summary>
     internal bool Tend(SimTime now)
     {
         if (!budget.IsInForce)
@@ -58,7 +58,7 @@ internal sealed class BudgetEnforcer(
         Expelled?.Invoke(new PlayerExpulsion(number, wasThere, work, seconds, removed, stopped, from));
     }
 
-    /// <summary>Stops the bodies that a player moved, and that are not its own; how many.</summary>
+    /// <summary>Stops bodies that a player moved and that are not its own; returns how many.</summary>
     private int Stop(byte player, IReadOnlyList<BodyId> costly, SimTime from)
     {
         ILookup<BodyId, SimTime> touched = acts.Of(player, from);
@@ -66,7 +66,7 @@ internal sealed class BudgetEnforcer(
         int stops = 0;
         foreach (BodyId body in costly.Concat(touched.Select(act => act.Key)).Distinct().Where(MayBeStopped))
         {
-            // Before what the player did to it, and right after each thing that it did.
+            // Before the player's first action on it, and right after each one.
             SimTime[] times = [from, .. touched[body].Distinct().OrderBy(time => time).Select(time => time + SimDuration.OneTick)];
             for (int n = 0; n < times.Length && stops < MostStops; n++, stops++)
             {

@@ -5,10 +5,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>One that is coming in, and has no number yet, or is in.</summary>
+/// <summary>A client of the host: one that is joining and has no number yet, or one that is in.</summary>
 internal sealed class Client
 {
-    private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32]; // by the number of the update: the committed states it tells
+    // The committed states it reports, by the number of the update.
+    private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32];
 
     internal Client(JoinClaim claim, UpdateLink link, JoinCopy copy)
     {
@@ -21,57 +22,57 @@ internal sealed class Client
     /// <summary>Its number; 0 until it is in.</summary>
     internal byte Peer => Link.Peer;
 
-    /// <summary>As whom it was welcomed.</summary>
+    /// <summary>The identity it was welcomed with.</summary>
     internal JoinClaim Claim { get; }
 
     internal UpdateLink Link { get; }
 
-    /// <summary>How it follows the log, since it got its number, or was heard again after a silence.</summary>
+    /// <summary>How it follows the log, since it got its number or was heard again after a silence.</summary>
     internal CatchingUp CatchingUp { get; private set; } = new();
 
-    /// <summary>What it fetches; null once it has it.</summary>
+    /// <summary>The snapshot it downloads; null once it has it.</summary>
     internal JoinCopy? Copy { get; set; }
 
-    /// <summary>The last request for pieces of it that was answered.</summary>
+    /// <summary>The last chunk request that was answered.</summary>
     internal uint Fetches { get; set; }
 
-    /// <summary>The last sequence number of those who had its number before.</summary>
+    /// <summary>The last sequence number of the former holders of its number.</summary>
     internal uint FirstSequence { get; private set; }
 
-    /// <summary>How many of its questions about a difference are answered: two a second, and as many at once as a whole answer takes.</summary>
+    /// <summary>The rate at which its desync queries are answered: two per second, with a burst as large as a whole answer.</summary>
     internal RateLimit DesyncQueries { get; }
 
-    /// <summary>The last such question that was answered.</summary>
+    /// <summary>The last desync query that was answered.</summary>
     internal uint Doubted { get; set; }
 
-    /// <summary>How many it got.</summary>
+    /// <summary>The number of chunks sent to it.</summary>
     internal long PiecesGiven { get; set; }
 
-    /// <summary>Whether it has scene, state, clock and number, and so wants the log.</summary>
+    /// <summary>Whether it has scene, state, clock and number, and so needs the log.</summary>
     internal bool IsReady => Peer > 0;
 
     /// <summary>Whether it knows when the session starts.</summary>
     internal bool HasBegun { get; set; }
 
-    /// <summary>Whether an update of it came. Until then it gets none.</summary>
+    /// <summary>Whether an update from it has arrived. Until then it is sent none.</summary>
     internal bool HasWritten { get; set; }
 
-    /// <summary>How many entries of the log it has.</summary>
+    /// <summary>The number of log entries that it has.</summary>
     internal uint Acknowledged => Link.Outgoing.Acknowledged;
 
-    /// <summary>How many of its events are validated, those of former holders of its number included.</summary>
+    /// <summary>The number of its validated events, including those of former holders of its number.</summary>
     internal uint EventsReceived => Incoming.Received;
 
-    /// <summary>What it did.</summary>
+    /// <summary>The events received from it.</summary>
     internal ReceiveWindow Incoming { get; private set; } = new(0);
 
-    /// <summary>The newest committed state of which it is known to have the hash, or that came before its own.</summary>
+    /// <summary>The newest committed state whose hash it is known to have, or that lies before its own first one.</summary>
     internal SimTime Told { get; private set; } = SimTime.MinValue;
 
-    /// <summary>Notes up to which committed state an update tells.</summary>
+    /// <summary>Records up to which committed state an update reports hashes.</summary>
     internal void NoteTold(uint number, SimTime upTo) => tellings[number % (uint)tellings.Length] = (number, upTo);
 
-    /// <summary>Notes that an update came.</summary>
+    /// <summary>Records that an update arrived.</summary>
     internal void NoteEcho(uint number)
     {
         (uint Number, SimTime UpTo) telling = tellings[number % (uint)tellings.Length];
@@ -87,6 +88,6 @@ internal sealed class Client
         CatchingUp = new CatchingUp();
     }
 
-    /// <summary>Notes that it was silent, or not listened to, for long until now.</summary>
+    /// <summary>Records that it was silent, or not listened to, for a long time until now.</summary>
     internal void NoteSilence() => CatchingUp = new CatchingUp();
 }

@@ -6,14 +6,14 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Takes the clients' events in the order of their numbers, as many a second as each may send; has them validated, applied and recorded.
+/// Takes the clients' events in order, at most as many per second as each may send, and has them validated, applied and recorded.
 /// </summary>
 internal sealed class ClientEvents(
     PlayerPlaces places, EventValidator validator, SharedWorld world, ForeignActs acts, AuthoritativeLog log,
     SessionCounters counters)
 {
-    /// <summary>Judges what a client did, in order, as far as it is here.</summary>
-    /// <returns>False if something is left for later, because the client did too much.</returns>
+    /// <summary>Validates a client's events that have arrived, in order.</summary>
+    /// <returns>False if some are deferred because the client sent too many.</returns>
     internal bool ValidateNext(Client client, SimTime now)
     {
         while (client.Incoming.HasNext)
@@ -36,7 +36,7 @@ internal sealed class ClientEvents(
         ExternalEvent external = entry.Event;
         if (entry.IsOwn || external.Peer != sender || external.Sequence != sequence)
         {
-            // In another's name; in the log it would have that other take back what it did itself.
+            // Sent in another player's name; in the log it would make that player retract its own event.
             counters.EventsRefused++;
             counters.EventsForged++;
             return;

@@ -6,18 +6,18 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Everyone to whom a host has a link: those that are in, and those that are still coming in.</summary>
+/// <summary>All clients that a host has a link to: those that are in, and those still joining.</summary>
 internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, IClock clock)
 {
     private readonly List<Client> clients = new();
 
-    /// <summary>Raised, once, for each client that had a number and is here no longer, with what went over its link in all.</summary>
+    /// <summary>Raised, once, for each client that had a number and is gone, with the total traffic of its link.</summary>
     internal event Action<LinkTraffic>? Gone;
 
-    /// <summary>All, in the order in which they came.</summary>
+    /// <summary>All clients, in the order in which they came.</summary>
     internal List<Client> All => clients;
 
-    /// <summary>How many are in.</summary>
+    /// <summary>The number of clients that are in.</summary>
     internal int SeatedCount
     {
         get
@@ -32,7 +32,7 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         }
     }
 
-    /// <summary>The one with that link; a loop, since a delegate would be allocated for every datagram.</summary>
+    /// <summary>Returns the client with that link. A loop, since a delegate would be allocated for every datagram.</summary>
     internal Client? Of(ulong session)
     {
         foreach (Client client in clients)
@@ -46,13 +46,13 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         return null;
     }
 
-    /// <summary>The one with that number.</summary>
+    /// <summary>Returns the client with that number.</summary>
     internal Client? Seated(byte player) => clients.Find(j => j.Peer == player);
 
-    /// <summary>Forgets a client.</summary>
-    /// <param name="client">Which.</param>
-    /// <param name="why">Its number is kept for it unless it left or was sent away.</param>
-    /// <returns>False if it was not here any more.</returns>
+    /// <summary>Removes a client.</summary>
+    /// <param name="client">The client.</param>
+    /// <param name="why">The reason. Its number is reserved for it unless it left or was sent away.</param>
+    /// <returns>False if it was gone already.</returns>
     internal bool Disconnect(Client client, LeaveReason why)
     {
         if (!clients.Remove(client))
@@ -69,14 +69,14 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         return true;
     }
 
-    /// <summary>Says goodbye to a client, and forgets it.</summary>
+    /// <summary>Says goodbye to a client, and removes it.</summary>
     internal void Dismiss(Client client, LeaveReason why)
     {
         sender.SayGoodbye(client.Link, 0, why);
         Disconnect(client, why);
     }
 
-    /// <summary>Sends away all who are meant; how many.</summary>
+    /// <summary>Sends away all matching clients; returns how many.</summary>
     internal int SendAway(Predicate<Client> isIt)
     {
         List<Client> all = clients.FindAll(isIt);
@@ -93,7 +93,7 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         return all.Count;
     }
 
-    /// <summary>Tells everyone that the session is over.</summary>
+    /// <summary>Notifies all clients that the session is over.</summary>
     internal void Farewell()
     {
         for (int n = 0; n < DatagramSender.Goodbyes; n++)

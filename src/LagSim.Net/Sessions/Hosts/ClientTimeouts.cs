@@ -4,13 +4,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Lets go of clients that fell silent, did not come in, or fell so far behind that a fresh copy is sooner there.</summary>
+/// <summary>Disconnects clients that fell silent, did not finish joining, or fell so far behind that a fresh snapshot is faster.</summary>
 internal sealed class ClientTimeouts
 {
-    /// <summary>A client that has not taken in so many lines of the log is told to go.</summary>
+    /// <summary>The number of unacknowledged log entries above which a client is disconnected.</summary>
     private const int MaxUnacknowledged = 1 << 16;
 
-    /// <summary>Who was welcomed is given up after this long, or the timeout if that is shorter, if it then says nothing.</summary>
+    /// <summary>How long a welcomed client may stay silent before it is given up, or the timeout if that is shorter.</summary>
     private static readonly SimDuration SilentPlace = SimDuration.FromSeconds(5);
 
     private readonly ClientRoster roster;
@@ -20,10 +20,12 @@ internal sealed class ClientTimeouts
     private readonly SuspendDetector suspend;
 
     /// <param name="roster">The clients.</param>
-    /// <param name="log">What they are to take in.</param>
-    /// <param name="timeout">After how much silence a client is given up.</param>
-    /// <param name="slowestCopy">So many bytes of its copy a second gets who comes in on the slowest link.</param>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="log">The log that they follow.</param>
+    /// <param name="timeout">How long a client may be silent before it is given up.</param>
+    /// <param name="slowestCopy">
+    /// The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second.
+    /// </param>
+    /// <param name="now">The time by the local clock.</param>
     internal ClientTimeouts(ClientRoster roster, LogLines log, SimDuration timeout, double slowestCopy, SimTime now)
     {
         this.roster = roster;
@@ -33,19 +35,19 @@ internal sealed class ClientTimeouts
         suspend = new SuspendDetector(timeout / 2, now);
     }
 
-    /// <summary>Whether a client has been silent for so long that it does not count as one that falls behind.</summary>
+    /// <summary>Whether a client has been silent for so long that it no longer counts as falling behind.</summary>
     internal bool IsSilent(Client client, SimTime now) => now - client.Link.Heard > timeout / 2;
 
-    /// <summary>How long one that is coming in may take, by what it has to request.</summary>
+    /// <summary>How long a client may take to join, given its snapshot.</summary>
     internal SimDuration TimeoutWithCopy(JoinCopy copy) =>
         timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / slowestCopy);
 
-    /// <summary>When a client that never wrote is given up.</summary>
+    /// <summary>When a client that never sent an update is given up.</summary>
     internal SimTime GivenUpAt(Client client) => client.Link.Heard + TimeoutWith(client) + SimDuration.OneTick;
 
     internal void Tend(SimTime now)
     {
-        bool hasSlept = suspend.Look(now) > SimDuration.Zero; // it was this machine that slept: who was not listened to was not silent
+        bool hasSlept = suspend.Look(now) > SimDuration.Zero; // this machine slept: the clients were not silent, the host did not listen
         for (int i = roster.All.Count - 1; i >= 0; i--)
         {
             Client client = roster.All[i];
@@ -65,10 +67,10 @@ internal sealed class ClientTimeouts
 
     private SimDuration TimeoutWith(Client client) => client.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
 
-    /// <summary>Whether a client is so far behind, and comes no nearer, that a fresh copy is sooner there.</summary>
+    /// <summary>Whether a client is so far behind, without getting closer, that a fresh snapshot is faster.</summary>
     /// <remarks>
-    /// By time only while it is heard: one that stands still is silent, and not behind a link that is too slow. One that came in with a
-    /// large copy starts far behind, and catches up.
+    /// Time counts only while the client is heard: one that stalls is silent rather than behind a slow link. A client with a large snapshot
+    /// starts far behind, and catches up.
     /// </remarks>
     private bool HasFallenBehind(Client client, SimTime now)
     {

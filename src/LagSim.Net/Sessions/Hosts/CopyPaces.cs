@@ -5,14 +5,14 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>How fast each machine gets pieces of copies: one pace for all clients of an address, and for those who come again.</summary>
+/// <summary>Limits how fast each machine is sent snapshot chunks, with one pace for all its clients, reconnecting ones included.</summary>
 /// <remarks>
-/// Were it one for each client, who comes in a hundred times over would get a hundred times as much. What is remembered is small: a machine
-/// that has not asked for a moment has all of its pace again, so it is forgotten.
+/// With a pace for each client, a machine that joins a hundred times would get a hundred times as much. Little is remembered: a machine
+/// that has not asked for a moment has its full pace again, and is forgotten.
 /// </remarks>
 internal sealed class CopyPaces
 {
-    /// <summary>With more machines than this, those that have all of their pace are looked for.</summary>
+    /// <summary>The number of machines above which those with a full pace are looked for.</summary>
     private const int Many = 64;
 
     private readonly Dictionary<PeerAddress, RateLimit> paces = new();
@@ -21,10 +21,10 @@ internal sealed class CopyPaces
 
     internal CopyPaces(DoorLimits limits) => this.limits = limits;
 
-    /// <summary>How many machines are remembered.</summary>
+    /// <summary>The number of machines remembered.</summary>
     internal int Count => paces.Count;
 
-    /// <summary>Whether an address may have another piece now; then it is counted.</summary>
+    /// <summary>Whether an address may have another chunk now; if so, it is counted.</summary>
     internal bool TrySpend(PeerAddress to, SimTime now)
     {
         PeerAddress machine = to.Machine;

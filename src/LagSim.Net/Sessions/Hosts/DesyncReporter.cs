@@ -7,12 +7,12 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Tells a client whose committed state is another the host's events of the time in which that came about.</summary>
+/// <summary>Sends a client whose committed state differs the host's events of the time in which the difference arose.</summary>
 internal sealed class DesyncReporter(
     ClientRoster roster, EventJournal journal, SharedWorld world, Watermark watermark, DatagramSender sender,
     SessionCounters counters, IClock clock)
 {
-    /// <summary>Raised for each client, once, that says its committed state at that time is not this host's.</summary>
+    /// <summary>Raised, once for each client, when it reports that its committed state at that time differs from this host's.</summary>
     internal event Action<byte, SimTime>? Diverged;
 
     internal void OnDesyncQuery(in DesyncQueryDatagram query, PeerAddress from)
@@ -22,7 +22,7 @@ internal sealed class DesyncReporter(
         bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer && query.Number > client.Doubted;
         if (!isItsTurn || world.Live is null || query.UpTo >= watermark.Now || !client!.DesyncQueries.TrySpend(now))
         {
-            counters.DatagramsIgnored++; // what is not committed may still change
+            counters.DatagramsIgnored++; // uncommitted history may still change
             return;
         }
 

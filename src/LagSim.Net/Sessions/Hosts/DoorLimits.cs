@@ -1,30 +1,36 @@
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// What those who are coming in can have of a host at most. Nobody sets another one but a test that takes a limit away to see it missed.
+/// Limits on what joining clients may take from a host. Only tests set other ones, to check that a missing limit is noticed.
 /// </summary>
 internal sealed class DoorLimits
 {
-    /// <summary>So many may be coming in at a time. They hold no place: who is not in yet makes room for the next.</summary>
+    /// <summary>
+    /// The most clients that may be joining at a time. They hold no place: one that is not in yet makes room for the next.
+    /// </summary>
     internal int Coming { get; set; } = 256;
 
-    /// <summary>So many of them from one machine.</summary>
+    /// <summary>The most of those from one machine.</summary>
     internal int ComingOfOne { get; set; } = 16;
 
     /// <summary>
-    /// The most memory, in bytes, that the copies being fetched may take, unless <see cref="CopiesAtLeast"/> of them are larger. A host makes at most one copy a second.
+    /// The most memory, in bytes, for the snapshots being downloaded, unless <see cref="CopiesAtLeast"/> of them are larger. A host makes
+    /// at most one snapshot per second.
     /// </summary>
     internal long CopyBytes { get; set; } = 64 << 20;
 
-    /// <summary>This many copies always fit, however large they are, so a client has at least three time-outs to fetch its copy before it can be dropped for others.</summary>
+    /// <summary>
+    /// The number of snapshots that always fit, however large, so that a client has at least three timeouts to download its own before it
+    /// can be dropped for others.
+    /// </summary>
     internal int CopiesAtLeast { get; set; } = 4;
 
-    /// <summary>Who comes in on the slowest link that is counted on gets so many bytes of its copy a second.</summary>
+    /// <summary>The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second.</summary>
     internal double SlowestCopy { get; set; } = 1_000;
 
-    /// <summary>One machine gets pieces of copies at this rate, 2.3 MB/s, whoever there asks for them.</summary>
+    /// <summary>The rate at which one machine is sent chunks, for all its clients together: 2.3 MB/s.</summary>
     internal double PiecesPerSecond { get; set; } = 2000;
 
-    /// <summary>And after a pause so many at once, four windows of them.</summary>
+    /// <summary>The burst of chunks after a pause: four windows.</summary>
     internal int PiecesAtOnce { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;
 }

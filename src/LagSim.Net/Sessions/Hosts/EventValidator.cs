@@ -6,7 +6,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The host's verdict on an event of a client; it changes nothing.</summary>
+/// <summary>Decides the host's verdict on a client's event; changes nothing.</summary>
 internal sealed class EventValidator(SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, SimDuration history)
 {
     internal Verdict Validate(in ExternalEvent external)

@@ -6,7 +6,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>All that a host has to do with those who are not in yet, or come from another address: challenge, join, copy, number.</summary>
+/// <summary>
+/// The host's dealings with clients that are not in yet, or write from another address: challenge, join, snapshot, number.
+/// </summary>
 internal sealed class FrontDoor
 {
     private readonly ClientRoster roster;
@@ -17,14 +19,14 @@ internal sealed class FrontDoor
     private readonly SessionCounters counters;
     private readonly IClock clock;
 
-    /// <param name="parts">What every session has.</param>
+    /// <param name="parts">The parts of every session.</param>
     /// <param name="options">How the host takes part.</param>
-    /// <param name="sessionId">The number that session ids of links are made of.</param>
+    /// <param name="sessionId">The number from which the session ids of links are derived.</param>
     /// <param name="roster">The clients.</param>
     /// <param name="places">The numbers.</param>
-    /// <param name="log">The log, which goes on where a copy ends.</param>
-    /// <param name="budget">Where who gets a number begins an account.</param>
-    /// <param name="timeouts">How long one may take to come in.</param>
+    /// <param name="log">The log, which continues where a snapshot ends.</param>
+    /// <param name="budget">Where a client with a new number gets an account.</param>
+    /// <param name="timeouts">How long a client may take to join.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal FrontDoor(
         SessionParts parts, HostOptions options, ulong sessionId, ClientRoster roster, PlayerPlaces places, AuthoritativeLog log,
@@ -44,23 +46,23 @@ internal sealed class FrontDoor
             parts.Sender, counters, clock);
     }
 
-    /// <summary>The machines from which nobody is let in.</summary>
+    /// <summary>The machines from which no client is let in.</summary>
     internal ShutOuts ShutOuts { get; } = new();
 
-    /// <summary>What those who come in request.</summary>
+    /// <summary>The snapshots for joining clients.</summary>
     internal JoinCopies Copies { get; }
 
-    /// <summary>What gives them their numbers.</summary>
+    /// <summary>Gives joining clients their numbers.</summary>
     internal Seating Seating { get; }
 
-    /// <summary>Has somebody show that it is where it says, before it is answered.</summary>
+    /// <summary>Makes a sender prove its address before it is answered.</summary>
     internal void Challenge(ulong nonce, PeerAddress from) => challenge.Send(nonce, from);
 
     internal void OnJoin(in JoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
 
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from) => snapshots.OnSnapshotRequest(request, from);
 
-    /// <summary>Somebody shows that it is at another address now.</summary>
+    /// <summary>Handles a client that proves a new address.</summary>
     internal void OnMove(in MoveDatagram move, PeerAddress from)
     {
         if (roster.Of(move.SessionId) is Client client && (client.Peer == move.Peer || move.Peer == 0)
@@ -78,10 +80,10 @@ internal sealed class FrontDoor
         }
     }
 
-    /// <summary>Somebody speaks another version of the protocol.</summary>
+    /// <summary>Handles a client that speaks another version of the protocol.</summary>
     internal void OnOtherVersion(ulong nonce, PeerAddress from) => admission.Refuse(nonce, RefusalReason.VersionDiffers, from);
 
-    /// <summary>Gives one that has its copy and its clock a number; false if there is none, and it was told so.</summary>
+    /// <summary>Gives a number to a client that has its snapshot and its clock; if there is none, refuses it and returns false.</summary>
     internal bool TrySeat(Client client, SimTime now)
     {
         if (Seating.TrySeat(client, now) is RefusalReason reason)

@@ -5,10 +5,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>What the host does itself: in its world and in the log at once, since nobody else has to accept it.</summary>
+/// <summary>Performs the host's own actions, in its world and in the log at once, since no other peer has to accept them.</summary>
 internal sealed class HostActions(LocalActions actions, AuthoritativeLog log)
 {
-    /// <summary>Does something at a shared time; see <see cref="Session.Do"/>.</summary>
+    /// <summary>Performs an action at a shared time; see <see cref="Session.Do"/>.</summary>
     internal ExternalEvent Do(in PlayerAction action, SimTime time)
     {
         actions.ThrowIfNotRunning();

@@ -12,7 +12,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// The host's side of the session protocol: hands each datagram to the part that it is for, and has each part do in turn what is due.
+/// The host side of the session protocol: routes each datagram to the part that handles it, and lets each part do what is due.
 /// </summary>
 internal sealed class HostProtocol : ISessionProtocol
 {
@@ -80,7 +80,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
     public bool TendWorld(SimTime now) => Enforcer.Tend(now);
 
-    /// <summary>Has the next step write to every client.</summary>
+    /// <summary>Sends an update to every client on the next step.</summary>
     internal void Flush() => broadcast.Flush();
 
     public void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from)
@@ -122,7 +122,7 @@ internal sealed class HostProtocol : ISessionProtocol
                 break;
             case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.SnapshotChunk
                 or DatagramType.DesyncReport or DatagramType.Seat:
-                counters.DatagramsIgnored++; // a host's own words
+                counters.DatagramsIgnored++; // only a host sends these
                 break;
         }
     }
@@ -133,7 +133,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Client? client = Roster.Of(update.SessionId);
         if (client is not null && client.Link.Other != from && !hasEnded)
         {
-            Parts.Counters.DatagramsIgnored++; // what it says comes again, once it has shown that it is there
+            Parts.Counters.DatagramsIgnored++; // the client sends it again, once it has proved its address
             Door.Challenge(update.SessionId, from);
             return;
         }
@@ -143,8 +143,8 @@ internal sealed class HostProtocol : ISessionProtocol
             Parts.Counters.DatagramsIgnored++;
             if (hasEnded || client is null)
             {
-                // It has not heard the goodbye, or never was one of ours. Told with its own session's number, and in fewer bytes than it
-                // sent.
+                // The sender missed the goodbye, or never was one of our clients. The reply carries its own session's number, in fewer
+                // bytes than it sent.
                 Parts.Sender.SayGoodbye(from, update.SessionId, hasEnded ? LeaveReason.HostEnded : places.WhyGone(update.SessionId));
             }
 
@@ -175,7 +175,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
         foreach (Client client in Roster.All)
         {
-            events.ValidateNext(client, now); // what was left for later
+            events.ValidateNext(client, now); // deferred earlier
         }
 
         Parts.Commits.Commit(Watermark.Now);
@@ -206,7 +206,7 @@ internal sealed class HostProtocol : ISessionProtocol
         }
     }
 
-    /// <summary>Takes in an update of a client: what it has, what it did, and whether it is ready for a number.</summary>
+    /// <summary>Handles an update from a client: what it has, what it did, and whether it is ready for a number.</summary>
     private void Take(UpdateDatagram update, Client client, SimTime now)
     {
         if (timeouts.IsSilent(client, now))
@@ -233,7 +233,7 @@ internal sealed class HostProtocol : ISessionProtocol
         {
             if (client.Peer > 0)
             {
-                Door.Seating.Tell(client); // it has not heard which it has
+                Door.Seating.Tell(client); // it does not know its number yet
             }
 
             client.Link.Answer(now);
@@ -259,11 +259,11 @@ internal sealed class HostProtocol : ISessionProtocol
             canWait &= !entry.IsOwn && SendWindow.IsMadeUpFor(entry.Event);
         }
 
-        Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any client of ours goes
+        Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any genuine client goes
         Parts.Counters.EventsDeferred += events.ValidateNext(client, now) ? 0 : 1;
 
-        // An answer at once: it carries the acknowledgement, and the client's clock has its exchange without waiting. Keyframes come many a
-        // second, and have time.
+        // Answered at once: the reply carries the acknowledgement, and completes a clock exchange without a wait. Keyframes come many a
+        // second, and can wait.
         if (canWait)
         {
             client.Link.Flush(now + UpdateLink.MostAckDelay);

@@ -3,12 +3,12 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>As whom somebody was welcomed: by which join, which number its key gives, and which player it showed that it was.</summary>
+/// <summary>The identity of a welcomed client: its join, the number that its key gives, and the player that it proved to be.</summary>
 internal sealed class JoinClaim
 {
-    /// <param name="join">How it asked.</param>
+    /// <param name="join">The join.</param>
     /// <param name="keyed">The number that its key gives; 0 for none.</param>
-    /// <param name="claimed">The place of the player that it shows it was; null for none.</param>
+    /// <param name="claimed">The place of the player that it proved to be; null for none.</param>
     /// <param name="until">When it is given up if it has no number by then.</param>
     internal JoinClaim(in JoinDatagram join, byte keyed, PlayerPlaces.Place? claimed, SimTime until)
     {
@@ -28,7 +28,7 @@ internal sealed class JoinClaim
     /// <summary>The number that its key gives it; 0 for none.</summary>
     internal byte Keyed { get; }
 
-    /// <summary>The place of the player that it was before, if nobody else got it since; null for none.</summary>
+    /// <summary>The place of the player that it was before, unless another has taken it since; null for none.</summary>
     internal PlayerPlaces.Place? Former => Claimed is not null && Claimed.Pass == ClaimedPass ? Claimed : null;
 
     /// <summary>When it is given up if it has no number by then.</summary>

@@ -9,11 +9,11 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Makes what those who join request, and shares it among them, so that many who come cost one copy a second and a bounded amount of memory.
+/// Creates and shares the snapshots for joining clients, so that many of them cost one snapshot per second and a bounded amount of memory.
 /// </summary>
 internal sealed class JoinCopies
 {
-    /// <summary>A copy this fresh serves the next client too.</summary>
+    /// <summary>The age up to which a snapshot serves the next client too.</summary>
     private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
 
     private readonly ClientRoster roster;
@@ -24,11 +24,11 @@ internal sealed class JoinCopies
     private readonly byte[] sceneCopy;
     private JoinCopy? newest;
 
-    /// <param name="roster">The clients, who fetch copies.</param>
-    /// <param name="log">The log, which goes on where a copy ends.</param>
-    /// <param name="world">What is copied.</param>
-    /// <param name="door">How much memory copies may take.</param>
-    /// <param name="timeout">No copy that is older is given to somebody new.</param>
+    /// <param name="roster">The clients, which download snapshots.</param>
+    /// <param name="log">The log, which continues where a snapshot ends.</param>
+    /// <param name="world">The world to copy.</param>
+    /// <param name="door">The memory limits for snapshots.</param>
+    /// <param name="timeout">The age above which a snapshot is not given to a new client.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal JoinCopies(ClientRoster roster, AuthoritativeLog log, SharedWorld world, DoorLimits door, SimDuration timeout)
     {
@@ -40,19 +40,19 @@ internal sealed class JoinCopies
         sceneCopy = WorldCopy.Encode(world.Scene!, null);
     }
 
-    /// <summary>The lines of the log from the one after this on are needed by who gets the newest copy.</summary>
+    /// <summary>The last log entry that a client with the newest snapshot does not need.</summary>
     internal uint NeededAfter => newest?.LogIndex ?? uint.MaxValue;
 
-    /// <summary>How many bytes the copies take that these clients are fetching; a shared one counts once.</summary>
+    /// <summary>The size in bytes of the snapshots that these clients download; a shared one counts once.</summary>
     internal static long BytesOf(IEnumerable<Client> some) =>
         some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);
 
-    /// <summary>How much memory copies of that size may take, in bytes; see <see cref="DoorLimits.CopyBytes"/>.</summary>
+    /// <summary>The memory that snapshots of that size may take, in bytes; see <see cref="DoorLimits.CopyBytes"/>.</summary>
     internal long RoomForCopiesLike(JoinCopy copy) => Math.Max(door.CopyBytes, (long)copy.Bytes.Length * door.CopiesAtLeast);
 
     /// <summary>
-    /// What someone who joins now has to fetch: the scene, and once what is committed lies past the start the state then. Null while the
-    /// world is behind what it had committed to.
+    /// Returns the snapshot for a client that joins now: the scene, and the committed state once that lies past the start. Null while the
+    /// world is behind what was already committed.
     /// </summary>
     /// <exception cref="SceneException">The world is too large to be copied.</exception>
     internal JoinCopy? For(SimTime now)
@@ -60,7 +60,7 @@ internal sealed class JoinCopies
         Forget(now);
         if (newest is null || !Serves(newest, now))
         {
-            // One instant for both: the log goes on from where the state ends, however the clock runs on meanwhile.
+            // One instant for both, so that the log continues where the state ends, however the clock advances meanwhile.
             log.Settle();
             SimTime settledTo = log.SettledTo;
             Simulation? simulation = world.Live?.Simulation;
@@ -77,7 +77,7 @@ internal sealed class JoinCopies
         return newest;
     }
 
-    /// <summary>Lets go of copies that nobody needs any more.</summary>
+    /// <summary>Drops snapshots that are no longer needed.</summary>
     internal void Forget(SimTime now)
     {
         foreach (Client client in roster.All)
@@ -90,11 +90,12 @@ internal sealed class JoinCopies
     }
 
     /// <summary>
-    /// Whether a new client can be given this copy. A copy is shared for a second; and while there is no memory for another one, until it
-    /// is as old as the time-out.
-    /// So clients are not dropped each time that another one comes, and no client gets a world older than that because others keep fetching
-    /// it.
+    /// Whether a new client can be given this snapshot. It is shared for a second, or up to the timeout while there is no memory for
+    /// another.
     /// </summary>
+    /// <remarks>
+    /// So clients are not dropped each time that another joins, and none gets an older world because others keep downloading it.
+    /// </remarks>
     private bool Serves(JoinCopy copy, SimTime now) =>
         now - copy.Made <= CopyAge || copy.Bytes.Length + BytesOf(roster.All) > RoomForCopiesLike(copy);
 }

@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>What somebody who comes in fetches: scene and world as they were committed, and how much of the log is in them.</summary>
+/// <summary>A snapshot for joining clients: the committed scene and world, and how much of the log they include.</summary>
 internal sealed class JoinCopy
 {
     internal JoinCopy(byte[] bytes, uint logIndex, SimTime made)
@@ -18,7 +18,7 @@ internal sealed class JoinCopy
 
     internal ulong Hash { get; }
 
-    /// <summary>How many entries of the log are in it, or can be left out for another reason.</summary>
+    /// <summary>The number of log entries that it includes, or that can be left out for another reason.</summary>
     internal uint LogIndex { get; }
 
     internal SimTime Made { get; }

@@ -6,10 +6,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Who may come in at all: by machine, key, version, scene and place.</summary>
+/// <summary>Decides whether a client may join: by machine, key, version, scene and place.</summary>
 internal sealed class JoinRules(HostOptions options, ulong sceneHash, ShutOuts shutOuts, Seating seating)
 {
-    /// <summary>The number that a player's key gives; 0 if it is none.</summary>
+    /// <summary>The number that a player's key gives; 0 for another key.</summary>
     internal byte NumberByKey(in JoinDatagram join)
     {
         foreach (KeyValuePair<byte, string> player in options.PlayerKeys)
@@ -23,12 +23,12 @@ internal sealed class JoinRules(HostOptions options, ulong sceneHash, ShutOuts s
         return 0;
     }
 
-    /// <summary>Why somebody may not come in; null if it may.</summary>
-    /// <param name="join">How it asks.</param>
+    /// <summary>Returns why a client may not join; null if it may.</summary>
+    /// <param name="join">The join.</param>
     /// <param name="keyed">The number that its key gives; 0 for none.</param>
-    /// <param name="claimed">The place of the player that it shows it was; null for none.</param>
-    /// <param name="from">Where it is.</param>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="claimed">The place of the player that it proved to be; null for none.</param>
+    /// <param name="from">Its address.</param>
+    /// <param name="now">The time by the local clock.</param>
     internal RefusalReason? WhyNot(in JoinDatagram join, byte keyed, PlayerPlaces.Place? claimed, PeerAddress from, SimTime now) =>
         shutOuts.IsShutOut(from.Machine, now) ? RefusalReason.Banned
             : keyed == 0 && !JoinCookies.IsProof(options.ConnectKey, join) ? RefusalReason.WrongKey

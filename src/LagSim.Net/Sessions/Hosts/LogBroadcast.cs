@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Brings the host's log to the clients, with start, watermark and hashes: what is new as soon as each link allows.</summary>
+/// <summary>Sends the host's log to the clients, with start, watermark and hashes; new entries go as soon as each link allows.</summary>
 internal sealed class LogBroadcast
 {
     private readonly ClientRoster roster;
@@ -35,7 +35,7 @@ internal sealed class LogBroadcast
         view = new LogView(log.Lines);
     }
 
-    /// <summary>Has the next step write to every client.</summary>
+    /// <summary>Sends an update to every client on the next step.</summary>
     internal void Flush()
     {
         SimTime now = clock.Now;
@@ -45,7 +45,7 @@ internal sealed class LogBroadcast
         }
     }
 
-    /// <summary>Notes that the log has a new last line, about that event.</summary>
+    /// <summary>Called when an entry was added to the log, with its event.</summary>
     internal void NoteRecorded(ExternalEvent external)
     {
         LogLines lines = log.Lines;
@@ -59,7 +59,7 @@ internal sealed class LogBroadcast
 
             if (lines.Count != log.LastUrgent && client.Peer == external.Peer)
             {
-                client.Link.Flush(now + UpdateLink.MostAckDelay); // who did it knows it already
+                client.Link.Flush(now + UpdateLink.MostAckDelay); // its author has the event already
             }
             else
             {
@@ -92,8 +92,8 @@ internal sealed class LogBroadcast
         view.Reader = client;
         link.Fill(view, now);
 
-        // The watermark is a promise about what comes after this update's last entry: the one at which the next entry was added, or as
-        // there is none, now's.
+        // The watermark is a promise about what comes after this update's last entry: the watermark when the next entry was added, or the
+        // current one if there is none.
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = world.Live is null ? SimTime.MinValue : last < lines.Count ? lines.WatermarkAfter(last) : watermark.Now;
         bool isUrgent = client.Acknowledged < Math.Min(log.LastUrgent, view.Last);

@@ -3,7 +3,9 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The log as one client gets it: of what it did itself only the number travels back; a former one of its number is another.</summary>
+/// <summary>
+/// The log as sent to one client: its own events go back by number only; events of a former holder of its number are sent in full.
+/// </summary>
 internal sealed class LogView : IEntrySource
 {
     private readonly LogLines log;

@@ -9,8 +9,8 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The numbers of a session's players: what is known of each, and for whom one is kept that nobody has at the moment.</summary>
-/// <remarks>A number is kept for a player that fell silent, as long as the host's option says and no newcomer needs it.</remarks>
+/// <summary>The players' numbers in a session: what is known about each, and which are reserved for a player that is away.</summary>
+/// <remarks>A number is reserved for a player that fell silent, as long as the host's option says and no newcomer needs it.</remarks>
 internal sealed class PlayerPlaces
 {
     private readonly Place[] places = new Place[SessionOptions.MaxClients + 1];
@@ -30,26 +30,27 @@ internal sealed class PlayerPlaces
     internal Place this[byte number] => places[number];
 
     /// <summary>
-    /// The place of the player that a join says, and shows, that its client was; null if it does not. A pass travels in clear, so it opens no number that has a key.
+    /// Returns the place that a join claims, if it proves that its client was that player; otherwise null. A pass travels in clear text, so
+    /// it never opens a number that has a key.
     /// </summary>
     /// <param name="join">The join.</param>
-    /// <param name="keyed">The player whose key it shows; 0 for none.</param>
+    /// <param name="keyed">The player whose key it presents; 0 for none.</param>
     internal Place? Claimed(in JoinDatagram join, byte keyed) =>
         join.Player is > 0 and <= SessionOptions.MaxClients && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
             && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
 
     /// <summary>
-    /// The least number that nobody has and that is kept for nobody; if there is none, the one that has been kept the longest; 0 if all are taken. Never one of a
-    /// player with a key.
+    /// Returns the lowest number that is neither taken nor reserved, otherwise the one reserved longest; 0 if all are taken. Never a number
+    /// that has a key.
     /// </summary>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="now">The time by the local clock.</param>
     /// <param name="wanted">
-    /// The number that whoever is to get it says it had; 0 for none. A host that was ended and started again knows no pass that it gave before, so for as long
-    /// as a number is kept it gives that one, if it is free: who comes back is who it was, though it shows nothing. Where that must be sure players have keys.
+    /// The number that the client says it had; 0 for none. A restarted host knows none of the passes it gave before, so for as long as
+    /// numbers are reserved it grants that number without proof, if it is free. Where that is not safe enough, players have keys.
     /// </param>
     /// <param name="machine">
-    /// Where the new player comes from. A machine whose players have, or have kept for them, as many numbers as one machine may have, gets one of those that
-    /// are kept for it: coming again and again takes nobody else's.
+    /// The new player's machine. Once a machine's players hold or reserve as many numbers as one machine may have, it gets one of those
+    /// reserved for it, so that joining again and again takes no numbers from others.
     /// </param>
     internal byte Free(SimTime now, byte wanted, PeerAddress machine)
     {
@@ -70,7 +71,9 @@ internal sealed class PlayerPlaces
         return chosen?.Number ?? 0;
     }
 
-    /// <summary>Why the one that had that link was disconnected, if that was not long ago; else that there is none.</summary>
+    /// <summary>
+    /// Why the client with that link was disconnected, if that was recent; otherwise <see cref="LeaveReason.NotJoined"/>.
+    /// </summary>
     internal LeaveReason WhyGone(ulong session)
     {
         for (byte number = 1; number < places.Length; number++)
@@ -95,28 +98,30 @@ internal sealed class PlayerPlaces
 
         internal byte Number { get; }
 
-        /// <summary>How many events of this number are validated a second: to come again starts none anew.</summary>
+        /// <summary>
+        /// The rate at which events of this number are validated. It belongs to the number, so that joining again does not reset it.
+        /// </summary>
         internal RateLimit Events { get; }
 
-        /// <summary>Of the last event that bears this number.</summary>
+        /// <summary>The sequence number of the last event of this number.</summary>
         internal uint LastSequence { get; set; }
 
-        /// <summary>Whether somebody has it now.</summary>
+        /// <summary>Whether a client has it now.</summary>
         internal bool IsTaken { get; private set; }
 
-        /// <summary>When its player fell silent; null if nobody had it, or whoever had it left.</summary>
+        /// <summary>When its player fell silent; null if no player had it, or the player left.</summary>
         internal SimTime? LeftAt { get; private set; }
 
         /// <summary>The secret of its player; null if it has none.</summary>
         internal Token128? Pass { get; private set; }
 
-        /// <summary>Where its player is, or was; null if nobody had it.</summary>
+        /// <summary>Where its player is, or was; null if no player had it.</summary>
         internal PeerAddress? Machine { get; private set; }
 
-        /// <summary>Whether it is kept for a player that fell silent.</summary>
+        /// <summary>Whether it is reserved for a player that fell silent.</summary>
         internal bool IsKept(SimTime now, SimDuration time) => !IsTaken && Pass is not null && LeftAt is SimTime left && now - left <= time;
 
-        /// <summary>Gives it to the player who has its pass, or to a new one, who gets another.</summary>
+        /// <summary>Gives the number to the player that has its pass, or to a new player, which gets a new pass.</summary>
         internal void Take(bool isSamePlayer, PeerAddress machine)
         {
             IsTaken = true;
@@ -125,15 +130,15 @@ internal sealed class PlayerPlaces
             if (!isSamePlayer || Pass is null)
             {
                 byte[] secret = new byte[Token128.Bytes];
-                RandomNumberGenerator.Fill(secret); // no run depends on it: a pass is right or wrong whatever its bits
+                RandomNumberGenerator.Fill(secret); // does not affect determinism: a pass is right or wrong whatever its bits
                 Pass = new Token128(secret);
             }
         }
 
-        /// <summary>The session id of the link of whoever had it last, and why that one was disconnected.</summary>
+        /// <summary>The session id of the last holder's link, and why that holder was disconnected.</summary>
         internal (ulong Session, LeaveReason Why) Former { get; private set; }
 
-        /// <summary>Its player is gone: kept for it, or free.</summary>
+        /// <summary>Called when its player is gone: the number is reserved or free from then on.</summary>
         internal void Leave(bool isKept, ulong session, LeaveReason why, SimTime now)
         {
             Former = (session, why);

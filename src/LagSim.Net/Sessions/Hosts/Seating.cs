@@ -7,22 +7,22 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Gives those who have a copy and a clock their numbers: the one that a key or a pass shows, or one that is free.</summary>
+/// <summary>Gives clients that have a snapshot and a clock their numbers: by key, by pass, or a free one.</summary>
 /// <param name="roster">The clients.</param>
 /// <param name="places">The numbers.</param>
-/// <param name="budget">Where a number that gets another holder begins another account.</param>
-/// <param name="sender">What they are told through.</param>
-/// <param name="mostOfOneMachine">How many may be in from one machine.</param>
+/// <param name="budget">Where a number with a new holder gets another account.</param>
+/// <param name="sender">Sends them their numbers.</param>
+/// <param name="mostOfOneMachine">The most clients that may be in from one machine.</param>
 internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int mostOfOneMachine)
 {
     /// <summary>Raised for each client that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
 
-    /// <summary>Why somebody can get no number now; null if it can.</summary>
+    /// <summary>Returns why a client can get no number now; null if it can.</summary>
     /// <param name="keyed">The number that its key gives; 0 for none.</param>
-    /// <param name="claimed">The place of the player that it shows it was; null for none.</param>
-    /// <param name="from">Where it is.</param>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="claimed">The place of the player that it proved to be; null for none.</param>
+    /// <param name="from">Its address.</param>
+    /// <param name="now">The time by the local clock.</param>
     internal RefusalReason? WhyNone(byte keyed, PlayerPlaces.Place? claimed, PeerAddress from, SimTime now)
     {
         if (keyed > 0)
@@ -30,7 +30,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
             return null; // it has one
         }
 
-        // Who shows that it is a player whom nobody else is has a number, but counts: else a machine could collect passes, and then come
+        // A client that proves to be an absent player has a number, but counts: otherwise a machine could collect passes, and then join
         // with all of them.
         byte own = claimed?.Number ?? 0;
         int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && j.Link.Other != from && j.Link.Other.IsSameMachine(from));
@@ -40,8 +40,8 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
             : null;
     }
 
-    /// <summary>Gives one that has its copy and its clock a number, and tells it.</summary>
-    /// <returns>Why there is none, and it is forgotten; null if it has one.</returns>
+    /// <summary>Gives a number to a client that has its snapshot and its clock, and sends it.</summary>
+    /// <returns>Why there is none, in which case the client is dropped; null if it has one.</returns>
     internal RefusalReason? TrySeat(Client client, SimTime now)
     {
         PeerAddress address = client.Link.Other;
@@ -50,7 +50,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         PlayerPlaces.Place? place = claim.Keyed > 0 ? places[claim.Keyed] : claimed;
         if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == address) is Client gone)
         {
-            roster.Disconnect(gone, LeaveReason.TimedOut); // started again, or gone, and another got its port: it may still come back
+            roster.Disconnect(gone, LeaveReason.TimedOut); // restarted, or gone and its port reused: it may still come back
         }
 
         if (WhyNone(claim.Keyed, claimed, address, now) is RefusalReason reason)
@@ -62,7 +62,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         place ??= places[places.Free(now, claim.Wanted, address.Machine)];
         if (roster.Seated(place.Number) is Client before)
         {
-            roster.Dismiss(before, LeaveReason.Replaced); // its player came in from elsewhere
+            roster.Dismiss(before, LeaveReason.Replaced); // its player joined from elsewhere
         }
 
         client.Sit(place);
@@ -77,7 +77,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         return null;
     }
 
-    /// <summary>Tells a client the number that it has.</summary>
+    /// <summary>Sends a client its number.</summary>
     internal void Tell(Client client)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.SeatBytes];

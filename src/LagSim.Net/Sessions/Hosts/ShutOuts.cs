@@ -4,10 +4,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The machines from which a host lets nobody in: for as long as the session lasts, or for a while.</summary>
+/// <summary>The machines from which a host lets no client in, for the whole session or for a while.</summary>
 internal sealed class ShutOuts
 {
-    /// <summary>The first while; twice as long each further time, up to <see cref="Longest"/>.</summary>
+    /// <summary>The first duration; it doubles each further time, up to <see cref="Longest"/>.</summary>
     private static readonly SimDuration First = SimDuration.FromSeconds(60);
 
     private static readonly SimDuration Longest = SimDuration.FromSeconds(3600);
@@ -27,7 +27,7 @@ internal sealed class ShutOuts
 
     internal bool IsShutOut(PeerAddress machine, SimTime now) => banned.Contains(machine) || IsOutForAWhile(machine, now);
 
-    /// <summary>Shuts a machine out no longer; false if it was not.</summary>
+    /// <summary>Lets a machine in again; false if it was not shut out.</summary>
     internal bool LetInAgain(PeerAddress machine, SimTime now)
     {
         bool wasOut = IsShutOut(machine, now);

@@ -6,12 +6,12 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Sends those who come in the pieces of their copies that they ask for, at a pace for each machine.</summary>
+/// <summary>Sends joining clients the snapshot chunks that they request, at a pace for each machine.</summary>
 internal sealed class SnapshotServer(
     ClientRoster roster, CopyPaces paces, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
     IClock clock)
 {
-    /// <summary>How often every piece of a copy can be asked for in the mean, before no more of it is given.</summary>
+    /// <summary>How often every chunk of a snapshot may be requested on average before no more are sent.</summary>
     private const int MostRepeats = 8;
 
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from)
@@ -22,7 +22,7 @@ internal sealed class SnapshotServer(
             counters.DatagramsIgnored++;
             if (client is not null && client.Link.Other != from)
             {
-                // Pieces are many times as long as what asks for them: it must show first that it is there.
+                // Chunks are many times as long as a request, so the sender must prove its address first.
                 challenge.Send(request.SessionId, from);
             }
 
@@ -36,7 +36,7 @@ internal sealed class SnapshotServer(
         SendPieces(client, client.Copy.Bytes, request, now);
     }
 
-    /// <summary>Sends what is asked for, as far as the pace lets; what is still missing is asked for again.</summary>
+    /// <summary>Sends the requested chunks, as far as the pace allows; the client requests missing ones again.</summary>
     private void SendPieces(Client client, ReadOnlySpan<byte> copy, in SnapshotRequestDatagram request, SimTime now)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.MaxBytes];

@@ -5,16 +5,16 @@ using LagSim.Net.Carriers;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Keeps those who are coming in to a number and to a size of their copies: who comes makes the oldest of the machine with the most go.
+/// Limits the number of joining clients and the size of their snapshots. A newcomer displaces the oldest joining client of the machine with
+/// the most.
 /// </summary>
 internal sealed class WaitingRoom(ClientRoster roster, JoinCopies copies, DoorLimits door)
 {
     /// <summary>
-    /// Lets go of the oldest of those that are coming in, of the machine with the most: while there are too many, or their copies take too
-    /// much memory.
+    /// Drops the oldest joining clients of the machine with the most, while there are too many or their snapshots take too much memory.
     /// </summary>
-    /// <param name="from">Who comes.</param>
-    /// <param name="made">What it is to request. Others who fetch the same copy take no more memory for it.</param>
+    /// <param name="from">The address of the newcomer.</param>
+    /// <param name="made">The snapshot that the newcomer will request. Others that download the same one take no extra memory.</param>
     internal void MakeRoom(PeerAddress from, JoinCopy made)
     {
         List<Client> coming = roster.All.FindAll(j => j.Peer == 0); // the oldest first

@@ -8,9 +8,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// The time before which a host accepts no event any more: the history before the clock, or before where the world stands if that is
 /// behind. It never goes back.
 /// </summary>
-/// <remarks>
-/// What a host that stands still has not simulated can still be changed, by the removal of what makes it stand, above all.
-/// </remarks>
+/// <remarks>While a host is stuck, what it has not simulated can still be changed, above all by removing what it is stuck on.</remarks>
 internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, SimDuration history)
 {
     private SimTime newest = SimTime.MinValue;

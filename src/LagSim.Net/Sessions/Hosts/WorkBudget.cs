@@ -10,44 +10,46 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>What each player's acts have cost of its budget: who has little left, and who has used it up.</summary>
+/// <summary>
+/// Accounts for the work of each player's actions: which players have little of their budget left, and which have used it up.
+/// </summary>
 /// <param name="world">The world, which counts the work.</param>
 /// <param name="sharedTime">The session's time.</param>
-/// <param name="budget">What one player may cost; null for no limit.</param>
+/// <param name="budget">The budget of one player; null for no limit.</param>
 internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, PlayerBudget? budget)
 {
-    /// <summary>The account of bodies whose players are gone, and their numbers others'.</summary>
+    /// <summary>The account of bodies whose players are gone, and whose numbers were reassigned.</summary>
     internal const byte Departed = WorkLedger.Nobody - 1;
 
     /// <summary>
-    /// Who has less than this part of its budget left may do no more for the moment; and while the world is late, who has is sent away.
+    /// The share of the budget below which a player may do no more for the moment; while the world is late, a player below it is expelled.
     /// </summary>
     private const double LittleLeft = 0.5;
 
-    /// <summary>A player that has this part of its budget is at rest: what cost before is no part of what costs now.</summary>
+    /// <summary>The share of the budget at which a player is at rest: earlier work no longer counts towards the current episode.</summary>
     private const double NearlyAll = 0.9;
 
     /// <summary>
-    /// What a body that is not its own must have cost, as a part of the budget, for it to be stopped with the player that moved it.
+    /// The share of the budget that a body of another must have cost to be stopped when the player that moved it is expelled.
     /// </summary>
     private const double WorthStopping = 0.001;
 
-    /// <summary>What is much to have been done for a player's bodies the first time, as a part of the budget.</summary>
+    /// <summary>The share of the budget above which first-time work for a player's bodies is large.</summary>
     private const double Much = 0.1;
 
-    /// <summary>Who has at least this part of what another has is charged alike.</summary>
+    /// <summary>The share of the largest charge from which another counts as equal.</summary>
     private const double Alike = 0.5;
 
-    /// <summary>A world so far behind real time is late.</summary>
+    /// <summary>How far behind real time a world is late.</summary>
     private static readonly SimDuration Late = SimDuration.FromMilliseconds(150);
 
     private readonly Purse[] purses = new Purse[WorkLedger.Nobody];
-    private SimTime counted = SimTime.MaxValue; // own clock
+    private SimTime counted = SimTime.MaxValue; // local clock
 
     /// <summary>Whether there is a budget, and a world that counts work.</summary>
     internal bool IsInForce => budget is not null && Ledger is not null;
 
-    /// <summary>What was charged so far, by ascending number, of those for whom anything was.</summary>
+    /// <summary>The work charged so far, by ascending number, for the numbers that were charged anything.</summary>
     internal IReadOnlyList<PlayerCost> Costs
     {
         get
@@ -69,12 +71,12 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
 
     private double Whole => budget!.WorkAtOnce;
 
-    /// <summary>Whether a player has so little of its budget left that what it does is refused, but for what makes less work.</summary>
+    /// <summary>Whether a player has so little of its budget left that its events are refused, except those that reduce work.</summary>
     internal bool IsShort(in ExternalEvent external) =>
         budget is not null && counted != SimTime.MaxValue && purses[external.Peer].Left < Whole * LittleLeft
         && external.Kind is not (EventKind.Remove or EventKind.Release);
 
-    /// <summary>A number is given to somebody who did not have it before: what its former holder left there is not his.</summary>
+    /// <summary>Opens an account for a number that got a new holder; bodies of the former holder are not charged to it.</summary>
     internal void BeginAccount(byte player)
     {
         if (IsInForce)
@@ -85,7 +87,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         }
     }
 
-    /// <summary>Charges what was done since the last time, while the budget is in force, and credits what time gives.</summary>
+    /// <summary>Charges the work since the last call, while the budget is in force, and credits the elapsed time.</summary>
     internal void Count(SimTime now)
     {
         WorkLedger ledger = Ledger!;
@@ -109,8 +111,8 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     }
 
     /// <summary>
-    /// Who has used up its budget, the one most over it; <see cref="Departed"/> for those who are gone, and 0 for nobody. While the world
-    /// is late, half of it is all there is.
+    /// Returns the player most over its budget; <see cref="Departed"/> for departed players, 0 for none. While the world is late, the
+    /// budget is halved.
     /// </summary>
     internal byte Overdrawn()
     {
@@ -124,13 +126,13 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         return worst == 0 && purses[Departed].Left <= least ? Departed : worst;
     }
 
-    /// <summary>
-    /// Who is to go if one has used up its budget: of those that have little left the one for whose bodies most was done the first time, if
-    /// that is much; else that one. Whose events have what
-    /// another does simulated again and again pays for it too, but it is not its doing. And of those who are charged alike, for their
-    /// bodies meet, the one whose bodies move the fastest: it
-    /// is not who holds a ball that makes it bounce a million times a second.
-    /// </summary>
+    /// <summary>Returns the player to expel when one has used up its budget.</summary>
+    /// <remarks>
+    /// Of the players with little left it is the one whose bodies caused the most first-time work, if that is large; otherwise the one over
+    /// its budget. A player whose events make others' work be re-simulated pays for it too, but is not its cause. Among players charged
+    /// about equally, because their bodies collide, it is the one whose bodies move fastest: the player that holds a ball is not the one
+    /// that makes it bounce a million times a second.
+    /// </remarks>
     internal byte Culprit(byte worst)
     {
         byte[] tight = worst == Departed ? []
@@ -154,19 +156,17 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         }
     }
 
-    /// <summary>What was charged to a player since it last was at rest, and for how many seconds.</summary>
+    /// <summary>The work charged to a player since it last was at rest, and over how many seconds.</summary>
     internal (double Work, double Seconds) SpentBy(byte player) =>
         (purses[player].Charged - purses[player].CalmAt, Math.Max(0.001, (sharedTime.Now - purses[player].Calm).ToSeconds()));
 
     /// <summary>Since when a player has been charged without a rest, in simulated time.</summary>
     internal SimTime ChargedSince(byte player) => Ledger!.ChargedSince(player);
 
-    /// <summary>The bodies for which much was charged to a player.</summary>
+    /// <summary>The bodies for which a player was charged much.</summary>
     internal IReadOnlyList<BodyId> CostlyBodiesOf(byte player) => Ledger!.CostlyBodiesOf(player, Whole * WorthStopping);
 
-    /// <summary>
-    /// Gives everybody all of it anew: what others were charged meanwhile was for what one who was sent away did to them, or may have been.
-    /// </summary>
+    /// <summary>Refills every account: what others were charged meanwhile was, or may have been, caused by the expelled player.</summary>
     internal void StartAnew(SimTime now)
     {
         for (int n = 0; n < purses.Length; n++)
@@ -191,10 +191,10 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     private struct Purse
     {
         internal double Left;
-        internal double Charged; // when it was counted last
-        internal double Most; // spent at a time
-        internal double CalmAt; // charged when it last was nearly whole
-        internal double CalmFirst; // of that what was done the first time
-        internal SimTime Calm; // shared time then
+        internal double Charged; // at the last count
+        internal double Most; // the most ever spent at once
+        internal double CalmAt; // charged when it last was nearly full
+        internal double CalmFirst; // the first-time part of that
+        internal SimTime Calm; // shared time of that
     }
 }

@@ -2,9 +2,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>
-/// How long a link may rest: until the keep-alive, or less where the other end has not been heard when it should have been.
-/// </summary>
+/// <summary>Decides how long a link may rest: until the keep-alive, or less if the other end has been silent for too long.</summary>
 internal sealed class KeepAlivePolicy
 {
     private readonly SimDuration resendInterval;
@@ -15,27 +13,27 @@ internal sealed class KeepAlivePolicy
         this.resendInterval = resendInterval;
     }
 
-    /// <summary>How long nothing is sent at most.</summary>
+    /// <summary>The longest pause between datagrams.</summary>
     internal SimDuration KeepAlive { get; }
 
     /// <summary>
-    /// How long a silence is overdue. A host waits as long before it writes of itself: a client's keep-alives, which it answers, do for
-    /// both.
+    /// The silence after which the other end is overdue. A host waits as long before it sends on its own: a client's keep-alives, which it
+    /// answers, serve both directions.
     /// </summary>
     internal SimDuration Overdue => KeepAlive + (KeepAlive / 4);
 
-    /// <summary>
-    /// Whether one end of a link has not heard of the other when it should have. They then write as if something were unacknowledged: else
-    /// a
-    /// burst of losses, which is counted in datagrams, would last as long as the timeout.
-    /// </summary>
+    /// <summary>Whether the other end of a link is overdue.</summary>
+    /// <remarks>
+    /// Each end then sends as if something were unacknowledged. Otherwise a burst of losses, which is counted in datagrams, would last as
+    /// long as the timeout.
+    /// </remarks>
     internal bool IsOverdue(SimDuration silence) => silence > Overdue;
 
-    /// <summary>How long after an update the next one goes out if nothing new comes up.</summary>
-    /// <param name="link">To whom.</param>
-    /// <param name="isWaitedFor">Whether the other must hear of something that is no entry.</param>
-    /// <param name="now">By the own clock.</param>
-    /// <param name="atRest">How long where nothing is the matter.</param>
+    /// <summary>How long after an update the next one is sent if nothing new comes up.</summary>
+    /// <param name="link">The link.</param>
+    /// <param name="isWaitedFor">Whether the other end waits for something that is not an entry.</param>
+    /// <param name="now">The time by the local clock.</param>
+    /// <param name="atRest">The pause when nothing is wrong.</param>
     internal SimDuration RestAfterUpdate(UpdateLink link, bool isWaitedFor, SimTime now, SimDuration atRest)
     {
         if (!isWaitedFor && !IsOverdue(link.Silence(now)))

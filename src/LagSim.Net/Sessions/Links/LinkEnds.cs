@@ -2,7 +2,7 @@ using LagSim.Net.Carriers;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Whom a link joins: its number, the two peers' numbers, and where the other one is.</summary>
+/// <summary>The two ends of a link: its session id, the two peers' numbers, and the other's address.</summary>
 internal sealed class LinkEnds
 {
     internal LinkEnds(ulong sessionId, byte self, byte peer, PeerAddress other)
@@ -13,7 +13,7 @@ internal sealed class LinkEnds
         Other = other;
     }
 
-    /// <summary>What every datagram of the link bears.</summary>
+    /// <summary>The session id that every datagram of the link carries.</summary>
     internal ulong SessionId { get; }
 
     /// <summary>This peer's number; 0 also for a client that has none yet.</summary>
@@ -22,6 +22,6 @@ internal sealed class LinkEnds
     /// <summary>The other's number; 0 also for a client that has none yet.</summary>
     internal byte Peer { get; set; }
 
-    /// <summary>Where the other is.</summary>
+    /// <summary>The other's address.</summary>
     internal PeerAddress Other { get; set; }
 }

@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Makes the links of a session, which share what updates are composed in.</summary>
+/// <summary>Makes the links of a session, which share the buffers for composing updates.</summary>
 internal sealed class LinkFactory
 {
     private readonly UpdateDatagram outgoing = new();
@@ -13,14 +13,14 @@ internal sealed class LinkFactory
 
     internal LinkFactory(SimDuration resendInterval) => this.resendInterval = resendInterval;
 
-    /// <summary>What makes the parts of the links that are made from now on.</summary>
+    /// <summary>The factory of the parts of links made from now on.</summary>
     internal LinkParts Parts { get; set; } = new();
 
-    /// <summary>A link to a peer that has no number yet.</summary>
-    /// <param name="other">Where it is.</param>
-    /// <param name="sessionId">What every datagram of the link bears.</param>
-    /// <param name="acknowledged">The other has this peer's entries up to this one.</param>
-    /// <param name="now">By the own clock.</param>
+    /// <summary>Creates a link to a peer that has no number yet.</summary>
+    /// <param name="other">Its address.</param>
+    /// <param name="sessionId">The session id that every datagram of the link carries.</param>
+    /// <param name="acknowledged">The last of this peer's entries that the other has without a gap.</param>
+    /// <param name="now">The time by the local clock.</param>
     internal UpdateLink To(PeerAddress other, ulong sessionId, uint acknowledged, SimTime now) =>
         new(sessionId, 0, 0, other, acknowledged, resendInterval, outgoing, buffer, now, Parts);
 }

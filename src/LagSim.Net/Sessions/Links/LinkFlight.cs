@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>What a link has on its way: what is acknowledged, what is known to be lost, and how much more may go.</summary>
+/// <summary>The datagrams in flight on a link: which are acknowledged, which are lost, and how much more may be sent.</summary>
 internal sealed class LinkFlight
 {
     private readonly RoundTrips trips;
@@ -12,10 +12,10 @@ internal sealed class LinkFlight
 
     /// <param name="window">The entries.</param>
     /// <param name="sent">The datagrams.</param>
-    /// <param name="congestion">How many of them may be on their way.</param>
+    /// <param name="congestion">The limit on the bytes in flight.</param>
     /// <param name="trips">The link's round trips.</param>
-    /// <param name="spare">What a loss leaves less of for repetition.</param>
-    /// <param name="answers">What is told of every answer.</param>
+    /// <param name="spare">The allowance for repetition, which a loss cuts.</param>
+    /// <param name="answers">Notified of every answer.</param>
     internal LinkFlight(
         SendWindow window, SentDatagrams sent, CongestionControl congestion, RoundTrips trips, SpareRate spare, AnswerTimer answers)
     {
@@ -27,20 +27,20 @@ internal sealed class LinkFlight
         this.answers = answers;
     }
 
-    /// <summary>What of this peer's entries goes out next.</summary>
+    /// <summary>Chooses which of this peer's entries are sent next.</summary>
     internal SendWindow Window { get; }
 
     internal SentDatagrams Sent { get; }
 
     internal CongestionControl Congestion { get; }
 
-    /// <summary>How long what was sent after it takes to come at most, if it comes.</summary>
+    /// <summary>The longest time for the answer to a datagram sent later, if it arrives.</summary>
     internal SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
 
-    /// <summary>Notes that an update was sent.</summary>
+    /// <summary>Records that an update was sent.</summary>
     /// <param name="update">The update.</param>
     /// <param name="length">Its length, in bytes.</param>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="now">The time by the local clock.</param>
     internal void NoteSent(UpdateDatagram update, int length, SimTime now)
     {
         answers.NoteSending(now);
@@ -57,7 +57,7 @@ internal sealed class LinkFlight
         }
     }
 
-    /// <summary>Notes that the other has this peer's entries up to a number.</summary>
+    /// <summary>Records that the other has this peer's entries up to a number.</summary>
     internal void Acknowledge(uint number, SimTime now)
     {
         Window.Acknowledge(number);
@@ -67,7 +67,7 @@ internal sealed class LinkFlight
         }
     }
 
-    /// <summary>Takes what an update says of those that came: the newest, and which of the 32 before it.</summary>
+    /// <summary>Takes the acknowledgements of an update: the newest received, and which of the 32 before it.</summary>
     internal void TakeAcknowledgements(UpdateDatagram update, SimTime now)
     {
         AcknowledgeUpdate(update.EchoNumber, now);
@@ -82,7 +82,7 @@ internal sealed class LinkFlight
         TakeLost(now);
     }
 
-    /// <summary>Notes what is known to be lost, since what was sent after it came.</summary>
+    /// <summary>Takes datagrams as lost if later ones have arrived.</summary>
     internal void TakeLost(SimTime now)
     {
         while (Sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
@@ -91,8 +91,8 @@ internal sealed class LinkFlight
         }
     }
 
-    /// <summary>Notes that the answer to what was sent is overdue: it counts as lost from now on.</summary>
-    /// <returns>Whether what goes in its place is a probe, which the window does not hold back.</returns>
+    /// <summary>Takes what was sent as lost, because its answer is overdue.</summary>
+    /// <returns>Whether the replacement is a probe, which the window does not hold back.</returns>
     internal bool TakeOverdue(SimTime now)
     {
         if (answers.NoteOverdue() && trips.HasQueue)
@@ -100,9 +100,8 @@ internal sealed class LinkFlight
             Congestion.OnSilence(now);
         }
 
-        // With a queue on the way the answer is more likely late than lost. So twice only the oldest goes again, as a probe that the window
-        // does not hold back
-        // (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and what goes is what the least window lets (7.6).
+        // With a queue the answer is more likely late than lost. So twice only the oldest is sent again, as a probe that the window does
+        // not hold back (RFC 9002, 6.2.4 and 7.5); then all that is overdue is lost, and the least window limits what is sent (7.6).
         SimTime before = now - answers.Timeout;
         bool isProbe = trips.HasQueue && answers.MayBeLate;
         while (Sent.TryPeekOldest(out SimTime at) && at <= before && Sent.TryTakeOldest(out SentDatagrams.Datagram oldest))
@@ -135,7 +134,7 @@ internal sealed class LinkFlight
     {
         if (Congestion.OnLost(datagram.Bytes, datagram.At, now, hasQueue) && trips.HasQueue)
         {
-            spare.Cut(); // where none shows, repetition is what hides losses
+            spare.Cut(); // without a queue, repetition is what hides losses
         }
 
         Sent.NoteLost(datagram);

@@ -2,18 +2,18 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Makes the parts of a link that say what goes out, and when. A test hands in others to see each missed.</summary>
+/// <summary>Creates the parts of a link that decide what is sent, and when. Tests replace them to check that each is needed.</summary>
 internal class LinkParts
 {
-    /// <summary>What chooses the entries of an update.</summary>
+    /// <summary>Creates the part that chooses the entries of an update.</summary>
     internal virtual SendWindow Window(uint acknowledged) => new(acknowledged);
 
-    /// <summary>What says how much may be on its way.</summary>
+    /// <summary>Creates the limit on the bytes in flight.</summary>
     internal virtual CongestionControl Congestion() => new();
 
-    /// <summary>What says how much may be repeated.</summary>
+    /// <summary>Creates the allowance for repetition.</summary>
     internal virtual SpareRate Spare() => new();
 
-    /// <summary>What takes round trips of what is heard.</summary>
+    /// <summary>Creates the part that tracks what arrives.</summary>
     internal virtual LinkHearing Hearing(SimTime now) => new(now);
 }

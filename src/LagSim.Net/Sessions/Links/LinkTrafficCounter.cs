@@ -23,7 +23,7 @@ internal sealed class LinkTrafficCounter
         bytesSent += bytes;
     }
 
-    /// <summary>What was counted so far.</summary>
+    /// <summary>Returns the traffic counted so far.</summary>
     internal LinkTraffic Of(byte peer, PeerAddress other, RoundTrips trips) => new(
         peer, other, datagramsSent, bytesSent, datagramsReceived, bytesReceived, trips.Newest,
         trips.HasQueue ? trips.Queueing : SimDuration.Zero);

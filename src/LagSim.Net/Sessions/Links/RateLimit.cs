@@ -3,7 +3,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>How often something may be done: so many times a second, and after a pause so many at once.</summary>
+/// <summary>A rate limit: so many per second, with a burst after a pause.</summary>
 internal sealed class RateLimit
 {
     private readonly double perSecond;
@@ -19,7 +19,7 @@ internal sealed class RateLimit
         counted = now;
     }
 
-    /// <summary>Whether nothing of it is spent: it is as a new one.</summary>
+    /// <summary>Whether it is full, like a new one.</summary>
     internal bool IsWhole(SimTime now)
     {
         Count(now);

@@ -4,30 +4,30 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Puts the entries that another peer sends into the order of their numbers: each is taken once, and none before the one before it.</summary>
-/// <remarks>What comes before its turn is kept, up to <see cref="SendWindow.MaxEntries"/>; what is further ahead is left to be sent again.</remarks>
+/// <summary>Puts another peer's entries in order by number: each is taken once, and only after the one before it.</summary>
+/// <remarks>Early entries are buffered, up to <see cref="SendWindow.MaxEntries"/>; those further ahead have to be sent again.</remarks>
 internal sealed class ReceiveWindow
 {
     private const int LeastSlots = 256; // a power of two, and more than a datagram's entries
 
     private Slot[] slots = Array.Empty<Slot>();
 
-    /// <param name="received">The entries up to this one are here.</param>
+    /// <param name="received">The last entry that is already here.</param>
     internal ReceiveWindow(uint received) => Received = received;
 
-    /// <summary>The entries up to this one were taken.</summary>
+    /// <summary>The number of the last entry taken.</summary>
     internal uint Received { get; private set; }
 
-    /// <summary>The greatest promise about what comes after entries that were all taken; the earliest instant before there is one.</summary>
+    /// <summary>The greatest promise that follows entries which were all taken; the earliest instant before there is one.</summary>
     internal SimTime Promised { get; private set; } = SimTime.MinValue;
 
     /// <summary>Whether the next entry is here.</summary>
     internal bool HasNext => Received < uint.MaxValue && IsHeld(Received + 1);
 
-    /// <summary>How many entries there is room for.</summary>
+    /// <summary>The number of entries it has room for.</summary>
     internal int Room => slots.Length;
 
-    /// <summary>Keeps an entry until it is taken; of two of one number the first.</summary>
+    /// <summary>Buffers an entry until it is taken; a second one with the same number is ignored.</summary>
     /// <returns>False for one that is too far ahead.</returns>
     internal bool Put(uint number, in UpdateEntry entry)
     {
@@ -52,7 +52,9 @@ internal sealed class ReceiveWindow
         return true;
     }
 
-    /// <summary>Notes a promise: no entry after this number is before that time. It counts once the entries up to the number were taken.</summary>
+    /// <summary>
+    /// Records a promise: no entry after this number is before that time. It counts once the entries up to the number were taken.
+    /// </summary>
     internal void Promise(uint upTo, SimTime time)
     {
         if (upTo <= Received)
@@ -68,7 +70,7 @@ internal sealed class ReceiveWindow
     }
 
     /// <summary>Takes the next entry.</summary>
-    /// <exception cref="InvalidOperationException">It is not here: not <see cref="HasNext"/>.</exception>
+    /// <exception cref="InvalidOperationException">It is not here: see <see cref="HasNext"/>.</exception>
     internal UpdateEntry Take()
     {
         if (!HasNext)

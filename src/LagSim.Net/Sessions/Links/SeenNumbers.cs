@@ -2,20 +2,22 @@ using System;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Which of the newest numbered datagrams have come, so that each counts once, however often it comes and whatever overtook it.</summary>
+/// <summary>
+/// Tracks which of the newest numbered datagrams have arrived, so that each counts once, despite duplicates and reordering.
+/// </summary>
 internal sealed class SeenNumbers
 {
-    /// <summary>What is so much older than the newest counts as seen.</summary>
+    /// <summary>The distance behind the newest at which a number counts as seen.</summary>
     internal const int Span = 1024;
 
     private const int WordBits = 64;
 
     private readonly ulong[] seen = new ulong[Span / WordBits];
 
-    /// <summary>The highest number that has come; 0 before there is one.</summary>
+    /// <summary>The highest number that has arrived; 0 before there is one.</summary>
     internal uint Newest { get; private set; }
 
-    /// <summary>Notes a number, 1 or more; false if it has come before, or is so old that nobody knows.</summary>
+    /// <summary>Records a number, 1 or more; false if it has arrived before, or is too old to know.</summary>
     internal bool Add(uint number)
     {
         if (number > Newest)
@@ -46,7 +48,7 @@ internal sealed class SeenNumbers
         return true;
     }
 
-    /// <summary>Which of the 32 numbers before one that is not above <see cref="Newest"/> have come: bit n for number - 1 - n.</summary>
+    /// <summary>Which of the 32 numbers before one that is not above <see cref="Newest"/> have arrived: bit n for number - 1 - n.</summary>
     internal uint BitsBefore(uint number)
     {
         uint bits = 0;

@@ -5,40 +5,41 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Chooses which entries the next update of a link carries: what was lost first, then what is new, then repetitions as far as they are allowed.</summary>
+/// <summary>Chooses the entries of a link's next update: lost ones first, then new ones, then repetitions as far as allowed.</summary>
 /// <remarks>
-/// <para>Each entry has to go once, and again for each time that it was lost with everything that carried it (<see cref="Lose"/>). That is needed, whatever the
-/// link is like. Repetition of what is on its way hides losses before they are known, and is for links with room.</para>
-/// <para>At most <see cref="MaxEntries"/> are under way. Keyframes are made up for by later ones, so they are repeated once, with the next.</para>
+/// <para>Each entry has to be sent once, and again each time that every datagram that carried it was lost (<see cref="Lose"/>). That is
+/// needed on any link. Repeating entries in flight hides losses before they are known, and is for links with spare room.</para>
+/// <para>At most <see cref="MaxEntries"/> are in flight. Keyframes are superseded by later ones, so they are repeated once, with the
+/// next.</para>
 /// </remarks>
 internal class SendWindow
 {
-    /// <summary>So many entries beyond the acknowledged ones are sent at most; a receiver keeps as many that came before their turn.</summary>
+    /// <summary>The most entries sent beyond the acknowledged ones; a receiver buffers as many early ones.</summary>
     internal const int MaxEntries = 4096;
 
-    /// <summary>So many datagrams go out at a time at most; the next a millisecond later.</summary>
+    /// <summary>The most datagrams sent at a time; the next follows a millisecond later.</summary>
     internal const int MaxDatagramsAtOnce = 4;
 
-    /// <summary>What the entries of one update take at most, in bytes.</summary>
+    /// <summary>The most bytes that the entries of one update take.</summary>
     private const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MostHashBytes - WireFormat.StartBytes;
 
-    private readonly List<(uint First, uint Last)> lost = new(); // ascending, apart, above what is acknowledged
+    private readonly List<(uint First, uint Last)> lost = new(); // ascending, disjoint, above what is acknowledged
     private uint sent;
-    private uint lostUpTo; // the greatest number that was ever sent in vain
+    private uint lostUpTo; // the greatest number that was ever lost
 
-    /// <param name="acknowledged">The other has the entries up to this one.</param>
+    /// <param name="acknowledged">The last entry that the other has without a gap.</param>
     internal SendWindow(uint acknowledged) => Acknowledged = sent = acknowledged;
 
-    /// <summary>The other has the entries up to this one.</summary>
+    /// <summary>The last entry that the other has without a gap.</summary>
     internal uint Acknowledged { get; private set; }
 
-    /// <summary>The greatest number that was sent, or acknowledged.</summary>
+    /// <summary>The greatest number that was sent or acknowledged.</summary>
     internal uint Sent => sent;
 
-    /// <summary>The number up to which entries are in the update, once one more was put in: that one's.</summary>
+    /// <summary>The number up to which entries are in the update after another was added: that one's.</summary>
     internal virtual uint After(uint added, uint first, uint last) => added;
 
-    /// <summary>Begins anew with entries after that number, before any was sent.</summary>
+    /// <summary>Starts over with entries after that number, before any was sent.</summary>
     internal void StartAfter(uint acknowledged)
     {
         Acknowledged = sent = acknowledged;
@@ -47,11 +48,11 @@ internal class SendWindow
     }
 
     /// <summary>
-    /// Whether the next of its kind carries what this one would have, if it is lost: it waits for its acknowledgement, and need not be sent again and again.
+    /// Whether the next event of its kind carries the same information, so that this one need not be sent again if it is lost.
     /// </summary>
     internal static bool IsMadeUpFor(in ExternalEvent external) => external.Kind == EventKind.HoldKeyframe;
 
-    /// <summary>Notes that the other has the entries up to a number; a lower one than before says nothing.</summary>
+    /// <summary>Records that the other has the entries up to a number; a number below an earlier one is ignored.</summary>
     internal void Acknowledge(uint number)
     {
         if (number <= Acknowledged)
@@ -73,7 +74,7 @@ internal class SendWindow
         }
     }
 
-    /// <summary>Notes that entries were sent in vain: they have to go again, unless they are on their way again already.</summary>
+    /// <summary>Records that entries were lost: they have to be sent again, unless they are in flight again already.</summary>
     internal void Lose(uint first, uint last, bool isOnItsWay = false)
     {
         first = Math.Max(first, Acknowledged + 1);
@@ -106,18 +107,18 @@ internal class SendWindow
     }
 
     /// <summary>
-    /// Whether something was sent in vain that is not acknowledged yet. Then all of it is worth a repetition, keyframes too: links lose several datagrams in a row,
-    /// however far apart, so whoever sends again only when the answer is overdue may wait for seconds.
+    /// Whether a lost entry is not acknowledged yet. Then everything is worth repeating, keyframes too: links lose several datagrams in a
+    /// row, however far apart, so resending only when the answer is overdue may take seconds.
     /// </summary>
     internal bool HasLost => lostUpTo > Acknowledged;
 
-    /// <summary>Whether anything has to go again.</summary>
+    /// <summary>Whether any entry has to be sent again.</summary>
     internal bool HasToGoAgain => lost.Count > 0;
 
-    /// <summary>Whether anything has to go.</summary>
+    /// <summary>Whether any entry has to be sent.</summary>
     internal bool HasNeeded(IEntrySource source) => lost.Count > 0 || sent < LastOf(source);
 
-    /// <summary>How many bytes the entries take that a repetition would carry; 0 if there are none.</summary>
+    /// <summary>The size in bytes of the entries that a repetition would carry; 0 if there are none.</summary>
     /// <param name="source">The entries.</param>
     internal int RepetitionBytes(IEntrySource source)
     {
@@ -130,27 +131,27 @@ internal class SendWindow
         return Math.Min(bytes, Room);
     }
 
-    /// <summary>Puts entries into an update that has none, and sets the number of the first.</summary>
+    /// <summary>Adds entries to an empty update, and sets the number of the first.</summary>
     /// <param name="update">The update.</param>
     /// <param name="source">The entries.</param>
-    /// <param name="repetition">How many bytes may be repetition; of an update that is nothing else, its own bytes among them.</param>
-    /// <param name="own">How many bytes an update has beside its entries, UDP and IP included.</param>
-    /// <param name="room">How many bytes its entries may take; one always goes.</param>
-    /// <returns>How many were.</returns>
+    /// <param name="repetition">How many bytes may be repetition; for an update that is only repetition, its own bytes included.</param>
+    /// <param name="own">The bytes of an update besides its entries, UDP and IP headers included.</param>
+    /// <param name="room">How many bytes its entries may take; one is always sent.</param>
+    /// <returns>How many bytes were repetition, counted likewise.</returns>
     internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own, int room)
     {
         uint last = LastOf(source);
         (uint first, uint end) = lost.Count > 0 ? lost[0] : (sent + 1, last);
-        end = end == sent ? last : end; // what is new follows at once
+        end = end == sent ? last : end; // new entries follow at once
         bool isNeeded = first <= end && (lost.Count > 0 || sent < last);
         int allowed = isNeeded ? repetition : repetition - own;
         room = isNeeded ? Math.Clamp(room, UpdateDatagram.LengthOf(source[first]), Room) : Math.Min(room, Room);
 
-        // All that is not acknowledged, if that is one datagram and not too much repetition.
+        // Everything unacknowledged, if that fits one datagram and is not too much repetition.
         bool isMadeUpFor = !HasLost && AreKeyframes(source, last);
         if (!isNeeded && isMadeUpFor)
         {
-            update.FirstIndex = sent + 1; // so much the other has been sent: what the update promises comes after that
+            update.FirstIndex = sent + 1; // the other was sent this much: the update's promise comes after it
             return 0;
         }
 
@@ -167,7 +168,7 @@ internal class SendWindow
 
         if (!isNeeded)
         {
-            // The oldest, which keep the others waiting.
+            // The oldest, which the others wait for.
             uint held = Carry(update, source, Acknowledged + 1, sent, Math.Min(room, allowed));
             if (held > Acknowledged)
             {
@@ -209,13 +210,14 @@ internal class SendWindow
 
     private uint LastOf(IEntrySource source) => source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;
 
-    /// <summary>
-    /// Whether all entries that are not acknowledged, up to the last, are keyframes. Then it is the newest sent before that is repeated, with the next; where there is
-    /// anything else, it is all, since what comes after one that is lost can be taken only with it.
-    /// </summary>
+    /// <summary>Whether all unacknowledged entries, up to the last, are keyframes.</summary>
+    /// <remarks>
+    /// Then only the newest one sent before is repeated, with the next. Otherwise all are repeated, since entries after a lost one can be
+    /// taken only together with it.
+    /// </remarks>
     private bool AreKeyframes(IEntrySource source, uint last)
     {
-        for (uint number = Acknowledged; number < last; number++) // the last may be the greatest number there is
+        for (uint number = Acknowledged; number < last; number++) // the last may be the greatest possible number
         {
             UpdateEntry entry = source[number + 1];
             if (entry.IsOwn || !IsMadeUpFor(entry.Event))
@@ -227,7 +229,7 @@ internal class SendWindow
         return true;
     }
 
-    /// <summary>How many bytes entries take, or more than fits into a datagram.</summary>
+    /// <summary>The size of entries in bytes, or more than fits into a datagram.</summary>
     private static int Length(IEntrySource source, uint first, uint last)
     {
         int bytes = 0;
@@ -250,7 +252,7 @@ internal class SendWindow
         return bytes;
     }
 
-    /// <summary>Has an update carry entries, as many as fit; the number of the last, or of the one before the first.</summary>
+    /// <summary>Adds entries to an update, as many as fit; returns the number of the last, or of the one before the first.</summary>
     private uint Carry(UpdateDatagram update, IEntrySource source, uint first, uint last, int most = Room)
     {
         update.FirstIndex = first;

@@ -3,28 +3,28 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>The newest updates that were sent over a link: when, and with which entries; which of them came, and which are lost.</summary>
+/// <summary>The newest updates sent over a link: when, with which entries, which of them arrived, and which are lost.</summary>
 /// <remarks>
-/// Lost is what did not come though one sent three later did, or one sent later did and an answer would have taken nine eighths of a round trip (RFC 9002, 6.1).
-/// Only updates with entries are waited for.
+/// An update is lost if it did not arrive though one sent three later did; or if one sent later arrived and nine eighths of a round trip
+/// have passed (RFC 9002, 6.1). Only updates with entries are awaited.
 /// </remarks>
 internal sealed class SentDatagrams
 {
-    /// <summary>How many are remembered; a power of two. An older one that is still waited for is given up.</summary>
+    /// <summary>The number of updates remembered; a power of two. An older one that is still awaited is given up.</summary>
     internal const int Span = SeenNumbers.Span;
 
     private const uint Overtaken = 3;
 
-    private Datagram[] ring = Array.Empty<Datagram>(); // made when something is sent: many a link never gets there
+    private Datagram[] ring = Array.Empty<Datagram>(); // allocated on the first send: many a link never gets there
     private uint newest;
     private uint newestThatCame;
-    private uint oldestWaited = 1; // none before it is waited for
+    private uint oldestWaited = 1; // none before it is awaited
 
-    /// <summary>How many updates are waited for.</summary>
+    /// <summary>The number of updates that are awaited.</summary>
     internal int Waited { get; private set; }
 
-    /// <summary>Notes an update; numbers count up by one. Without entries, the last is below the first.</summary>
-    /// <returns>What it takes the room of, if that was still waited for.</returns>
+    /// <summary>Adds an update; numbers count up by one. Without entries, the last is below the first.</summary>
+    /// <returns>The update that it overwrites, if that was still awaited.</returns>
     internal Datagram? Add(uint number, SimTime at, int bytes, uint first, uint last)
     {
         ring = ring.Length == 0 ? new Datagram[Span] : ring;
@@ -46,7 +46,7 @@ internal sealed class SentDatagrams
         return number != 0 && sent.Number == number;
     }
 
-    /// <summary>Notes that an update came; true, and which it was, if it was waited for.</summary>
+    /// <summary>Records that an update arrived; returns true, and the update, if it was awaited.</summary>
     internal bool TryAcknowledge(uint number, out Datagram datagram)
     {
         datagram = ring.Length == 0 ? default : ring[number % Span];
@@ -59,7 +59,7 @@ internal sealed class SentDatagrams
         return End(number);
     }
 
-    /// <summary>Takes the oldest update whose entries have all come by another way; false if there is none.</summary>
+    /// <summary>Takes the oldest awaited update whose entries have all been acknowledged otherwise; false if there is none.</summary>
     internal bool TryTakeCovered(uint acknowledged, out Datagram datagram)
     {
         for (uint number = Oldest(); number <= newest && Waited > 0; number++)
@@ -76,9 +76,9 @@ internal sealed class SentDatagrams
     }
 
     /// <summary>Takes the oldest update that is lost by now; false if there is none.</summary>
-    /// <param name="now">By the own clock.</param>
+    /// <param name="now">The time by the local clock.</param>
     /// <param name="trip">The longer of the mean and the newest round trip.</param>
-    /// <param name="datagram">Which.</param>
+    /// <param name="datagram">The update.</param>
     internal bool TryTakeLost(SimTime now, SimDuration trip, out Datagram datagram)
     {
         SimDuration most = trip + (trip / 8);
@@ -95,14 +95,14 @@ internal sealed class SentDatagrams
         return false;
     }
 
-    /// <summary>When the oldest update that is waited for was sent; false if there is none.</summary>
+    /// <summary>When the oldest awaited update was sent; false if there is none.</summary>
     internal bool TryPeekOldest(out SimTime at)
     {
         at = Waited > 0 ? ring[Oldest() % Span].At : default;
         return Waited > 0;
     }
 
-    /// <summary>Takes the oldest update that is waited for, as lost; false if there is none.</summary>
+    /// <summary>Takes the oldest awaited update, as lost; false if there is none.</summary>
     internal bool TryTakeOldest(out Datagram datagram)
     {
         uint number = Oldest();
@@ -110,7 +110,7 @@ internal sealed class SentDatagrams
         return Waited > 0 && End(number);
     }
 
-    /// <summary>Whether an update sent later than that one carried all of those entries, and came or may still come.</summary>
+    /// <summary>Whether a later update carried all of those entries, and arrived or may still arrive.</summary>
     internal bool IsCarriedLater(in Datagram than, uint first, uint last)
     {
         for (uint number = than.Number + 1; number <= newest; number++)
@@ -125,10 +125,10 @@ internal sealed class SentDatagrams
         return false;
     }
 
-    /// <summary>Notes that an update is lost, so that nothing counts on it.</summary>
+    /// <summary>Marks an update as lost, so that nothing relies on it.</summary>
     internal void NoteLost(in Datagram datagram) => ring[datagram.Number % Span].IsLost |= ring[datagram.Number % Span].Number == datagram.Number;
 
-    /// <summary>When the oldest that is waited for was sent, of those sent before one that came; false if there is none.</summary>
+    /// <summary>When the oldest awaited update was sent, of those sent before one that arrived; false if there is none.</summary>
     internal bool TryGetOvertaken(out SimTime at)
     {
         uint number = Oldest();
@@ -174,7 +174,7 @@ internal sealed class SentDatagrams
 
         internal SimTime At { get; }
 
-        /// <summary>With what UDP and IP add.</summary>
+        /// <summary>The size in bytes, UDP and IP headers included.</summary>
         internal int Bytes { get; }
 
         internal uint First { get; }

@@ -3,12 +3,15 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>How much one link may carry beyond what has to go: repetitions before a loss is known, and small datagrams that could have waited for more.</summary>
+/// <summary>
+/// Limits what a link carries beyond what it has to: repetitions before a loss is known, and small datagrams that could have waited for
+/// more.
+/// </summary>
 /// <remarks>
-/// A token bucket of one datagram. Its rate grows by a twelfth each tenth of a second, or round trip, while it is used up and no queue shows, and is cut to 0.7 when one
-/// does; while one does only the least flows in. So the links of several sessions find their shares, and what could be left out keeps no queue standing. Where nothing
-/// is answered any more it goes on at the rate it had for a while, since a link that loses many datagrams in a row is lost for longer the fewer are sent; then the
-/// rate is halved step by step.
+/// It is a token bucket of one datagram. Its rate grows by a twelfth per tenth of a second, or per round trip, while it is used up and no
+/// queue shows; it is cut to 0.7 when a queue shows, and during that only the least rate flows in. So the links of several sessions find
+/// their shares, and optional traffic keeps no queue standing. When answers stop, the rate stays for a while, since a link that loses many
+/// datagrams in a row is lost for longer the fewer are sent; then it is halved step by step.
 /// </remarks>
 internal class SpareRate
 {
@@ -16,36 +19,39 @@ internal class SpareRate
     private const double CutTo = 0.7;
     private const double Growth = 1.08;
 
-    /// <summary>The highest rate, in bytes a second: a full datagram each resend interval, by default.</summary>
+    /// <summary>The highest rate, in bytes per second: a full datagram per default resend interval.</summary>
     private const double Most = Full / 0.03;
 
     /// <summary>
-    /// The rate of a new link, in bytes a second: a small update each resend interval, with room for a few repeated entries. No less while nothing is answered and no queue
-    /// showed, and a link that is at rest comes back to it.
+    /// The rate of a new link, in bytes per second: a small update per resend interval, with room for a few repeated entries. It is also
+    /// the least rate while answers are overdue and no queue showed, and an idle link returns to it.
     /// </summary>
     private const double First = 12_000;
 
-    /// <summary>The lowest rate: jitter may be taken for a queue, and a link that loses many datagrams in a row then still needs a repetition now and then.</summary>
+    /// <summary>
+    /// The lowest rate: jitter may be taken for a queue, and a link that loses many datagrams in a row then still needs a repetition now
+    /// and then.
+    /// </summary>
     private const double Least = 400;
 
-    /// <summary>So often the rate is looked at, or each round trip if that is longer: in so long a queue comes and goes.</summary>
+    /// <summary>How often the rate is adjusted, or per round trip if that is longer: a queue comes and goes in that time.</summary>
     private static readonly SimDuration LookInterval = SimDuration.FromMilliseconds(100);
 
     private double rate = First;
-    private double filling = First; // by what is known now: the rate, or less
+    private double filling = First; // the rate for what is known now: the rate itself, or less
     private double tokens = Full;
-    private bool isUsedUp; // since the rate was last looked at
+    private bool isUsedUp; // since the last adjustment
     private SimTime counted = SimTime.MinValue;
     private SimTime looked = SimTime.MinValue;
 
-    /// <summary>How many bytes may go, as of the last <see cref="Advance"/>.</summary>
+    /// <summary>How many bytes may be sent, as of the last <see cref="Advance"/>.</summary>
     internal int Bytes => (int)tokens;
 
-    /// <summary>Goes on to a time.</summary>
-    /// <param name="now">By the own clock.</param>
-    /// <param name="trips">What is known of the link's round trips.</param>
+    /// <summary>Advances to a time.</summary>
+    /// <param name="now">The time by the local clock.</param>
+    /// <param name="trips">The link's round trips.</param>
     /// <param name="isSilent">Whether answers are overdue.</param>
-    /// <param name="halvings">How often the rate is halved meanwhile, since nobody may be there.</param>
+    /// <param name="halvings">How often the rate is halved meanwhile, since the other end may be gone.</param>
     internal void Advance(SimTime now, RoundTrips trips, bool isSilent, int halvings = 0)
     {
         if (counted == SimTime.MinValue)
@@ -69,7 +75,7 @@ internal class SpareRate
         counted = now;
     }
 
-    /// <summary>How long until so many bytes may go; where that is not now, the rate counts as used up, and so may grow.</summary>
+    /// <summary>How long until that many bytes may be sent; if that is not now, the rate counts as used up, and so may grow.</summary>
     internal SimDuration WaitFor(int bytes)
     {
         double missing = Math.Min(bytes, Full) - tokens;
@@ -77,12 +83,12 @@ internal class SpareRate
         return SimDuration.FromSeconds(Math.Max(0, missing / filling));
     }
 
-    /// <summary>Notes what went.</summary>
+    /// <summary>Spends bytes.</summary>
     internal void Spend(int bytes) => tokens = Math.Max(-Full, tokens - bytes);
 
-    /// <summary>The window was cut: what could be left out goes first.</summary>
+    /// <summary>Called when the window was cut: optional traffic is cut first.</summary>
     internal virtual void Cut() => rate = Math.Max(Least, rate * CutTo);
 
-    /// <summary>Whether there is a queue on the way, which is reason to repeat less.</summary>
+    /// <summary>Whether there is a queue on the path, which is a reason to repeat less.</summary>
     internal virtual bool HasQueue(RoundTrips trips) => trips.HasQueue;
 }

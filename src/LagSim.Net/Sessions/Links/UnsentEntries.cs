@@ -2,10 +2,10 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>What is new for the other end of a link and has not gone yet: how much, and since when.</summary>
+/// <summary>The new entries for the other end of a link that have not been sent yet: how much, and since when.</summary>
 internal sealed class UnsentEntries
 {
-    /// <summary>How much, in bytes of entries.</summary>
+    /// <summary>The size of the entries, in bytes.</summary>
     internal int Bytes { get; private set; }
 
     /// <summary>Since when something waits; the latest instant if nothing does.</summary>
@@ -17,6 +17,6 @@ internal sealed class UnsentEntries
         Since = SimTime.Min(Since, now);
     }
 
-    /// <summary>All of it has gone.</summary>
+    /// <summary>Called when all of it was sent.</summary>
     internal void Clear() => (Bytes, Since) = (0, SimTime.MaxValue);
 }

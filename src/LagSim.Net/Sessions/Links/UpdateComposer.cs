@@ -4,20 +4,20 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>Numbers the updates of a link, and writes into each whose it is and what it answers.</summary>
+/// <summary>Numbers a link's updates, and stamps each with its sender and what it acknowledges.</summary>
 internal sealed class UpdateComposer
 {
     private readonly byte[] buffer;
 
-    /// <param name="update">What updates are composed in, one after the other; all links of a session share it.</param>
-    /// <param name="buffer">Where their bytes go; likewise.</param>
+    /// <param name="update">The update to compose in, one at a time; shared by all links of a session.</param>
+    /// <param name="buffer">The buffer to encode into; shared likewise.</param>
     internal UpdateComposer(UpdateDatagram update, byte[] buffer)
     {
         Update = update;
         this.buffer = buffer;
     }
 
-    /// <summary>The update that is being composed.</summary>
+    /// <summary>The update being composed.</summary>
     internal UpdateDatagram Update { get; }
 
     /// <summary>Its number.</summary>
@@ -37,6 +37,6 @@ internal sealed class UpdateComposer
         return Update;
     }
 
-    /// <summary>Its bytes, until the next one of any link is begun.</summary>
+    /// <summary>Its bytes, valid until the next update of any link is begun.</summary>
     internal ReadOnlySpan<byte> Encode() => buffer.AsSpan(0, Update.Encode(buffer));
 }

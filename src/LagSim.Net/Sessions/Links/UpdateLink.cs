@@ -5,26 +5,24 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>One end of the exchange of updates with one other peer: what came, what is on its way, and when the next one is due.</summary>
+/// <summary>One end of the exchange of updates with another peer: what arrived, what is in flight, and when the next one is due.</summary>
 /// <remarks>
-/// What is new goes at once, and what is not acknowledged again each resend interval, as far as the link's <see cref="SpareRate"/> allows.
-/// Beyond that nothing is repeated
-/// before it is known to be lost, and what is new waits until it is worth a datagram: two thirds of its bytes are entries, or half of what
-/// it will wait in the
-/// queue, or a tenth of a second, has passed. No more is on its way than <see cref="CongestionControl"/> lets, but for two probes into a
-/// silence.
+/// New entries are sent at once, and unacknowledged ones again each resend interval, as far as the link's <see cref="SpareRate"/> allows.
+/// Beyond that nothing is repeated before it is known to be lost, and new entries wait until they are worth a datagram: two thirds of its
+/// bytes are entries, or half the time that it will wait in the queue has passed, or a tenth of a second. <see cref="CongestionControl"/>
+/// limits the bytes in flight, except for two probes into a silence.
 /// </remarks>
 internal sealed class UpdateLink
 {
-    /// <summary>So long the acknowledgement of what is not urgent may wait for a datagram that goes out anyway.</summary>
+    /// <summary>How long an acknowledgement that is not urgent may wait for a datagram that goes out anyway.</summary>
     internal static readonly SimDuration MostAckDelay = SimDuration.FromMilliseconds(100);
 
-    /// <summary>What an update has beside its entries, in bytes: header, state hash, UDP and IP.</summary>
+    /// <summary>The bytes of an update besides its entries: header, state hash, UDP and IP.</summary>
     private const int OwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
 
     /// <summary>
-    /// A window's worth of datagrams goes out in four fifths of a round trip, so that it does not overflow a short queue at once (RFC 9002,
-    /// 7.7).
+    /// The pacing gain: a window of datagrams is spread over four fifths of a round trip, so that it does not overflow a short queue at
+    /// once (RFC 9002, 7.7).
     /// </summary>
     private const double PaceGain = 1.25;
 
@@ -38,19 +36,19 @@ internal sealed class UpdateLink
     private readonly SendPacer pacer;
     private readonly LinkTrafficCounter traffic = new();
     private readonly UnsentEntries unsent = new();
-    private bool isProbe; // the next update goes whatever the window
-    private bool isHeldBack; // something has to go and may not yet
+    private bool isProbe; // the next update is sent whatever the window
+    private bool isHeldBack; // something has to be sent and may not yet
 
-    /// <param name="sessionId">What every datagram of this link bears.</param>
+    /// <param name="sessionId">The session id that every datagram of this link carries.</param>
     /// <param name="self">This peer's number.</param>
-    /// <param name="peer">The other's.</param>
-    /// <param name="other">Where that is.</param>
-    /// <param name="acknowledged">The other has this peer's entries up to this one.</param>
-    /// <param name="interval">How long what is not acknowledged waits before it is repeated, where there is room.</param>
-    /// <param name="outgoing">What updates are composed in, one after the other; all links of a session share it.</param>
-    /// <param name="buffer">Where their bytes go; likewise.</param>
-    /// <param name="now">By the own clock.</param>
-    /// <param name="parts">What its parts are made by; null for the usual ones.</param>
+    /// <param name="peer">The other's number.</param>
+    /// <param name="other">The other's address.</param>
+    /// <param name="acknowledged">The last of this peer's entries that the other has without a gap.</param>
+    /// <param name="interval">How long unacknowledged entries wait before they are repeated, where there is room.</param>
+    /// <param name="outgoing">The update to compose in, one at a time; shared by all links of a session.</param>
+    /// <param name="buffer">The buffer to encode into; shared likewise.</param>
+    /// <param name="now">The time by the local clock.</param>
+    /// <param name="parts">The factory of its parts; null for the usual ones.</param>
     internal UpdateLink(
         ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing,
         byte[] buffer, SimTime now, LinkParts? parts = null)
@@ -83,31 +81,30 @@ internal sealed class UpdateLink
         set => ends.Peer = value;
     }
 
-    /// <summary>Where the other is.</summary>
+    /// <summary>The other's address.</summary>
     internal PeerAddress Other
     {
         get => ends.Other;
         set => ends.Other = value;
     }
 
-    /// <summary>What of this peer's entries goes out next.</summary>
+    /// <summary>Chooses which of this peer's entries are sent next.</summary>
     internal SendWindow Outgoing => flight.Window;
 
     internal LinkTraffic Traffic => traffic.Of(Peer, Other, Trips);
 
-    /// <summary>What is known of the round trips.</summary>
+    /// <summary>The measured round trips.</summary>
     internal RoundTrips Trips { get; } = new();
 
-    /// <summary>When the last update came, by the own clock.</summary>
+    /// <summary>When the last update arrived, by the local clock.</summary>
     internal SimTime Heard => hearing.Heard;
 
-    /// <summary>When the next update is due, by the own clock.</summary>
+    /// <summary>When the next update is due, by the local clock.</summary>
     internal SimTime Due => pacer.Due;
 
     /// <summary>
-    /// How long something new waits for more at most, where it may not hurry: no longer than an answer takes, and no longer than the queue
-    /// itself has it wait, but
-    /// for what nobody notices on such a link.
+    /// How long a new entry waits at most for more, where it may not hurry: no longer than an answer takes, and no longer than its delay in
+    /// the queue, unless that is too short to notice on such a link.
     /// </summary>
     private SimDuration MergeTime
     {
@@ -119,18 +116,18 @@ internal sealed class UpdateLink
     }
 
     /// <summary>
-    /// The longer of two silences: for how long nothing came, and for how long the other said, when it last wrote, that nothing came there.
+    /// The longer of two silences: since anything arrived here, and since anything arrived at the other end, as it last reported.
     /// </summary>
     internal SimDuration Silence(SimTime now) => hearing.Silence(now);
 
-    /// <summary>When an update was sent that the other says it has; false for one that was not, or long ago.</summary>
+    /// <summary>Looks up when an acknowledged update was sent; false for one that was not sent, or too long ago.</summary>
     internal bool TryGetSent(uint number, out SimTime at) => flight.Sent.TryGetTime(number, out at);
 
-    /// <summary>Notes an update that came.</summary>
+    /// <summary>Records an update that arrived.</summary>
     /// <param name="update">The update.</param>
-    /// <param name="now">When it came, by the own clock.</param>
-    /// <param name="isNewest">False for one that was overtaken: of it only entries, watermark and acknowledgement are new.</param>
-    /// <returns>False for one that came before, or is so old that it may have.</returns>
+    /// <param name="now">When it arrived, by the local clock.</param>
+    /// <param name="isNewest">False for one that was overtaken: only its entries, watermark and acknowledgement are new.</param>
+    /// <returns>False for one that arrived before, or is so old that it may have.</returns>
     internal bool Note(UpdateDatagram update, SimTime now, out bool isNewest)
     {
         if (!hearing.Note(update, now, flight.Sent, Trips, out isNewest))
@@ -147,7 +144,7 @@ internal sealed class UpdateLink
         return true;
     }
 
-    /// <summary>Notes that the other has this peer's entries up to a number.</summary>
+    /// <summary>Records that the other has this peer's entries up to a number.</summary>
     internal void Acknowledge(uint number, SimTime now)
     {
         flight.Acknowledge(number, now);
@@ -157,22 +154,22 @@ internal sealed class UpdateLink
         }
     }
 
-    /// <summary>Notes something else that only the other can have sent, and only now.</summary>
+    /// <summary>Records another datagram that only the other end can have sent, and only now.</summary>
     internal void NoteHeard(SimTime now) => hearing.NoteHeard(now);
 
     /// <summary>
-    /// Has the next update sent no later than this, unless so many went out just now that the least distance would not be kept in the mean.
+    /// Sends the next update no later than this, unless so many went out just now that the average distance would fall below the least.
     /// </summary>
     internal void Flush(SimTime by) => pacer.Flush(by);
 
-    /// <summary>Has the other answered: at once, or where that is too much together with what else there is to say soon.</summary>
+    /// <summary>Answers the other end: at once, or, where that is too much, soon, together with whatever else is to be sent.</summary>
     internal void Answer(SimTime now) => Flush(MayHurry(now) ? now : now + MostAckDelay);
 
-    /// <summary>Notes that there is something new for the other, of that many bytes.</summary>
+    /// <summary>Records a new entry for the other end, of that many bytes.</summary>
     internal void NoteLateEvent(int bytes, SimTime now)
     {
         unsent.Note(bytes, now);
-        if (flight.Congestion.HasRoom) // else it goes with what is acknowledged, or lost, next
+        if (flight.Congestion.HasRoom) // otherwise it is sent when something is next acknowledged or lost
         {
             Flush(unsent.Bytes >= 2 * OwnBytes || MayHurry(now) ? now : unsent.Since + MergeTime);
         }
@@ -184,7 +181,7 @@ internal sealed class UpdateLink
 
     internal void CountSent(int bytes) => traffic.CountSent(bytes);
 
-    /// <summary>Whether an update is due; what was not answered for too long counts as lost from now on.</summary>
+    /// <summary>Whether an update is due; what has been unanswered for too long counts as lost from now on.</summary>
     internal bool IsDue(SimTime now)
     {
         if (Due > now)
@@ -202,12 +199,12 @@ internal sealed class UpdateLink
     }
 
     /// <summary>
-    /// An update with everything that this type knows filled in; the rest is the caller's. Then <see cref="Fill"/>, and send it with <see
-    /// cref="Seal"/>.
+    /// Begins an update with everything filled in that this type knows; the rest is the caller's. Then call <see cref="Fill"/>, and send it
+    /// with <see cref="Seal"/>.
     /// </summary>
     internal UpdateDatagram Compose(SimTime now) => composer.Next(SessionId, Self, hearing, now);
 
-    /// <summary>Puts entries into the composed update.</summary>
+    /// <summary>Adds entries to the composed update.</summary>
     internal void Fill(IEntrySource source, SimTime now)
     {
         UpdateDatagram update = composer.Update;
@@ -221,18 +218,18 @@ internal sealed class UpdateLink
 
         isProbe = false;
 
-        // What has to go finds the window half empty. An update that is worth its own bytes is none that could have waited.
+        // What has to be sent must find the window half empty. An update worth its own bytes is not optional traffic.
         int most = congestion.IsHalfFull ? 0 : spare.Bytes;
         int repeated = Outgoing.Fill(update, source, most, OwnBytes, congestion.DatagramBytes - OwnBytes);
         int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
 
-    /// <summary>The bytes of the composed update; sets when the next is due.</summary>
+    /// <summary>Returns the bytes of the composed update, and sets when the next is due.</summary>
     /// <param name="source">The entries.</param>
     /// <param name="now">When it is sent.</param>
-    /// <param name="rest">How long nothing is sent where nothing is the matter.</param>
-    /// <param name="isUrgent">Whether something is not acknowledged that nothing later makes up for.</param>
+    /// <param name="rest">The pause when nothing is wrong.</param>
+    /// <param name="isUrgent">Whether something unacknowledged is not superseded by anything later.</param>
     internal ReadOnlySpan<byte> Seal(IEntrySource source, SimTime now, SimDuration rest, bool isUrgent)
     {
         UpdateDatagram update = composer.Update;
@@ -263,7 +260,9 @@ internal sealed class UpdateLink
         return bytes;
     }
 
-    /// <summary>Has the next update sent when an answer is overdue, something counts as lost, or what is urgent may be repeated.</summary>
+    /// <summary>
+    /// Schedules the next update for when an answer is overdue, something counts as lost, or urgent entries may be repeated.
+    /// </summary>
     private void FlushForAnswers(IEntrySource source, SimTime now, bool isUrgent)
     {
         Flush(answers.Due(now));
@@ -279,7 +278,7 @@ internal sealed class UpdateLink
         }
     }
 
-    /// <summary>How far apart updates with entries go in the mean, by their length.</summary>
+    /// <summary>The average distance between updates with entries, by their length.</summary>
     private SimDuration Distance(int length)
     {
         SimDuration even = SimDuration.FromSeconds(
@@ -287,7 +286,7 @@ internal sealed class UpdateLink
         return Trips.IsMeasured && even > SendPacer.LeastDistance ? even : SendPacer.LeastDistance;
     }
 
-    /// <summary>Whether an update may go for little.</summary>
+    /// <summary>Whether an update may be sent for little.</summary>
     private bool MayHurry(SimTime now)
     {
         spare.Advance(now, Trips, answers.IsOverdue, answers.Doublings(now));

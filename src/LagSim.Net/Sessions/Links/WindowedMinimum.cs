@@ -2,7 +2,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>The least of the durations of the last while, kept as the least of each of two halves: exact to half the while, without a list.</summary>
+/// <summary>The minimum over a sliding window, kept as the minima of its two halves: exact to half the window, without a list.</summary>
 internal struct WindowedMinimum
 {
     private SimDuration former;
@@ -10,14 +10,14 @@ internal struct WindowedMinimum
     private SimTime since;
     private bool hasAny;
 
-    /// <summary>The least of at least the last half of the while, and at most all of it; zero before there is one.</summary>
+    /// <summary>The minimum of at least the last half of the window, and at most all of it; zero before there is one.</summary>
     internal readonly SimDuration Value => former < present ? former : present;
 
     internal void Add(SimDuration sample, SimTime now, SimDuration window)
     {
         if (!hasAny || now - since > window)
         {
-            former = present = sample; // what was before is older than the while
+            former = present = sample; // everything before is older than the window
             since = now;
             hasAny = true;
         }
@@ -25,7 +25,8 @@ internal struct WindowedMinimum
         {
             former = present;
             present = sample;
-            since += window / 2; // and not now: where samples are seldom, the former half would count for half as long again
+            // Advanced by halves: setting it to now would let the former half count half a window longer where samples are rare.
+            since += window / 2;
         }
         else
         {
