@@ -260,13 +260,6 @@ internal sealed class Engine
         return true;
     }
 
-    /// <summary>Uses neighbour lists from now on above so many bodies, 0 for always: only a test sets it.</summary>
-    internal void UseListsAbove(int most)
-    {
-        BroadPhase.UseListsAbove(most);
-        FitBroadPhase();
-    }
-
     /// <summary>Forgets what lies before a time, but nothing that is not simulated yet.</summary>
     internal void DropHistoryBefore(SimTime time)
     {

@@ -96,9 +96,14 @@ public sealed class SimulationOptions
     public int Threads { get; }
 
     /// <summary>
-    /// The number of bodies up to which the broad phase is brute force; a test sets it to have neighbour lists in small worlds.
+    /// The number of bodies up to which the broad phase is brute force. No bit depends on it; tests set it to have neighbour lists in small
+    /// worlds.
     /// </summary>
-    internal int MostPairs { get; set; } = DefaultMostPairs;
+    internal int MostPairs { get; init; } = DefaultMostPairs;
+
+    /// <summary>The same with another <see cref="MostPairs"/>.</summary>
+    internal SimulationOptions WithMostPairs(int most) =>
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, MostPairs = most, Parts = Parts };
 
     /// <summary>The factory of the engine's parts.</summary>
     internal EngineParts Parts { get; private set; } = EngineParts.Usual;

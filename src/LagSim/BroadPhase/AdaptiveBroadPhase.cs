@@ -13,7 +13,6 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     /// <summary>The size of a cell in radii of a body that nine tenths are not larger than: two diameters.</summary>
     private const double CellInRadii = 4;
 
-    private int mostPairs = mostPairs;
     private int outgrownAt; // number of bodies too wide or fast for the cells at which other cells are tried
 
     /// <summary>At about so many others a body looks, however many there are.</summary>
@@ -26,12 +25,6 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     internal bool IsOutgrown => Current is NeighbourLists shells
         ? shells.WideCount > Math.Max(outgrownAt, bodies.Count / 8)
         : bodies.Count > mostPairs;
-
-    /// <summary>
-    /// Uses neighbour lists from now on above so many bodies, 0 for always; a world that has them keeps them. For tests: worlds small
-    /// enough to be played by the thousand would never use them.
-    /// </summary>
-    internal void UseListsAbove(int most) => mostPairs = most;
 
     /// <summary>Chooses the broad phase of a world that begins and has no path listed yet.</summary>
     internal void Begin() => Current = bodies.Count > mostPairs ? NewLists() : MakePairs();

@@ -20,7 +20,7 @@ internal static class SessionFaults
 
     /// <summary>Has each world that the session makes be made of other parts.</summary>
     internal static void Put(this Session session, EngineParts parts) =>
-        session.Parts.World.OptionsRule = options => options.WithParts(parts);
+        session.Parts.World.ChangeOptions(options => options.WithParts(parts));
 
     private sealed class FaultyParts(SessionFault fault) : LinkParts
     {

@@ -22,6 +22,7 @@ internal sealed class SharedWorld
     private readonly SessionCounters counters;
     private readonly ILateEventStrategy strategy;
     private readonly CancellationTokenSource interruption = new();
+    private Func<SimulationOptions, SimulationOptions> optionsRule = static options => options;
     private bool hasUnshown;
     private SimTime begunAt = SimTime.MaxValue; // the earliest instant of the world; set before the world is
     private volatile LiveWorld? live;
@@ -81,8 +82,12 @@ internal sealed class SharedWorld
         }
     }
 
-    /// <summary>Modifies the simulation options derived from the session's options; set only by tests that hand in other parts.</summary>
-    internal Func<SimulationOptions, SimulationOptions> OptionsRule { get; set; } = static options => options;
+    /// <summary>Has worlds that begin from now on be made with changed options: other parts, or neighbour lists for few bodies.</summary>
+    internal void ChangeOptions(Func<SimulationOptions, SimulationOptions> change)
+    {
+        Func<SimulationOptions, SimulationOptions> before = optionsRule;
+        optionsRule = options => change(before(options));
+    }
 
     /// <summary>Makes a running simulation step end soon; from any thread. The world stops for good.</summary>
     internal void Interrupt() => interruption.Cancel();
@@ -211,7 +216,7 @@ internal sealed class SharedWorld
     }
 
     // The session decides what history to drop, by the watermark; the simulation's own limit would go by its look-ahead.
-    private SimulationOptions WorldOptions(SimTime start) => OptionsRule(new SimulationOptions(
+    private SimulationOptions WorldOptions(SimTime start) => optionsRule(new SimulationOptions(
         start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
         options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads));
 }

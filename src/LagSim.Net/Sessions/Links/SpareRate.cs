@@ -8,7 +8,7 @@ namespace LagSim.Net.Sessions.Links;
 /// more.
 /// </summary>
 /// <remarks>
-/// It is a token bucket of one datagram. Its rate grows by a twelfth per tenth of a second, or per round trip, while it is used up and no
+/// It is a token bucket of one datagram. Its rate grows by 8 % per tenth of a second, or per round trip, while it is used up and no
 /// queue shows; it is cut to 0.7 when a queue shows, and during that only the least rate flows in. So the links of several sessions find
 /// their shares, and optional traffic keeps no queue standing. When answers stop, the rate stays for a while, since a link that loses many
 /// datagrams in a row is lost for longer the fewer are sent; then it is halved step by step.
