@@ -22,7 +22,6 @@ internal static class LargeTypes
         new("LagSim.Testing.Running.SessionRun", "one session from start to end, with its clocks and its network; a few lines over"),
 
         // What the tool does.
-        new("LagSim.Cli.Commands.SessionRunner", "waits to be split: asking to join, acting, watching and the end are in one"),
         new("LagSim.Harness.Experiments.Compare.CompareRun", "one run from start to end: its set-up, its players and what it measures"),
         new("LagSim.Harness.Experiments.Drop.DropRun", "one run from start to end: its set-up, its players and what it measures"),
         new("LagSim.Harness.Experiments.Hold.HoldRun", "one run from start to end: its set-up, its players and what it measures"),
