@@ -52,7 +52,7 @@ internal sealed class SessionRunner : IDisposable
         session.Begun += queue.Wake;
         session.Ended += queue.Wake;
         watch = new SessionWatch(session, request, printer, queue);
-        actions = new SessionActions(session, request.ScriptedActions, printer, queue);
+        actions = new SessionActions(session, request.Actions, printer, queue);
         if (request.RecordFile is string file)
         {
             recorder = new SessionRecorder(session, file, request.Length);

@@ -101,7 +101,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
-    /// <summary>The same scripted action at another time; how a peer that does not heal applies what it hears late.</summary>
+    /// <summary>The same action at another time; how a peer that does not heal applies what it hears late.</summary>
     public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin);
 
     /// <inheritdoc/>

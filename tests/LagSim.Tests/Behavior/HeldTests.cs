@@ -397,7 +397,7 @@ public sealed class HeldTests
     }
 
     [Fact]
-    public void ScriptedActions_OfThoseWhoDoNotHold_HaveNoEffect()
+    public void Actions_OfThoseWhoDoNotHold_HaveNoEffect()
     {
         ExternalEvent[] hold = [ExternalEvent.Grab(At(0.25), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.3), 1, 2, First, V(1), V(1, 2))];
         Simulation expected = With(Lonely(), 1.25, hold);

@@ -229,7 +229,7 @@ public sealed class SessionCommandTests
     [Fact]
     public void ScriptedAction_WhoseVerdictAFreshCopyOvertook_IsToldOnceAndNotMistakenForALaterOne()
     {
-        // What is done while nothing gets through is never heard of, and the next scripted action after it bears the same number.
+        // What is done while nothing gets through is never heard of, and the next action after it bears the same number.
         using CutPort port = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
         HostOptions options = new() { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3), Timeout = SimDuration.FromSeconds(2) };
         HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), options, 5);
@@ -300,7 +300,7 @@ public sealed class SessionCommandTests
         host.Ends(0);
         early.Ends(3);
         late.Ends(3);
-        idle.Ends(0); // without a scripted action the host's orderly end is nobody's error
+        idle.Ends(0); // without an action the host's orderly end is nobody's error
         Assert.Matches(
             @"Not done, for the time was past when this peer came in at T [0-9.]+ s: --do impulse@0\.1:0,1,0, --do remove@0\.2\.\r?\n", early.Error.ToString());
         Assert.Contains("Not done, for the session ended before: --do teleport@30:0,15,0, --do remove@31.", late.Error.ToString(), StringComparison.Ordinal);

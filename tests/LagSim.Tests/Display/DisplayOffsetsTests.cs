@@ -18,7 +18,7 @@ public sealed class DisplayOffsetsTests
     private static readonly Scene Alone = new SceneBuilder("alone").WithGravity(Floating).AddBody("ball", Ball(), V(0, 5)).Build();
 
     [Fact]
-    public void Update_MotionBouncesAndOnesOwnScriptedActions_AreNoCorrections()
+    public void Update_MotionBouncesAndOnesOwnActions_AreNoCorrections()
     {
         Screen screen = new(Drop(3, 0.9, MotionLaw.RungeKutta4));
         for (int n = 0; n < 600; n++)

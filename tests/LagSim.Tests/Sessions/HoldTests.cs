@@ -15,7 +15,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class HoldTests
 {
     [Fact]
-    public void Grab_ByTwoAtOnce_IsTheFirstsOnEveryPeerAndTheOthersScriptedActionsHaveNoEffect()
+    public void Grab_ByTwoAtOnce_IsTheFirstsOnEveryPeerAndTheOthersActionsHaveNoEffect()
     {
         SessionGroup group = Group(3);
         ExternalEvent mine = group.Do(1, PlayerAction.Grab(First));

@@ -132,7 +132,7 @@ public sealed class InterpolationTests
     [InlineData("healing", 0.1, 1.0)]
     [InlineData("interpolation", 0.1, 1.1)]
     [InlineData("interpolation", 0.25, 1.25)]
-    public void Seen_OfOnesOwnScriptedAction_ComesLaterByTheDelay(string strategy, double delay, double expected)
+    public void Seen_OfOnesOwnAction_ComesLaterByTheDelay(string strategy, double delay, double expected)
     {
         // The heavy ball flies on at 3 m/s to the left, until it is seen to fly to the right.
         VirtualPeers peers = Play(strategy, delay);

@@ -33,7 +33,7 @@ internal static class CheckPlan
             }
         }
 
-        plan.AddRange(drawn.ActionIndices.Select(index => new CheckStep(drawn.ScriptedActions[index].AtSeconds, CheckStepKind.Act, index)));
+        plan.AddRange(drawn.ActionIndices.Select(index => new CheckStep(drawn.Actions[index].AtSeconds, CheckStepKind.Act, index)));
         plan.Add(new CheckStep(CheckCase.Length, CheckStepKind.End, 0));
         return [.. plan.OrderBy(step => step.AtSeconds)]; // stable: actions of one instant in the order in which they were drawn
     }

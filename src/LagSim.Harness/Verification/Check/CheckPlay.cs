@@ -39,7 +39,7 @@ internal sealed class CheckPlay
         this.options = options;
         this.cancellation = cancellation;
         run = new VirtualRun(Origin, drawn.Seed, cancellation);
-        spawned = new BodyId?[drawn.ScriptedActions.Count];
+        spawned = new BodyId?[drawn.Actions.Count];
     }
 
     /// <summary>The peers that have asked by now, the host first.</summary>
@@ -184,7 +184,7 @@ internal sealed class CheckPlay
 
     private void Do(int index)
     {
-        CheckAction action = drawn.ScriptedActions[index];
+        CheckAction action = drawn.Actions[index];
         BodyId? body = action.Kind == EventKind.Spawn ? default(BodyId)
             : action.Spawn >= 0 ? spawned[action.Spawn]
             : drawn.BodyDrawnAs(action.Body);

@@ -15,7 +15,7 @@ internal static class CheckSession
         // One of its own, for the token of all sessions would keep these peers.
         using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
         CheckPlay play = new(drawn, options, stop.Token);
-        CheckOutcome outcome = new() { Seed = drawn.Seed, Bodies = drawn.BodyIndices, ScriptedActions = drawn.ActionIndices };
+        CheckOutcome outcome = new() { Seed = drawn.Seed, Bodies = drawn.BodyIndices, Actions = drawn.ActionIndices };
         string? failure;
         try
         {
