@@ -120,7 +120,7 @@ public sealed class InterpolationTests
     [InlineData(0.1, 0.0)] // 80 ms are two hops; within the delay nothing is seen of them
     [InlineData(0.05, 0.5)] // the control: a delay that is too short
     [InlineData(0, 0.5)]
-    public void Seen_NewsWithinTheDelay_DiffersNowhere(double delay, double atLeast)
+    public void Seen_LateEventWithinTheDelay_DiffersNowhere(double delay, double atLeast)
     {
         VirtualPeers peers = Play("interpolation", delay);
         double[] errors = Distances(peers, peers.Seen);
