@@ -44,6 +44,18 @@ internal static class TestWorlds
         return simulation;
     }
 
+    internal static Simulation Run(Scene scene, double seconds, IEnumerable<ExternalEvent> events)
+    {
+        Simulation simulation = new(scene, KeepAll);
+        foreach (ExternalEvent external in events)
+        {
+            simulation.Submit(external);
+        }
+
+        simulation.AdvanceTo(At(seconds));
+        return simulation;
+    }
+
     internal static BodyState Read(Simulation simulation, BodyId body, double seconds) => Read(simulation, body, At(seconds));
 
     internal static BodyState Read(Simulation simulation, BodyId body, SimTime time)

@@ -52,7 +52,7 @@ internal static class CompareCommand
             ulong seed = parsed.GetValue(common.Seed);
             int count = parsed.GetValue(peers);
             IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(played, count, seed);
-            int spawned = plan.Count(scripted => scripted.Kind == EventKind.Spawn);
+            int spawned = plan.Count(action => action.Kind == EventKind.Spawn);
             if (played.Bodies.Count + spawned > CompareOptions.MaxBodies)
             {
                 throw new UsageException(

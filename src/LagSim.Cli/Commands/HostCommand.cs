@@ -48,9 +48,9 @@ internal static class HostCommand
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
             Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);
             SessionRequest request = shared.Read(parsed);
-            foreach (ScriptedAction scripted in request.ScriptedActions)
+            foreach (ScriptedAction action in request.Actions)
             {
-                scripted.ActionIn(loaded);
+                action.ActionIn(loaded);
             }
 
             HostOptions options = HostOptions.From(request.Options) with

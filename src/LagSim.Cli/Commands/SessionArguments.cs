@@ -25,7 +25,7 @@ internal sealed class SessionArguments
         HelpName = "TEXT",
     };
 
-    private readonly Option<string[]> scriptedActions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "ACTION" };
+    private readonly Option<string[]> actions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "ACTION" };
     private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, ScriptedAction.MostSeconds);
     private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, whose name usually ends in .lagsim; an"
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
@@ -47,7 +47,7 @@ internal sealed class SessionArguments
                 result.AddError($"--key has {result.Tokens[0].Value.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
             }
         });
-        scriptedActions.Validators.Add(result =>
+        actions.Validators.Add(result =>
         {
             foreach (System.CommandLine.Parsing.Token token in result.Tokens)
             {
@@ -66,7 +66,7 @@ internal sealed class SessionArguments
     internal void AddTo(Command command)
     {
         command.Options.Add(key);
-        command.Options.Add(scriptedActions);
+        command.Options.Add(actions);
         command.Options.Add(length);
         command.Options.Add(record);
         command.Options.Add(timeout);
@@ -80,8 +80,9 @@ internal sealed class SessionArguments
     internal SessionRequest Read(ParseResult parsed)
     {
         double? seconds = parsed.GetValue(length);
-        ScriptedAction[] ordered = (parsed.GetValue(scriptedActions) ?? []).Select(ScriptedAction.Parse).OrderBy(scripted => scripted.Seconds).ToArray();
-        if (ordered.FirstOrDefault(scripted => scripted.Seconds >= seconds) is ScriptedAction late)
+        string[] texts = parsed.GetValue(actions) ?? [];
+        ScriptedAction[] ordered = texts.Select(ScriptedAction.Parse).OrderBy(action => action.Seconds).ToArray();
+        if (ordered.FirstOrDefault(action => action.Seconds >= seconds) is ScriptedAction late)
         {
             throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"--do is '{late.Text}', which is not before the end, --for-s {seconds}."));
         }
@@ -119,10 +120,10 @@ internal sealed class SessionArguments
 
 /// <summary>How to take part in a session.</summary>
 /// <param name="Options">For the session.</param>
-/// <param name="ScriptedActions">What to do, by time.</param>
+/// <param name="Actions">What to do, by time.</param>
 /// <param name="Seconds">How long, counted from the session's start; null until asked to stop.</param>
 /// <param name="RecordFile">Where to record; null for nowhere.</param>
-internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<ScriptedAction> ScriptedActions, double? Seconds, string? RecordFile)
+internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<ScriptedAction> Actions, double? Seconds, string? RecordFile)
 {
     /// <summary>Where a client asks to be let in; null for a host.</summary>
     internal IPEndPoint? Host { get; init; }

@@ -1,16 +1,10 @@
 using System;
-using System.Collections.Concurrent;
-using System.Collections.Generic;
 using System.Diagnostics;
-using System.Linq;
 using System.Threading;
-using System.Threading.Tasks;
 using LagSim.Cli.Output;
-using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
-using LagSim.Net.Wire;
 using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
@@ -20,9 +14,6 @@ namespace LagSim.Cli.Commands;
 internal sealed class SessionRunner : IDisposable
 {
     private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(250);
-
-    /// <summary>After so long without an answer it is told that there is none.</summary>
-    private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(450);
 
     private static readonly TimeSpan LeaveTimeout = TimeSpan.FromSeconds(1);
 
@@ -44,20 +35,12 @@ internal sealed class SessionRunner : IDisposable
     private readonly CancellationToken stop;
     private readonly PeerThread thread;
     private readonly SessionRecorder? recorder;
-    private readonly AutoResetEvent wakeUp = new(false);
+    private readonly PrintQueue queue = new();
+    private readonly SessionWatch watch;
+    private readonly SessionActions actions;
     private readonly CancellationTokenRegistration onStop;
-    private readonly ConcurrentQueue<Action> told = new(); // what the session's thread has to say, for this one to print
-    private readonly Dictionary<uint, ScriptedAction> unconfirmed = []; // own ones of a client, by sequence number; the session's thread's
-    private readonly List<(ScriptedAction ScriptedAction, Task Attempt)> attempts = []; // of which the outcome has not been looked at
-    private volatile bool isAwaitingVerdict; // whether any is unjudged
-    private bool hasToldDifference; // the session's thread's
-    private bool isLooking;
-    private PlayerAction[]? actions; // of the scripted actions, once the scene is known
-    private int done; // or given up
-    private bool hasFailedAction;
-    private readonly PaceWatch pace = new();
+    private bool hasFailed; // something besides an action
     private SimTime? timeoutEnd;
-    private bool hasToldSilence;
 
     internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
     {
@@ -66,36 +49,20 @@ internal sealed class SessionRunner : IDisposable
         this.request = request;
         this.printer = printer;
         this.stop = stop;
-        session.Begun += Wake;
-        session.Ended += Wake;
-        session.Logged += OnLogged;
-        if (session is HostSession host)
-        {
-            host.ClientCame += link => Tell(() => printer.Came(link));
-            host.ClientGone += link => Tell(() => printer.Gone(link));
-            host.PlayerExpelled += e => Tell(() => printer.Problem(e.Sentence));
-            host.ClientDiverged += (peer, time) => Tell(() => printer.Problem(FormattableString.Invariant(
-                $"Peer {peer} says that its committed state at T {(time - session.World!.Simulation.Start).ToSeconds()} s is not this one's.")));
-        }
-
-        session.StateCommitted += OnCommitted;
-        if (session is ClientSession client)
-        {
-            client.Diverged += _ => TellDifference();
-            client.Interrupted += why => Tell(() => printer.Problem($"{why} Asking to be let in again."));
-            client.Regained += () => Tell(() => printer.Problem("The host is there again; all goes on."));
-            client.Renewed += _ => OnRenewed(client.Peer);
-        }
-
+        session.Begun += queue.Wake;
+        session.Ended += queue.Wake;
+        watch = new SessionWatch(session, request, printer, queue);
+        actions = new SessionActions(session, request.Actions, printer, queue);
         if (request.RecordFile is string file)
         {
             recorder = new SessionRecorder(session, file, request.Length);
-            recorder.Failed += why => Tell(() => printer.Problem(why));
+            recorder.Failed += why => queue.Tell(() => printer.Problem(why));
         }
 
         thread = new PeerThread(session, port, "LagSim session");
-        thread.HandlerFailed += failure => Tell(() => printer.Problem($"Something that happened could not be told: {failure.Message}"));
-        onStop = stop.Register(Wake);
+        thread.HandlerFailed += failure =>
+            queue.Tell(() => printer.Problem($"Something that happened could not be told: {failure.Message}"));
+        onStop = stop.Register(queue.Wake);
     }
 
     /// <summary>What a session that ended so is to the shell. That states differ, or accepted events are lost, counts whatever else there is.</summary>
@@ -121,12 +88,12 @@ internal sealed class SessionRunner : IDisposable
         {
             while (wait is TimeSpan span && !stop.IsCancellationRequested && thread.State != SessionState.Ended)
             {
-                wakeUp.WaitOne(span);
-                PrintTold();
-                LookAtAttempts();
-                LookAtLinks();
-                LookAtPace();
-                LookAtSilence(asking.Elapsed);
+                queue.Wait(span);
+                queue.Print();
+                actions.LookAtAttempts();
+                watch.LookAtLinks(thread);
+                watch.LookAtPace();
+                watch.LookAtSilence(asking.Elapsed);
                 wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
             }
         }
@@ -140,9 +107,10 @@ internal sealed class SessionRunner : IDisposable
         Leave();
         if (!isInterrupted)
         {
-            TellUndone();
+            actions.TellUndone();
         }
 
+        bool hasFailedAction = hasFailed || actions.HaveFailed;
         SessionCounters counters = session.Counters;
         int code = ExitCodeOf(session.EndedBy, isTimeReached, counters.StatesDiffered, counters.EventsLost, hasFailedAction, isInterrupted);
         if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
@@ -174,7 +142,7 @@ internal sealed class SessionRunner : IDisposable
             thread.Ask(peer =>
             {
                 string answer = what(peer);
-                Tell(() => printer.Line(answer));
+                queue.Tell(() => printer.Line(answer));
                 return true;
             });
         }
@@ -190,61 +158,7 @@ internal sealed class SessionRunner : IDisposable
         onStop.Dispose();
         thread.Dispose();
         recorder?.Dispose();
-        wakeUp.Dispose();
-    }
-
-    private void Wake()
-    {
-        try
-        {
-            wakeUp.Set();
-        }
-        catch (ObjectDisposedException)
-        {
-            // Nobody waits any more.
-        }
-    }
-
-    private void Tell(Action what)
-    {
-        told.Enqueue(what);
-        Wake();
-    }
-
-    private void PrintTold()
-    {
-        while (told.TryDequeue(out Action? what))
-        {
-            what();
-        }
-    }
-
-    /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
-    private void LookAtPace()
-    {
-        if (session.World is not { } world || session.State != SessionState.Running)
-        {
-            return; // there is no shared time yet, or the world waits for a host that is silent
-        }
-
-        SimTime now = session.SharedTime.Now;
-        SimDuration behind = now - world.Simulation.SimulatedTo;
-        if (pace.Finds(now, behind))
-        {
-            printer.Problem(FormattableString.Invariant($"The world is {behind.ToSeconds():0.0} s behind: this machine cannot simulate it in real time."));
-        }
-    }
-
-    /// <summary>Tells, once and soon, that no host answers, and for how long it will be asked: with a pass that is minutes.</summary>
-    private void LookAtSilence(TimeSpan asked)
-    {
-        if (!hasToldSilence && asked >= SilenceToTell && session is ClientSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0)
-        {
-            hasToldSilence = true;
-            ClientOptions options = ClientOptions.From(request.Options);
-            SimDuration most = options.Pass.Number > 0 && options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
-            printer.Problem(FormattableString.Invariant($"No host answers at {request.Host} yet; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
-        }
+        queue.Dispose();
     }
 
     private double Passed(SimTime start) => (session.SharedTime.Now - start).ToSeconds();
@@ -254,27 +168,22 @@ internal sealed class SessionRunner : IDisposable
     private TimeSpan? Tend(SimTime start)
     {
         double passed = Passed(start);
-        if (actions is null)
+        if (!actions.HaveBegun)
         {
-            actions = request.ScriptedActions.Select(scripted => scripted.ActionIn(session.Scene!)).ToArray();
-            SkipPast(passed);
+            actions.Begin(session.Scene!, passed);
             if (passed > request.Seconds)
             {
                 Fail(FormattableString.Invariant($"--for-s {request.Seconds} was over when this peer came in at T {passed:0.000} s."));
             }
         }
 
-        for (; done < actions.Length && request.ScriptedActions[done].Seconds <= passed; done++)
-        {
-            Do(request.ScriptedActions[done], actions[done]);
-        }
-
+        actions.DoDue(thread, passed);
         if (passed >= request.Seconds)
         {
             return HasSettled(start) ? null : LookInterval / 2;
         }
 
-        double next = Math.Min(done < actions.Length ? request.ScriptedActions[done].Seconds : double.MaxValue, request.Seconds ?? double.MaxValue);
+        double next = Math.Min(actions.NextSeconds, request.Seconds ?? double.MaxValue);
         return TimeSpan.FromMilliseconds(Math.Min(Math.Ceiling(1000 * (next - passed)), LookInterval.TotalMilliseconds));
     }
 
@@ -291,7 +200,7 @@ internal sealed class SessionRunner : IDisposable
         if (session is ClientSession client)
         {
             timeoutEnd ??= now + client.History + (request.Options.KeepAlive * 2);
-            return (isCommitted && attempts.Count == 0 && !isAwaitingVerdict) || now >= timeoutEnd;
+            return (isCommitted && actions.AreSettled) || now >= timeoutEnd;
         }
 
         if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.Window.History + WorldTimeout)
@@ -313,145 +222,10 @@ internal sealed class SessionRunner : IDisposable
         return isCommitted && (printer.Links.Present == 0 || now >= timeoutEnd);
     }
 
-    /// <summary>Gives up what was to be done before this peer came in: done now it would be something else.</summary>
-    private void SkipPast(double passed)
-    {
-        for (; done < request.ScriptedActions.Count && request.ScriptedActions[done].Seconds < passed; done++)
-        {
-        }
-
-        if (done > 0)
-        {
-            Fail(FormattableString.Invariant($"Not done, for the time was past when this peer came in at T {passed:0.000} s: {Texts(request.ScriptedActions.Take(done))}."));
-        }
-    }
-
-    private void Do(ScriptedAction scripted, PlayerAction action) => attempts.Add((scripted, thread.Ask(peer =>
-    {
-        ExternalEvent external = peer.Do(action);
-        if (peer is ClientSession) // what a host does needs nobody's leave
-        {
-            unconfirmed[external.Sequence] = scripted;
-            isAwaitingVerdict = true;
-        }
-
-        return external;
-    })));
-
-    /// <summary>Tells of what could not be done here.</summary>
-    private void LookAtAttempts()
-    {
-        foreach ((ScriptedAction scripted, Task attempt) in attempts)
-        {
-            if (attempt.IsFaulted)
-            {
-                Fail($"--do {scripted.Text} was not done. {attempt.Exception!.InnerException!.Message}");
-            }
-        }
-
-        attempts.RemoveAll(a => a.Attempt.IsFaulted || a.Attempt.IsCompletedSuccessfully);
-    }
-
-    /// <summary>Tells of what was not done, or what nobody knows of. The session's thread must have stopped.</summary>
-    private void TellUndone()
-    {
-        ScriptedAction[] undone = [.. attempts.Select(a => a.ScriptedAction), .. request.ScriptedActions.Skip(done)];
-        if (undone.Length > 0)
-        {
-            Fail($"Not done, for the session ended before: {Texts(undone)}.");
-        }
-
-        if (unconfirmed.Count > 0)
-        {
-            Fail($"Done here, but the session ended before the host's verdict came: {Texts(unconfirmed.OrderBy(d => d.Key).Select(d => d.Value))}.");
-        }
-    }
-
     private void Fail(string sentence)
     {
-        hasFailedAction = true;
+        hasFailed = true;
         printer.Problem(sentence);
-    }
-
-    private static string Texts(IEnumerable<ScriptedAction> scriptedActions) => string.Join(", ", scriptedActions.Select(scripted => $"--do {scripted.Text}"));
-
-    /// <summary>Has the session's thread say how its links are; what it said before of who came and went is printed before.</summary>
-    private void LookAtLinks()
-    {
-        if (!isLooking)
-        {
-            isLooking = true;
-            thread.Ask(peer =>
-            {
-                IReadOnlyList<LinkTraffic> links = peer.Links;
-                told.Enqueue(() =>
-                {
-                    isLooking = false;
-                    printer.LookAt(links);
-                });
-                return true;
-            });
-        }
-    }
-
-    private void OnLogged(LogEntry entry)
-    {
-        if (session is ClientSession && entry.Event.Peer == session.Peer && unconfirmed.Remove(entry.Event.Sequence, out ScriptedAction? scripted))
-        {
-            isAwaitingVerdict = unconfirmed.Count > 0;
-            if (entry.Verdict != Verdict.Accepted)
-            {
-                Tell(() => Fail($"The host refused --do {scripted.Text}: {Why(entry.Verdict)}."));
-            }
-        }
-    }
-
-    /// <summary>
-    /// Stops waiting for the verdicts that had not come yet. With a fresh copy the numbers of this peer's events may start again, so a later verdict on one of these
-    /// numbers would be about another event.
-    /// </summary>
-    private void OnRenewed(byte player)
-    {
-        Tell(() => printer.Problem($"In again as player {player}, with a fresh copy of the world."));
-        if (unconfirmed.Count > 0)
-        {
-            string texts = Texts(unconfirmed.OrderBy(d => d.Key).Select(d => d.Value));
-            unconfirmed.Clear();
-            isAwaitingVerdict = false;
-            Tell(() => Fail($"Done here, but a fresh copy took the place of the world before the host's verdict came: {texts}."));
-        }
-    }
-
-    private static string Why(Verdict verdict) => verdict switch
-    {
-        Verdict.TooLate => "it came too late, when nothing could change any more what was to happen then (the host's --history-s)",
-        Verdict.TooEarly => "it is stamped too far in the future",
-        Verdict.NoRight =>
-            "this peer may not do that: it has no right to, or what it did costs more than the host allows (docs/BUDGETS.md)",
-        _ => "it makes no sense in this scene",
-    };
-
-    private void OnCommitted(CommittedState state)
-    {
-        ClockReading? clock = session is ClientSession client
-            ? new ClockReading(client.ClockSync.Estimate.Offset, client.ClockSync.Estimate.ErrorBound, client.ClockSync.RoundTrip / 2)
-            : null;
-        SimDuration sinceStart = state.Time - session.World!.Simulation.Start;
-        if (!(sinceStart > request.Length))
-        {
-            Tell(() => printer.State(state, sinceStart, clock));
-        }
-    }
-
-    /// <summary>Tells of the first committed state that was not the host's, and what is known of it.</summary>
-    private void TellDifference()
-    {
-        if (!hasToldDifference && session is ClientSession { Divergence: Divergence divergence })
-        {
-            hasToldDifference = true;
-            string sentences = divergence.ToString();
-            Tell(() => printer.Problem(sentences));
-        }
     }
 
     private void SayGoodbye()
@@ -486,9 +260,9 @@ internal sealed class SessionRunner : IDisposable
             session.Leave(); // its thread was stopped in the middle of its work, so this one may
         }
 
-        TellDifference();
-        PrintTold();
-        LookAtAttempts();
+        watch.TellDifference();
+        queue.Print();
+        actions.LookAtAttempts();
         printer.LookAt(session.Links);
         recorder?.Dispose();
     }

@@ -77,7 +77,7 @@ internal static class CheckJson
         json.WriteString("replay", failure.Command);
         json.WriteBoolean("shrunk", failure.IsShrunk);
         json.WriteNumber("bodies", failure.Least.Bodies.Count);
-        json.WriteNumber("deeds", failure.Least.ScriptedActions.Count);
+        json.WriteNumber("deeds", failure.Least.Actions.Count);
         if (failure.Least.Difference is FirstDifference difference)
         {
             json.WriteStartObject("first_difference");

@@ -55,14 +55,15 @@ internal static class CompareFiles
         using StreamWriter file = new(path);
         CsvFile csv = new(
             file, "time_s", "peer", "kind", "body", "x_m", "y_m", "z_m", "vx_m_per_s_or_n_s", "vy_m_per_s_or_n_s", "vz_m_per_s_or_n_s", "radius_m", "mass_kg", "restitution");
-        foreach (PlannedAction scripted in options.Plan)
+        foreach (PlannedAction action in options.Plan)
         {
-            bool isPlaced = scripted.Kind is Events.EventKind.Teleport or Events.EventKind.Spawn;
-            bool isNew = scripted.Kind == Events.EventKind.Spawn;
+            bool isPlaced = action.Kind is Events.EventKind.Teleport or Events.EventKind.Spawn;
+            bool isNew = action.Kind == Events.EventKind.Spawn;
             csv.WriteRow(
-                scripted.Time.ToSeconds(), scripted.Peer, CompareJson.KindOf(scripted), CompareJson.BodyOf(options.Scene, scripted),
-                isPlaced ? scripted.Position.X : null, isPlaced ? scripted.Position.Y : null, isPlaced ? scripted.Position.Z : null, scripted.Velocity.X, scripted.Velocity.Y, scripted.Velocity.Z,
-                isNew ? scripted.Spec.Radius : null, isNew ? scripted.Spec.Mass : null, isNew ? scripted.Spec.Restitution : null);
+                action.Time.ToSeconds(), action.Peer, CompareJson.KindOf(action), CompareJson.BodyOf(options.Scene, action),
+                isPlaced ? action.Position.X : null, isPlaced ? action.Position.Y : null, isPlaced ? action.Position.Z : null,
+                action.Velocity.X, action.Velocity.Y, action.Velocity.Z,
+                isNew ? action.Spec.Radius : null, isNew ? action.Spec.Mass : null, isNew ? action.Spec.Restitution : null);
         }
     }
 

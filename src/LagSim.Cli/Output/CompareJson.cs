@@ -19,13 +19,13 @@ internal static class CompareJson
         JsonDocumentWriter.Write(output, "compare", options.Seed, options.Scene.Name, options.Scene.Hash, state, json =>
         {
             json.WriteStartArray("plan");
-            foreach (PlannedAction scripted in options.Plan)
+            foreach (PlannedAction action in options.Plan)
             {
                 json.WriteStartObject();
-                json.WriteNumber("time_s", scripted.Time.ToSeconds());
-                json.WriteNumber("peer", scripted.Peer);
-                json.WriteString("kind", KindOf(scripted));
-                json.WriteString("body", BodyOf(options.Scene, scripted));
+                json.WriteNumber("time_s", action.Time.ToSeconds());
+                json.WriteNumber("peer", action.Peer);
+                json.WriteString("kind", KindOf(action));
+                json.WriteString("body", BodyOf(options.Scene, action));
                 json.WriteEndObject();
             }
 
@@ -43,16 +43,16 @@ internal static class CompareJson
         });
     }
 
-    /// <summary>A scripted action's kind, as on the command line of <c>join --do</c>.</summary>
-    internal static string KindOf(PlannedAction scripted) => scripted.Kind switch
+    /// <summary>An action's kind, as on the command line of <c>join --do</c>.</summary>
+    internal static string KindOf(PlannedAction action) => action.Kind switch
     {
         Events.EventKind.SetVelocity => "set-velocity",
-        _ => scripted.Kind.ToString().ToLowerInvariant(),
+        _ => action.Kind.ToString().ToLowerInvariant(),
     };
 
-    /// <summary>The name of the body that a scripted action is about; of a new one its identity.</summary>
-    internal static string BodyOf(Scene scene, PlannedAction scripted) =>
-        scripted.Kind == Events.EventKind.Spawn ? scripted.Body.ToString() : scene.Bodies[scripted.Body.Index].Name;
+    /// <summary>The name of the body that an action is about; of a new one its identity.</summary>
+    internal static string BodyOf(Scene scene, PlannedAction action) =>
+        action.Kind == Events.EventKind.Spawn ? action.Body.ToString() : scene.Bodies[action.Body.Index].Name;
 
     private static void Run(Utf8JsonWriter json, CompareRun run)
     {

@@ -2,10 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
-using LagSim.Events;
-using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
-using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Testing.Invariant;
 using LagSim.Testing.Links;
@@ -21,8 +18,6 @@ internal sealed class SessionRun
     /// <summary>The offset of two machines' clocks: up to an hour, and up to 20 millionths fast or slow.</summary>
     private const double ClockSpreadSeconds = 3600;
     private const double ClockDriftPartsPerMillion = 20;
-
-    private const double FramesPerSecond = 60;
 
     /// <summary>
     /// How long a client may take to get in, and the last events to reach every player, in seconds; much longer than on the worst of links.
@@ -42,16 +37,10 @@ internal sealed class SessionRun
     private readonly Func<int, SessionOptions> options;
     private readonly Action<int, Session>? prepareSession;
     private readonly CancellationToken cancellation;
-    private readonly VirtualClock clock = new(SimTime.FromSeconds(2 * ClockSpreadSeconds));
-    private readonly VirtualNetwork network;
-    private readonly VirtualSteps steps;
+    private readonly VirtualRun run;
     private readonly SeededRandom clockLuck;
     private readonly Member?[] members; // by number; null for one that has not asked yet
-    private readonly List<ExternalEvent> accepted = [];
-    private readonly List<uint> acceptedEntries = [];
-    private SimTime nextFrame = SimTime.MaxValue; // true time
-    private long refused;
-    private long tooLate;
+    private readonly HostLog log = new();
 
     internal SessionRun(
         Scene scene,
@@ -69,8 +58,7 @@ internal sealed class SessionRun
         this.options = options;
         this.prepareSession = prepareSession;
         this.cancellation = cancellation;
-        network = new VirtualNetwork(clock, seed);
-        steps = new VirtualSteps(network);
+        run = new VirtualRun(2 * ClockSpreadSeconds, seed, cancellation);
         clockLuck = new SeededRandom(seed).Fork(0xC10C);
         members = new Member?[clients.Count + 1];
     }
@@ -115,16 +103,16 @@ internal sealed class SessionRun
         }
 
         RunUntil(() => Host.State == SessionState.Running && Members.All(m => m.Session.World is not null), "The world did not begin");
-        nextFrame = clock.Now;
+        run.BeginFrames(CountFrame);
     }
 
     /// <summary>Performs everything that is planned, until the end of the run.</summary>
     private void Act(double seconds)
     {
-        SimTime start = clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now); // true time
+        SimTime start = run.Clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now); // true time
         foreach ((double at, Action act) in Plan(seconds))
         {
-            AdvanceTo(SimTime.Max(start + SimDuration.FromSeconds(at), clock.Now));
+            run.AdvanceTo(SimTime.Max(start + SimDuration.FromSeconds(at), run.Clock.Now));
             act();
         }
     }
@@ -164,10 +152,10 @@ internal sealed class SessionRun
     {
         if (members[act.Player] is Member waiting && !waiting.HasEnded)
         {
-            SimTime deadline = clock.Now + ClockTimeout;
-            while (!waiting.IsRunning && !waiting.HasEnded && clock.Now < deadline)
+            SimTime deadline = run.Clock.Now + ClockTimeout;
+            while (!waiting.IsRunning && !waiting.HasEnded && run.Clock.Now < deadline)
             {
-                Advance(deadline);
+                run.Advance(deadline);
             }
         }
 
@@ -193,7 +181,7 @@ internal sealed class SessionRun
 
     private void Settle()
     {
-        nextFrame = SimTime.MaxValue; // the watched session has ended
+        run.EndFrames(); // the watched session has ended
         RunUntil(() => Members.All(HasHeardAll), "Not every player had heard of everything");
     }
 
@@ -203,11 +191,6 @@ internal sealed class SessionRun
     private void Add(int number, int expectedClients)
     {
         PlannedClient? client = number == 0 ? null : clients[number - 1];
-        if (client is not null)
-        {
-            network.Connect(number, 0, client.Link);
-        }
-
         SessionOptions chosen = options(number)
             ?? throw new SessionTestException($"There are no session options for player {number}: what WithOptions got returned null.");
         chosen = chosen with
@@ -215,18 +198,19 @@ internal sealed class SessionRun
             Cancellation = cancellation,
             ExtraHistory = chosen.Contacts is null ? WholeTimelines : chosen.ExtraHistory,
         };
-        IDatagramPort port = network.CreatePort(number);
         SeededRandom luck = clockLuck.Fork((ulong)number);
         double drift = luck.NextDouble(-ClockDriftPartsPerMillion, ClockDriftPartsPerMillion);
         SimDuration apart = SimDuration.FromSeconds(luck.NextDouble(-ClockSpreadSeconds, ClockSpreadSeconds));
-        SkewedClock own = new(clock, drift, apart + (client?.Link.ReceiverClockOffset ?? SimDuration.Zero));
-        Session session = number == 0
-            ? new HostSession(scene, port, own, HostsOf(chosen, expectedClients), seed)
-            : new ClientSession(null, port, own, ClientsOf(chosen), PeerAddress.Virtual(0), seed + (ulong)number);
-        int place = steps.Add(session, port);
-        Member member = new(client?.Link, session, new TestPlayer(number, session, () => steps.Wake(place)), _ => acceptedEntries);
-        members[number] = member;
-        Watch(member);
+        (Session session, int place) = run.Open(
+            number,
+            client?.Link,
+            drift,
+            apart + (client?.Link.ReceiverClockOffset ?? SimDuration.Zero),
+            (port, own) => number == 0
+                ? new HostSession(scene, port, own, HostsOf(chosen, expectedClients), seed)
+                : new ClientSession(null, port, own, ClientsOf(chosen), VirtualRun.HostAddress, seed + (ulong)number));
+        prepareSession?.Invoke(number, session);
+        members[number] = new Member(client?.Link, session, new TestPlayer(number, session, () => run.Steps.Wake(place)), log);
     }
 
     private HostOptions HostsOf(SessionOptions chosen, int expectedClients)
@@ -255,78 +239,22 @@ internal sealed class SessionRun
         + (leg.Bottleneck?.QueueMilliseconds ?? 0)
         + (leg.Outage?.Length.ToMilliseconds() ?? 0);
 
-    private void Watch(Member member)
-    {
-        Session session = member.Session;
-        session.StateCommitted += member.Committed.Add;
-        prepareSession?.Invoke(member.Player.Number, session);
-        if (session is ClientSession client)
-        {
-            member.Coverage.Follow(client);
-            client.Interrupted += _ =>
-            {
-                // A repaired world still counts: it is compared, as it was, with the one that never had a delay.
-                if (client.Counters.StatesDiffered > 0 && client.World is not null)
-                {
-                    member.Wrong.Add(client.World.Simulation);
-                }
-            };
-        }
-        else
-        {
-            session.Logged += Log;
-        }
-    }
-
-    private void Log(LogEntry entry)
-    {
-        if (entry.Verdict == Verdict.Accepted)
-        {
-            accepted.Add(entry.Event);
-            acceptedEntries.Add(entry.Index);
-            return;
-        }
-
-        refused++;
-        tooLate += entry.Verdict == Verdict.TooLate ? 1 : 0;
-    }
-
     private void RunUntil(Func<bool> isSo, string what)
     {
-        SimTime deadline = clock.Now + SimDuration.FromSeconds(Timeout);
-        while (!isSo())
+        WaitEnd end = run.RunUntil(isSo, () => Members.Any(m => m.HasEnded && !m.Player.HasLeft), Timeout);
+        if (end != WaitEnd.IsSo)
         {
-            if (clock.Now >= deadline || Members.Any(m => m.HasEnded && !m.Player.HasLeft))
-            {
-                string after = clock.Now >= deadline ? FormattableString.Invariant($" within {Timeout} s of virtual time") : "";
-                string states = string.Join("; ", Members.Select(m => $"player {m.Player.Number} is {m.State}"));
-                throw new SessionTestException($"{what}{after}: {states}.");
-            }
-
-            Advance(deadline);
+            string after = end == WaitEnd.TimeIsUp ? FormattableString.Invariant($" within {Timeout} s of virtual time") : "";
+            string states = string.Join("; ", Members.Select(m => $"player {m.Player.Number} is {m.State}"));
+            throw new SessionTestException($"{what}{after}: {states}.");
         }
     }
 
-    private void AdvanceTo(SimTime time)
+    private void CountFrame()
     {
-        while (clock.Now < time)
+        foreach (Member member in Members)
         {
-            Advance(time);
-        }
-    }
-
-    private void Advance(SimTime limit)
-    {
-        cancellation.ThrowIfCancellationRequested();
-        steps.Advance(SimTime.Min(limit, nextFrame));
-        if (clock.Now >= nextFrame)
-        {
-            foreach (Member member in Members)
-            {
-                member.CountFrame();
-            }
-
-            nextFrame += SimDuration.FromSeconds(1 / FramesPerSecond);
+            member.CountFrame();
         }
     }
 
@@ -338,18 +266,13 @@ internal sealed class SessionRun
         foreach (Member member in Members)
         {
             end = member.Session.World is null ? end : SimTime.Max(end, member.Session.World.Simulation.SimulatedTo);
-            member.Wrong.ForEach(world => end = SimTime.Max(end, world.SimulatedTo));
+            end = member.Trace.Wrong.Aggregate(end, (latest, world) => SimTime.Max(latest, world.SimulatedTo));
         }
 
-        Simulation alone = new(scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1));
+        Simulation alone;
         try
         {
-            foreach (ExternalEvent external in accepted)
-            {
-                alone.Submit(external);
-            }
-
-            alone.AdvanceTo(end);
+            alone = log.Replay(scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1), end);
         }
         catch (SimulationException thrown)
         {
@@ -360,20 +283,20 @@ internal sealed class SessionRun
         foreach (Member member in Members)
         {
             int number = member.Player.Number;
-            member.Committed.ForEach(state => comparison.Take(number, state));
-            member.Wrong.ForEach(world => comparison.Take(number, world));
+            member.Trace.CompareCommitted(number, comparison);
+            member.Trace.CompareWrong(number, comparison);
             if (!member.Player.HasLeft && member.Session.World is not null)
             {
                 comparison.Take(number, member.Session.World.Simulation);
             }
         }
 
-        PlayerResult[] players = [.. Members.Select(m => m.ToResult(network.Traffic(m.Player.Number)))];
+        PlayerResult[] players = [.. Members.Select(m => m.ToResult(run.Network.Traffic(m.Player.Number)))];
         return new SessionTestResult(alone, seed, seconds, comparison, players, NoPromise())
         {
-            EventsAccepted = accepted.Count,
-            EventsRefused = refused,
-            EventsTooLate = tooLate,
+            EventsAccepted = log.Accepted.Count,
+            EventsRefused = log.Refused,
+            EventsTooLate = log.TooLate,
         };
     }
 
@@ -385,12 +308,12 @@ internal sealed class SessionRun
     /// <summary>The state of one player during the run.</summary>
     private sealed class Member
     {
-        internal Member(LinkProfile? link, Session session, TestPlayer player, Func<SimTime, IEnumerable<uint>> accepted)
+        internal Member(LinkProfile? link, Session session, TestPlayer player, HostLog log)
         {
             Link = link;
             Session = session;
             Player = player;
-            Coverage = new LogCoverage(accepted);
+            Trace = new SessionTrace(session, log);
         }
 
         internal LinkProfile? Link { get; }
@@ -399,13 +322,8 @@ internal sealed class SessionRun
 
         internal TestPlayer Player { get; }
 
-        /// <summary>The part of the host's log that it received; nothing for the host.</summary>
-        internal LogCoverage Coverage { get; }
-
-        internal List<CommittedState> Committed { get; } = [];
-
-        /// <summary>Its worlds that turned out to differ and were replaced.</summary>
-        internal List<Simulation> Wrong { get; } = [];
+        /// <summary>What is to be compared of it.</summary>
+        internal SessionTrace Trace { get; }
 
         internal long Frames { get; private set; }
 
@@ -418,7 +336,7 @@ internal sealed class SessionRun
         internal string State => HasEnded ? $"out: {Session.EndReason}" : Session.State.ToString().ToLowerInvariant();
 
         internal PlayerResult ToResult(PortTraffic traffic) =>
-            new(Player.Number, Link, Session, traffic, Frames, StalledFrames, Session is ClientSession ? Coverage.Count().Lost : 0);
+            new(Player.Number, Link, Session, traffic, Frames, StalledFrames, Session is ClientSession ? Trace.Lost : 0);
 
         internal void CountFrame()
         {

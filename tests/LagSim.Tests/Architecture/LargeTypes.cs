@@ -18,10 +18,8 @@ internal static class LargeTypes
         // Tests for games.
         new("LagSim.Testing.Links.BulkTransfer", "the state of one sender of a stream, most of it the numbers of its congestion window"),
         new("LagSim.Testing.Links.LinkModel", "one direction of a link: a stream of random numbers for each thing that can go wrong there, and where it stands"),
-        new("LagSim.Testing.Running.SessionRun", "one session from start to end, with its clocks and its network; a few lines over"),
 
         // What the tool does.
-        new("LagSim.Cli.Commands.SessionRunner", "waits to be split: asking to join, acting, watching and the end are in one"),
         new("LagSim.Harness.Experiments.Compare.CompareRun", "one run from start to end: its set-up, its players and what it measures"),
         new("LagSim.Harness.Experiments.Drop.DropRun", "one run from start to end: its set-up, its players and what it measures"),
         new("LagSim.Harness.Experiments.Hold.HoldRun", "one run from start to end: its set-up, its players and what it measures"),
@@ -29,7 +27,6 @@ internal static class LargeTypes
         new("LagSim.Harness.Relays.RelayCore", "what a relay is set to, its clients, and what it counts"),
         new("LagSim.Harness.SceneFiles.SceneJsonReader", "a method for each element of the format; together they are its definition"),
         new("LagSim.Harness.Verification.Check.CheckOutcome", "a result record, a field for each figure"),
-        new("LagSim.Harness.Verification.Check.CheckSession", "one drawn session from start to end; waits to be split into drawing, playing and judging"),
         new("LagSim.Harness.Verification.Check.RoomScene", "draws a scene: a field for each trait that all its bodies share"),
         new("LagSim.Harness.Verification.Stalls.StallClient", "one client of a run, with all that is measured of it"),
         new("LagSim.Harness.Verification.Stalls.StallProcessRun", "one run from start to end: its set-up, its processes and what it measures"),

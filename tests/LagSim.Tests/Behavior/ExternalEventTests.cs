@@ -138,10 +138,10 @@ public sealed class ExternalEventTests
     }
 
     [Fact]
-    public void ScriptedActions_ToABodyThatIsNotThere_DoNothingUntilItsSpawnArrives()
+    public void Actions_ToABodyThatIsNotThere_DoNothingUntilItsSpawnArrives()
     {
-        ExternalEvent scripted = ExternalEvent.SetVelocity(At(1), 2, 1, Guest, V(0, 0, -4));
-        Simulation simulation = With(Space, 2, scripted);
+        ExternalEvent action = ExternalEvent.SetVelocity(At(1), 2, 1, Guest, V(0, 0, -4));
+        Simulation simulation = With(Space, 2, action);
         Simulation untouched = Run(Space, 2);
         Assert.Equal(untouched.StateHash(At(2)), simulation.StateHash(At(2)));
         Assert.Equal(untouched.EventHash(At(2)), simulation.EventHash(At(2)));
@@ -149,7 +149,7 @@ public sealed class ExternalEventTests
         Assert.Equal(SubmitResult.RolledBack, simulation.Submit(SpawnAt(0.5)));
         simulation.AdvanceTo(At(2));
         Assert.Equal(V(0, 5, 0.5 - 4), Read(simulation, Guest, 2).Position);
-        Simulation onTime = With(Space, 2, SpawnAt(0.5), scripted);
+        Simulation onTime = With(Space, 2, SpawnAt(0.5), action);
         Assert.Equal(onTime.StateHash(At(2)), simulation.StateHash(At(2)));
         Assert.Equal(onTime.EventHash(At(2)), simulation.EventHash(At(2)));
     }
@@ -157,11 +157,11 @@ public sealed class ExternalEventTests
     [Fact]
     public void Retract_OfAnAppliedEvent_IsAsIfItHadNeverBeen()
     {
-        ExternalEvent scripted = ExternalEvent.SetVelocity(At(1), 2, 1, First, V(0, 1));
-        Simulation simulation = With(Space, 2, scripted);
+        ExternalEvent action = ExternalEvent.SetVelocity(At(1), 2, 1, First, V(0, 1));
+        Simulation simulation = With(Space, 2, action);
         Assert.NotEqual(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
-        Assert.True(simulation.Retract(scripted));
-        Assert.False(simulation.Retract(scripted));
+        Assert.True(simulation.Retract(action));
+        Assert.False(simulation.Retract(action));
         Assert.Equal(Run(Space, 2).StateHash(At(2)), simulation.StateHash(At(2)));
         Assert.Equal(Run(Space, 2).EventHash(At(2)), simulation.EventHash(At(2)));
     }
@@ -225,16 +225,16 @@ public sealed class ExternalEventTests
     [Fact]
     public void Submit_TheSameEventAgain_IsADuplicateQueuedOrApplied()
     {
-        ExternalEvent scripted = ExternalEvent.Impulse(At(1), 2, 1, First, V(0, 2));
+        ExternalEvent action = ExternalEvent.Impulse(At(1), 2, 1, First, V(0, 2));
         Simulation simulation = new(Space, KeepAll);
-        Assert.Equal(SubmitResult.Queued, simulation.Submit(scripted));
-        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(scripted));
+        Assert.Equal(SubmitResult.Queued, simulation.Submit(action));
+        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(action));
         simulation.AdvanceTo(At(2));
-        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(scripted));
+        Assert.Equal(SubmitResult.Duplicate, simulation.Submit(action));
         Assert.Equal(V(1, 1), Read(simulation, First, 2).Velocity);
         Assert.Equal(0, simulation.Rollbacks);
 
-        // The control: another sequence number is another scripted action.
+        // The control: another sequence number is another action.
         Assert.Equal(SubmitResult.RolledBack, simulation.Submit(ExternalEvent.Impulse(At(1), 2, 2, First, V(0, 2))));
         simulation.AdvanceTo(At(2));
         Assert.Equal(V(1, 2), Read(simulation, First, 2).Velocity);

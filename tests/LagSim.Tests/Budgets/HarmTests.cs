@@ -63,7 +63,7 @@ public sealed class HarmTests
     {
         HarmCase[] cases = [.. Enumerable.Range(1, 200).Select(seed => new HarmCase((ulong)seed))];
         Assert.Equal(Enum.GetValues<HarmKind>().Length, cases.Select(c => c.Kind).Distinct().Count());
-        Assert.All(cases, c => Assert.True(c.ScriptedActions.All(d => d.Velocity.Length <= 1000 && d.AtSeconds < HarmCase.Seconds)));
+        Assert.All(cases, c => Assert.True(c.Actions.All(d => d.Velocity.Length <= 1000 && d.AtSeconds < HarmCase.Seconds)));
     }
 
     private static IReadOnlyList<HarmOutcome> Play(HarmOptions options) => HarmTest.Run(options, null, TestContext.Current.CancellationToken);

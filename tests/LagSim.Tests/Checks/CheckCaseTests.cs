@@ -10,17 +10,18 @@ using Xunit;
 
 namespace LagSim.Tests.Checks;
 
-/// <summary>What <c>check</c> draws: every sort of scene, link and scripted action, and what is rare.</summary>
+/// <summary>What <c>check</c> draws: every sort of scene, link and action, and what is rare.</summary>
 public sealed class CheckCaseTests
 {
     private static readonly CheckCase[] Cases = [.. Enumerable.Range(1, 150).Select(seed => new CheckCase((ulong)seed, new CheckOptions()))];
 
     [Fact]
-    public void Draw_ManySeeds_EverySortOfSceneLinkAndScriptedAction()
+    public void Draw_ManySeeds_EverySortOfSceneLinkAndAction()
     {
         CheckCase[] cases = Cases[..60];
         Assert.All(cases, c => Assert.InRange(c.Scene.Bodies.Count, 8, 12));
-        Assert.All(cases, c => Assert.True(c.ScriptedActions.Count >= 20 && c.ScriptedActions.Zip(c.ScriptedActions.Skip(1)).All(pair => pair.First.AtSeconds <= pair.Second.AtSeconds)));
+        Assert.All(cases, c => Assert.True(c.Actions.Count >= 20));
+        Assert.All(cases, c => Assert.True(c.Actions.Zip(c.Actions.Skip(1)).All(pair => pair.First.AtSeconds <= pair.Second.AtSeconds)));
         Assert.Equal(2, cases.Select(c => c.Scene.Gravity == Vector3D.Zero).Distinct().Count());
         Assert.Contains(cases, c => c.Scene.StaticSpheres.Count > 0);
         MotionLaw[] flights = [.. cases.SelectMany(c => c.Scene.Bodies).Select(b => b.Spec.Flight).Distinct()];
@@ -28,8 +29,8 @@ public sealed class CheckCaseTests
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Friction > 0 && b.Spin != Vector3D.Zero));
         Assert.All(Enumerable.Range(0, 7), n => Assert.Contains(Cases, c => c.Scene.Forces.Count == 7 && c.Scene.Bodies.Any(b => b.Spec.Forces.Contains(n))));
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
-        Assert.Equal(8, cases.SelectMany(c => c.ScriptedActions).Select(d => d.Kind).Distinct().Count());
-        Assert.Contains(cases.SelectMany(c => c.ScriptedActions), d => d.Kind == EventKind.Spawn && d.Spin != Vector3D.Zero && d.Spec.Friction > 0);
+        Assert.Equal(8, cases.SelectMany(c => c.Actions).Select(d => d.Kind).Distinct().Count());
+        Assert.Contains(cases.SelectMany(c => c.Actions), d => d.Kind == EventKind.Spawn && d.Spin != Vector3D.Zero && d.Spec.Friction > 0);
         HashSet<string> links = [.. Cases.SelectMany(c => c.Players.Skip(1)).Select(p => p.Link.Name)];
         Assert.Superset(LinkProfiles.All.Where(p => !p.Name.StartsWith("delay-", StringComparison.Ordinal)).Select(p => p.Name).ToHashSet(), links);
         Assert.Contains(cases.SelectMany(c => c.Players), p => p.Link.RoundTripMilliseconds > 3_000);
@@ -44,7 +45,7 @@ public sealed class CheckCaseTests
         Assert.Contains(cases, c => c.Scene.Bodies.Max(b => b.Spec.Mass) >= 1e6 * c.Scene.Bodies.Min(b => b.Spec.Mass));
         CheckCase[] boxes = [.. cases.Where(c => c.Scene.Box.Exists)];
         Assert.InRange(boxes.Length, 2, 15);
-        Assert.Contains(boxes, c => c.ScriptedActions.Any(d => d.Kind == EventKind.Spawn));
+        Assert.Contains(boxes, c => c.Actions.Any(d => d.Kind == EventKind.Spawn));
         CheckCase[] orbits = [.. cases.Where(c => c.Scene.Forces.Any(f => f.Kind == ForceKind.Central && f.Power == -2))];
         Assert.InRange(orbits.Length, 3, 20);
         Assert.All(orbits, c => Assert.Contains(c.Scene.Bodies, b => b.Spec.Flight == MotionLaw.ClosedForm)); // of Kepler's problem: no gravity, one pull
@@ -54,7 +55,7 @@ public sealed class CheckCaseTests
         Assert.InRange(heaps.Length, 4, 20);
         CheckCase[] pits = [.. cases.Where(c => c.Scene.ContactTolerance is 1e-2 or 1e-4)]; // half of them
         Assert.InRange(pits.Length, 10, 40);
-        Assert.All(heaps.Concat(pits), c => Assert.Contains(c.ScriptedActions, d => d.Kind == EventKind.Grab));
+        Assert.All(heaps.Concat(pits), c => Assert.Contains(c.Actions, d => d.Kind == EventKind.Grab));
         Assert.Contains(heaps, c => c.Scene.StaticSpheres.Count > 0);
 
         // Under gravity, among walls.
@@ -70,9 +71,11 @@ public sealed class CheckCaseTests
     public void Draw_Hands_TakeMoveAndLetGoAndAreAfterTheSameBody()
     {
         CheckCase[] cases = Cases[..60];
-        CheckAction[][] hands = [.. cases.Select(c => c.ScriptedActions.Where(d => d.Kind is EventKind.Grab or EventKind.HoldKeyframe or EventKind.Release).ToArray())];
+        EventKind[] ofHands = [EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release];
+        CheckAction[][] hands = [.. cases.Select(c => c.Actions.Where(d => ofHands.Contains(d.Kind)).ToArray())];
         Assert.True(hands.Count(h => h.Length > 0) > 30);
         Assert.Contains(hands, h => h.Where(d => d.Kind == EventKind.Grab).GroupBy(d => (d.Body, d.Spawn)).Any(g => g.Select(d => d.Peer).Distinct().Skip(1).Any()));
-        Assert.All(cases, c => Assert.All(c.ScriptedActions, d => Assert.True(d.Spawn < 0 || (c.ScriptedActions[d.Spawn].Kind == EventKind.Spawn && c.ScriptedActions[d.Spawn].AtSeconds <= d.AtSeconds))));
+        Assert.All(cases, c => Assert.All(c.Actions, d => Assert.True(
+            d.Spawn < 0 || (c.Actions[d.Spawn].Kind == EventKind.Spawn && c.Actions[d.Spawn].AtSeconds <= d.AtSeconds))));
     }
 }

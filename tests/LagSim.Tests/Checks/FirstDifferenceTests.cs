@@ -39,12 +39,18 @@ public sealed class FirstDifferenceTests
     [Fact]
     public void ToString_EventThatIsMissingOrTooMuch_SaysWhich()
     {
-        EventKey scripted = new(At(2.5), 0, EventKind.Impulse, First, First, 2, 7);
+        EventKey impulse = new(At(2.5), 0, EventKind.Impulse, First, First, 2, 7);
         Assert.Equal(
             "Peer 1, body 0.0.0, expected Impulse by peer 2, its event 7, at 1.5 s, after which it is at (2, 0, 0) m with (1, 0, 0) m/s, ballistic; there is none.",
-            Of(scripted, Flying(V(1)), null, default).ToString());
-        Assert.StartsWith("Peer 1, body 0.0.0, expected no event here; there is Impulse", Of(null, default, scripted, Flying(V(1))).ToString(), StringComparison.Ordinal);
-        Assert.Contains("expected no body, there is one at (2, 0, 0) m", Of(scripted, default, scripted, Flying(V(1))).ToString(), StringComparison.Ordinal);
+            Of(impulse, Flying(V(1)), null, default).ToString());
+        Assert.StartsWith(
+            "Peer 1, body 0.0.0, expected no event here; there is Impulse",
+            Of(null, default, impulse, Flying(V(1))).ToString(),
+            StringComparison.Ordinal);
+        Assert.Contains(
+            "expected no body, there is one at (2, 0, 0) m",
+            Of(impulse, default, impulse, Flying(V(1))).ToString(),
+            StringComparison.Ordinal);
     }
 
     private static BodyState Flying(Vector3D velocity) => new(V(2), velocity, MotionLaw.Ballistic);

@@ -14,7 +14,7 @@ namespace LagSim.Tests.Checks;
 public sealed class HealingFaultTests
 {
     [Fact]
-    public void Run_CutsByTime_IsCaughtAndShrunkToTwoScriptedActionsOfOneTick()
+    public void Run_CutsByTime_IsCaughtAndShrunkToTwoActionsOfOneTick()
     {
         CheckOptions options = new()
         {
@@ -25,32 +25,33 @@ public sealed class HealingFaultTests
         };
         CheckReport report = Run(options);
         CheckFailure failure = Assert.Single(report.Failures);
-        Assert.True(failure.Least.ScriptedActions.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
+        Assert.True(failure.Least.Actions.Count == 2 && failure.Least.Bodies.Count <= 2, failure.Command);
         Assert.StartsWith("lagsim check --seed 2 --sessions 1 --strategy full-rollback --bodies ", failure.Command, StringComparison.Ordinal);
         AssertLeast(failure.Least, options);
-        CheckCase least = new(2, options with { Bodies = failure.Least.Bodies, Events = failure.Least.ScriptedActions });
-        Assert.Single(least.ActionIndices.Select(i => least.ScriptedActions[i].AtSeconds).Distinct());
+        CheckCase least = new(2, options with { Bodies = failure.Least.Bodies, Events = failure.Least.Actions });
+        Assert.Single(least.ActionIndices.Select(i => least.Actions[i].AtSeconds).Distinct());
 
         // What it names plays again to the same; without the fault it does not fail.
-        CheckOptions again = options with { Bodies = failure.Least.Bodies, Events = failure.Least.ScriptedActions, ShrinkingPlays = 0 };
+        CheckOptions again = options with { Bodies = failure.Least.Bodies, Events = failure.Least.Actions, ShrinkingPlays = 0 };
         Assert.Equal(failure.Least.Difference, Run(again).Failures.Single().Whole.Difference);
         Assert.Empty(Run(again with { PrepareSession = null }).Failures);
     }
 
     private static void AssertLeast(CheckOutcome least, CheckOptions options)
     {
-        foreach (int scripted in least.ScriptedActions)
+        foreach (int action in least.Actions)
         {
-            Assert.Null(Failure(least.Bodies, [.. least.ScriptedActions.Where(d => d != scripted)]));
+            Assert.Null(Failure(least.Bodies, [.. least.Actions.Where(d => d != action)]));
         }
 
         foreach (int body in least.Bodies)
         {
-            Assert.True(least.Bodies.Count == 1 || Failure([.. least.Bodies.Where(b => b != body)], least.ScriptedActions) is null);
+            Assert.True(least.Bodies.Count == 1 || Failure([.. least.Bodies.Where(b => b != body)], least.Actions) is null);
         }
 
-        string? Failure(IReadOnlyList<int> bodies, IReadOnlyList<int> scriptedActions) =>
-            CheckSession.Play(least.Seed, options with { Bodies = bodies, Events = scriptedActions }, TestContext.Current.CancellationToken).Failure;
+        string? Failure(IReadOnlyList<int> bodies, IReadOnlyList<int> actions) =>
+            CheckSession.Play(
+                least.Seed, options with { Bodies = bodies, Events = actions }, TestContext.Current.CancellationToken).Failure;
     }
 
     [Fact]

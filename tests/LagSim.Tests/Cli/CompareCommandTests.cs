@@ -36,7 +36,7 @@ public sealed class CompareCommandTests
         Assert.Matches("^[0-9a-f]{16}$", Text(document, "scene_hash"));
         JsonElement[] plan = document.GetProperty("plan").EnumerateArray().ToArray();
         Assert.Equal(12, plan.Length);
-        Assert.All(plan, scripted => Assert.Equal(["time_s", "peer", "kind", "body"], Keys(scripted)));
+        Assert.All(plan, action => Assert.Equal(["time_s", "peer", "kind", "body"], Keys(action)));
 
         JsonElement[] runs = document.GetProperty("runs").EnumerateArray().ToArray();
         Assert.Equal(LateEventStrategies.Names, runs.Select(run => Text(run, "strategy")));

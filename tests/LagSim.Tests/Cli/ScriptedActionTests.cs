@@ -76,8 +76,8 @@ public sealed class ScriptedActionTests
 
     private static ExternalEvent Stamped(string text, double seconds)
     {
-        ScriptedAction scripted = ScriptedAction.Parse(text);
-        Assert.Equal((text, seconds), (scripted.Text, scripted.Seconds));
-        return scripted.ActionIn(Two).Stamp(At(1), 2, 3);
+        ScriptedAction action = ScriptedAction.Parse(text);
+        Assert.Equal((text, seconds), (action.Text, action.Seconds));
+        return action.ActionIn(Two).Stamp(At(1), 2, 3);
     }
 }

@@ -51,7 +51,7 @@ public sealed class CompareTestTests
 
     [Theory]
     [MemberData(nameof(Links))]
-    public void Run_HealingOnEveryLink_IsWrongFromTheStampUntilTheNewsAndNotASampleLonger(string scene, string link)
+    public void Run_HealingOnEveryLink_IsWrongFromTheStampUntilTheEventComesAndNotASampleLonger(string scene, string link)
     {
         CompareRun run = Run(scene, link, "healing");
         Assert.True(run.Agrees);
@@ -98,7 +98,7 @@ public sealed class CompareTestTests
     [InlineData("interpolation", 0.05, true)]
     [InlineData("interpolation", 0, true)]
     [InlineData("healing", 0.1, true)]
-    public void Corrections_NewsWithinTheDelay_AreNone(string strategy, double delay, bool jumps)
+    public void Corrections_LateEventsWithinTheDelay_AreNone(string strategy, double delay, bool jumps)
     {
         CompareRun run = Run("pair", "delay-40ms", strategy, delay);
         Assert.Equal(jumps, run.CorrectionsSeen > 0);

@@ -23,14 +23,15 @@ public sealed class PlayerPlanTests
         Assert.Equal(plan, PlayerPlan.Draw(scene!, 4, 7));
         Assert.NotEqual(plan, PlayerPlan.Draw(scene!, 4, 8));
         Assert.Equal(12, plan.Count);
-        Assert.Equal(plan.OrderBy(scripted => scripted.Time), plan);
-        Assert.All(plan, scripted => Assert.InRange(scripted.Time.ToSeconds(), 1, 6));
-        Assert.All(plan, scripted => Assert.InRange(scripted.Peer, 0, 3));
-        Assert.All(plan, scripted => Assert.True(scripted.Kind == EventKind.Teleport || scripted.Velocity.Length > 0));
-        Assert.Contains(plan, scripted => scripted.Kind == EventKind.Impulse);
-        Assert.Contains(plan, scripted => scripted.Kind == EventKind.SetVelocity);
-        Assert.True(plan.Select(scripted => scripted.Peer).Distinct().Count() > 1);
-        Assert.Equal(plan.Count(scripted => scripted.Kind == EventKind.Spawn), plan.Where(scripted => scripted.Kind == EventKind.Spawn).Select(scripted => scripted.Body).Distinct().Count());
+        Assert.Equal(plan.OrderBy(action => action.Time), plan);
+        Assert.All(plan, action => Assert.InRange(action.Time.ToSeconds(), 1, 6));
+        Assert.All(plan, action => Assert.InRange(action.Peer, 0, 3));
+        Assert.All(plan, action => Assert.True(action.Kind == EventKind.Teleport || action.Velocity.Length > 0));
+        Assert.Contains(plan, action => action.Kind == EventKind.Impulse);
+        Assert.Contains(plan, action => action.Kind == EventKind.SetVelocity);
+        Assert.True(plan.Select(action => action.Peer).Distinct().Count() > 1);
+        PlannedAction[] spawns = plan.Where(action => action.Kind == EventKind.Spawn).ToArray();
+        Assert.Equal(spawns.Length, spawns.Select(action => action.Body).Distinct().Count());
     }
 
     [Theory]
@@ -38,7 +39,8 @@ public sealed class PlayerPlanTests
     public void Draw_OverManySeeds_HasEveryKind(string name)
     {
         BuiltInScenes.TryGet(name, out Scene? scene);
-        EventKind[] kinds = Enumerable.Range(1, 5).SelectMany(seed => PlayerPlan.Draw(scene!, 3, (ulong)seed)).Select(scripted => scripted.Kind).Distinct().Order().ToArray();
+        EventKind[] kinds = Enumerable.Range(1, 5).SelectMany(seed => PlayerPlan.Draw(scene!, 3, (ulong)seed))
+            .Select(action => action.Kind).Distinct().Order().ToArray();
         Assert.Equal(new[] { EventKind.Spawn, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse }.Order(), kinds);
     }
 
@@ -46,8 +48,10 @@ public sealed class PlayerPlanTests
     public void Draw_OnATable_LeavesBallsOnIt()
     {
         IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(BuiltInScenes.Billiards(), 4, 1);
-        Assert.All(plan, scripted => Assert.Equal(0, scripted.Velocity.Y));
-        Assert.All(plan.Where(scripted => scripted.Kind is EventKind.Spawn or EventKind.Teleport), scripted => Assert.Equal(0.028575, scripted.Position.Y));
+        Assert.All(plan, action => Assert.Equal(0, action.Velocity.Y));
+        Assert.All(
+            plan.Where(action => action.Kind is EventKind.Spawn or EventKind.Teleport),
+            action => Assert.Equal(0.028575, action.Position.Y));
     }
 
     [Fact]
@@ -56,12 +60,12 @@ public sealed class PlayerPlanTests
         Scene scene = new SceneBuilder("rights").WithSpawners(PeerSet.Of(2))
             .AddBody("anybody's", Ball(), V(0)).AddBody("one's", Ball(), V(3), players: PeerSet.Of(1)).AddBody("nobody's", Ball(), V(6), players: PeerSet.Nobody).Build();
         PlannedAction[] plan = Enumerable.Range(1, 40).SelectMany(seed => PlayerPlan.Draw(scene, 3, (ulong)seed)).ToArray();
-        Assert.All(plan.Where(scripted => scripted.Kind == EventKind.Spawn), scripted => Assert.Equal(2, scripted.Peer));
-        Assert.All(plan.Where(scripted => scripted.Kind != EventKind.Spawn && scripted.Body == Second), scripted => Assert.Equal(1, scripted.Peer));
-        Assert.DoesNotContain(plan, scripted => scripted.Kind != EventKind.Spawn && scripted.Body == Third);
-        Assert.Contains(plan, scripted => scripted.Kind == EventKind.Spawn);
-        Assert.Contains(plan, scripted => scripted.Body == Second);
-        Assert.Equal(3, plan.Where(scripted => scripted.Body == First).Select(scripted => scripted.Peer).Distinct().Count());
+        Assert.All(plan.Where(action => action.Kind == EventKind.Spawn), action => Assert.Equal(2, action.Peer));
+        Assert.All(plan.Where(action => action.Kind != EventKind.Spawn && action.Body == Second), action => Assert.Equal(1, action.Peer));
+        Assert.DoesNotContain(plan, action => action.Kind != EventKind.Spawn && action.Body == Third);
+        Assert.Contains(plan, action => action.Kind == EventKind.Spawn);
+        Assert.Contains(plan, action => action.Body == Second);
+        Assert.Equal(3, plan.Where(action => action.Body == First).Select(action => action.Peer).Distinct().Count());
     }
 
     [Fact]
@@ -70,7 +74,7 @@ public sealed class PlayerPlanTests
         Scene scene = new SceneBuilder("no spawners").WithSpawners(PeerSet.Nobody).AddBody("ball", Ball(), V(0)).Build();
         IReadOnlyList<PlannedAction> plan = PlayerPlan.Draw(scene, 3, 1);
         Assert.Equal(12, plan.Count);
-        Assert.DoesNotContain(plan, scripted => scripted.Kind == EventKind.Spawn);
+        Assert.DoesNotContain(plan, action => action.Kind == EventKind.Spawn);
     }
 
     [Fact]

@@ -51,7 +51,7 @@ public sealed class InvariantTests
 
     [Theory]
     [MemberData(nameof(Modes))]
-    public void State_RewrittenInPiecesWhileMoreNewsComes_IsTheSameToo(int block, HealingMode mode)
+    public void State_RewrittenInPiecesWhileMoreLateEventsCome_IsTheSameToo(int block, HealingMode mode)
     {
         AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: mode, inPieces: true));
     }
@@ -60,7 +60,7 @@ public sealed class InvariantTests
     [Theory]
     [InlineData(HealingMode.CausalCone)]
     [InlineData(HealingMode.FullRollback)]
-    public void State_StoppedWithinInstantsWhileNewsComes_IsTheSameToo(HealingMode mode)
+    public void State_StoppedWithinInstantsWhileLateEventsCome_IsTheSameToo(HealingMode mode)
     {
         int stops = 0;
         for (int seed = 0; seed < Worlds; seed++)
@@ -281,7 +281,7 @@ public sealed class InvariantTests
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
-    public void Sleeper_OnWhatLateNewsTakesAway_Wakes(bool isLeft)
+    public void Sleeper_OnWhatALateEventTakesAway_Wakes(bool isLeft)
     {
         Scene scene = new SceneBuilder("stack").AddPlane("floor", Vector3D.Up, V(0), 0.3).AddBody("lower", Ball(e: 0.3), V(0, 0.5)).AddBody("upper", Ball(e: 0.3), V(0, 1.5)).Build();
         ExternalEvent gone = ExternalEvent.Remove(At(2), 1, 1, First);

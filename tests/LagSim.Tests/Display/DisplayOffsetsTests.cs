@@ -18,7 +18,7 @@ public sealed class DisplayOffsetsTests
     private static readonly Scene Alone = new SceneBuilder("alone").WithGravity(Floating).AddBody("ball", Ball(), V(0, 5)).Build();
 
     [Fact]
-    public void Update_MotionBouncesAndOnesOwnScriptedActions_AreNoCorrections()
+    public void Update_MotionBouncesAndOnesOwnActions_AreNoCorrections()
     {
         Screen screen = new(Drop(3, 0.9, MotionLaw.RungeKutta4));
         for (int n = 0; n < 600; n++)
@@ -40,7 +40,7 @@ public sealed class DisplayOffsetsTests
     }
 
     [Fact]
-    public void Update_LateNews_JumpIsWhatItChangedAtTheLastFramesTimeAndIsNotSeen()
+    public void Update_LateEvent_JumpIsWhatItChangedAtTheLastFramesTimeAndIsNotSeen()
     {
         Screen screen = new(Alone);
         screen.Frame(1);
@@ -61,7 +61,7 @@ public sealed class DisplayOffsetsTests
     }
 
     [Fact]
-    public void Update_NewsLaterThanTheLastFrame_IsNoCorrection()
+    public void Update_EventLaterThanTheLastFrame_IsNoCorrection()
     {
         Screen screen = new(Alone);
         screen.Frame(1);
@@ -138,7 +138,7 @@ public sealed class DisplayOffsetsTests
     }
 
     [Fact]
-    public void Update_RandomWorldWithLateNews_DrawsNothingInsideAnythingForAnOffset()
+    public void Update_RandomWorldWithLateEvents_DrawsNothingInsideAnythingForAnOffset()
     {
         (double deepest, double smoothed) = Deepest(new DisplayOptions());
         Assert.True(deepest <= 0.001, $"{deepest} m");

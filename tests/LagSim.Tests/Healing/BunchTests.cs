@@ -19,7 +19,7 @@ public sealed class BunchTests
     [InlineData(4)]
     [InlineData(60)]
     [InlineData(300)]
-    public void News_ThatComesAtOnceInAnyOrder_CostsNoMoreThanAFullRollback(int count)
+    public void LateEvents_ThatComeAtOnceInAnyOrder_CostNoMoreThanAFullRollback(int count)
     {
         Random random = new(count);
         ExternalEvent[] lateEvents = [.. Enumerable.Range(1, count).Select(n => ExternalEvent.Impulse(

@@ -31,7 +31,7 @@ public sealed class HealReportTests
     }
 
     [Fact]
-    public void Healed_MoreNewsBeforeItIsFinished_IsOneReport()
+    public void Healed_AnotherLateEventBeforeItIsFinished_IsOneReport()
     {
         (Simulation simulation, List<HealReport> reports) = Row(HealingMode.CausalCone, 4);
         simulation.AdvanceTo(At(1));

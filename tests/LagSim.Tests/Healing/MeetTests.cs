@@ -17,7 +17,7 @@ public sealed class MeetTests
     private static readonly ExternalEvent Back = ExternalEvent.Teleport(At(1), 2, 1, Ball3, V(3, 5), V(0));
 
     [Fact]
-    public void Healed_NewsWithoutEffect_RunsThatAloneAndLeavesTheRest()
+    public void Healed_LateEventWithoutEffect_RunsThatAloneAndLeavesTheRest()
     {
         (Simulation simulation, List<HealReport> reports) = Row();
         simulation.AdvanceTo(At(4));
@@ -34,7 +34,7 @@ public sealed class MeetTests
     }
 
     [Fact]
-    public void Healed_NewsUndoneByATeleport_IsDoneThere()
+    public void Healed_LateEventUndoneByATeleport_IsDoneThere()
     {
         (Simulation simulation, List<HealReport> reports) = Row(Back);
         simulation.AdvanceTo(At(4));
@@ -49,7 +49,7 @@ public sealed class MeetTests
     }
 
     [Fact]
-    public void Healed_NewsThatLasts_GoesOnToTheEnd()
+    public void Healed_LateEventThatLasts_GoesOnToTheEnd()
     {
         (Simulation simulation, List<HealReport> reports) = Row();
         simulation.AdvanceTo(At(4));
@@ -112,7 +112,7 @@ public sealed class MeetTests
     }
 
     [Fact]
-    public void Healed_MoreNewsBeforeItIsFinished_IsNotLookedFor()
+    public void Healed_AnotherLateEventBeforeItIsFinished_IsNotLookedFor()
     {
         (Simulation simulation, List<HealReport> reports) = Row();
         simulation.AdvanceTo(At(4));

@@ -25,7 +25,7 @@ public sealed class ContactNoticesTests
     [InlineData(HealingMode.CausalCone, true)]
     [InlineData(HealingMode.FullRollback, false)]
     [InlineData(HealingMode.FullRollback, true)]
-    public void Notices_OfRandomWorldsWithLateNews_ConfirmEachContactOnceInOrderAndNoOther(HealingMode mode, bool inPieces)
+    public void Notices_OfRandomWorldsWithLateEvents_ConfirmEachContactOnceInOrderAndNoOther(HealingMode mode, bool inPieces)
     {
         int confirmed = 0, retracted = 0;
         for (int seed = 0; seed < 60; seed++)

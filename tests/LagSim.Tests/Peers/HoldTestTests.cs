@@ -21,7 +21,7 @@ public sealed class HoldTestTests
     [InlineData("slow", "delay-100ms", 2)]
     [InlineData("random", "delay-500ms", 3)]
     [InlineData("random", "awful", 4)]
-    public void Run_WithHealing_SettlesToTheBitAndIsSeenSoOnceNoNewsIsOnItsWay(string motion, string link, int peers)
+    public void Run_WithHealing_SettlesToTheBitAndIsSeenSoOnceNoEventIsOnItsWay(string motion, string link, int peers)
     {
         HoldOptions options = Options(motion, link) with { Peers = peers };
         HoldRun run = HoldTest.Run(options);

@@ -116,11 +116,11 @@ public sealed class EveryProfileTests
         }
 
         SimTime end = group.Clock.Now + SimDuration.FromSeconds(Seconds);
-        ScriptedActions scriptedActions = new((int)seed, mostSpawns: 4); // a heap of dozens in that box would take longer than all the rest
+        ScriptedActions actions = new((int)seed, mostSpawns: 4); // a heap of dozens in that box would take longer than all the rest
         int done = 0;
         while (group.Clock.Now < end)
         {
-            done += scriptedActions.DoIn(group, 1).Count;
+            done += actions.DoIn(group, 1).Count;
             group.Run(0.25);
         }
 

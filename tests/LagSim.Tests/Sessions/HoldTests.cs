@@ -15,7 +15,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class HoldTests
 {
     [Fact]
-    public void Grab_ByTwoAtOnce_IsTheFirstsOnEveryPeerAndTheOthersScriptedActionsHaveNoEffect()
+    public void Grab_ByTwoAtOnce_IsTheFirstsOnEveryPeerAndTheOthersActionsHaveNoEffect()
     {
         SessionGroup group = Group(3);
         ExternalEvent mine = group.Do(1, PlayerAction.Grab(First));
@@ -39,7 +39,7 @@ public sealed class HoldTests
     }
 
     [Fact]
-    public void Hold_WhoseRightIsLostByLateNews_IsTakenFromWhoHadItForAWhile()
+    public void Hold_WhoseRightIsLostByALateEvent_IsTakenFromWhoHadItForAWhile()
     {
         SessionGroup group = Group(3);
         group.Network.SetLink(1, 0, new LinkLeg(400)); // what peer 1 does is heard late

@@ -66,7 +66,7 @@ public sealed class JoinAnyTimeTests
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
         HostOptions Options() => new() { Window = new(SimDuration.FromSeconds(3)) };
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
-        ScriptedActions scriptedActions = new(seed, mostSpawns: 20);
+        ScriptedActions actions = new(seed, mostSpawns: 20);
         Random random = new(seed);
         HashSet<(byte Peer, uint Sequence)> judged = [];
         group.Host.Logged += entry => judged.Add((entry.Event.Peer, entry.Event.Sequence));
@@ -74,7 +74,7 @@ public sealed class JoinAnyTimeTests
         int late = 0;
         for (int i = 0; i < joins; i++)
         {
-            done.AddRange(scriptedActions.DoIn(group, 3));
+            done.AddRange(actions.DoIn(group, 3));
             group.Run(random.NextDouble() * 2);
             ClientSession client = group.Join(100 + (i % 3), (ulong)(1000 + i + (100 * seed)), ClientOptions.From(Options()));
             for (int tries = 0; tries < 200 && client.State is not (SessionState.Running or SessionState.Ended); tries++)
@@ -89,7 +89,7 @@ public sealed class JoinAnyTimeTests
 
             Assert.True(client.State == SessionState.Running, $"join {i}: {client.State} {client.EndReason}");
             late += client.BegunFrom is null ? 0 : 1;
-            done.AddRange(scriptedActions.DoIn(group, 6));
+            done.AddRange(actions.DoIn(group, 6));
             Assert.True(group.RunUntil(() => done.All(e => judged.Contains((e.Peer, e.Sequence))) && group.Sessions.All(s => s.LogLength == group.Host.LogLength), 30), $"join {i} does not settle");
             group.Run(0.5);
             string? difference = group.Difference();

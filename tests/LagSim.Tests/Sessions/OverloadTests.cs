@@ -35,8 +35,8 @@ public sealed class OverloadTests
         SimTime asked = group.Clock.Now;
         ClientSession late = group.Join(7, 77, ClientOptions.From(Options()));
         Assert.True(group.RunUntil(() => late.Scene is not null, 3), $"{group.Clock.Now - asked}");
-        ExternalEvent scripted = group.Do(2, PlayerAction.SetVelocity(Second, V(0, 0, 1)));
-        Assert.True(group.RunUntil(() => group.Accepted.Contains(scripted) && group.Sessions[1].LogLength == group.Host.LogLength, 1));
+        ExternalEvent action = group.Do(2, PlayerAction.SetVelocity(Second, V(0, 0, 1)));
+        Assert.True(group.RunUntil(() => group.Accepted.Contains(action) && group.Sessions[1].LogLength == group.Host.LogLength, 1));
     }
 
     [Fact]

@@ -69,15 +69,15 @@ public sealed class SessionWarmupTests
     [Fact]
     public void Run_InTheMiddleOfASession_ChangesNoBitOfItAndNoDatagram()
     {
-        string[] alone = Play(warmups: false, scriptedActions: 40);
+        string[] alone = Play(warmups: false, actions: 40);
 
-        Assert.Equal(alone, Play(warmups: true, scriptedActions: 40));
-        Assert.NotEqual(alone, Play(warmups: false, scriptedActions: 41));
+        Assert.Equal(alone, Play(warmups: true, actions: 40));
+        Assert.NotEqual(alone, Play(warmups: false, actions: 41));
     }
 
     private static IReadOnlyList<EventKind> PlayersKinds { get; } = [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Impact)];
 
-    private static string[] Play(bool warmups, int scriptedActions)
+    private static string[] Play(bool warmups, int actions)
     {
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.Transatlantic).Connect();
         int steps = 0;
@@ -88,8 +88,8 @@ public sealed class SessionWarmupTests
                 SessionWarmup.Run(LateEventStrategy.Healing, SessionWarmup.EveryKind, few: steps % 200 == 1);
             }
         };
-        new ScriptedActions(1) { HasHands = true }.DoIn(group, scriptedActions);
-        Assert.True(group.Settle(scriptedActions));
+        new ScriptedActions(1) { HasHands = true }.DoIn(group, actions);
+        Assert.True(group.Settle(actions));
         SimTime end = group.Sessions.Min(s => s.World!.Simulation.SimulatedTo);
         return
         [

@@ -120,7 +120,7 @@ public sealed class InterpolationTests
     [InlineData(0.1, 0.0)] // 80 ms are two hops; within the delay nothing is seen of them
     [InlineData(0.05, 0.5)] // the control: a delay that is too short
     [InlineData(0, 0.5)]
-    public void Seen_NewsWithinTheDelay_DiffersNowhere(double delay, double atLeast)
+    public void Seen_LateEventWithinTheDelay_DiffersNowhere(double delay, double atLeast)
     {
         VirtualPeers peers = Play("interpolation", delay);
         double[] errors = Distances(peers, peers.Seen);
@@ -132,7 +132,7 @@ public sealed class InterpolationTests
     [InlineData("healing", 0.1, 1.0)]
     [InlineData("interpolation", 0.1, 1.1)]
     [InlineData("interpolation", 0.25, 1.25)]
-    public void Seen_OfOnesOwnScriptedAction_ComesLaterByTheDelay(string strategy, double delay, double expected)
+    public void Seen_OfOnesOwnAction_ComesLaterByTheDelay(string strategy, double delay, double expected)
     {
         // The heavy ball flies on at 3 m/s to the left, until it is seen to fly to the right.
         VirtualPeers peers = Play(strategy, delay);

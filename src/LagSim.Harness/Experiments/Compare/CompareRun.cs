@@ -29,7 +29,7 @@ namespace LagSim.Harness.Experiments.Compare;
 /// <param name="ConeBodies">For each heal how many bodies were predicted anew.</param>
 /// <param name="Corrections">How far, in metres, bodies jumped that were drawn elsewhere than a moment before, at the same instant, because a late event had come.</param>
 /// <param name="CorrectionsSeen">How many such jumps there were.</param>
-/// <param name="InputLatency">Milliseconds from a player's scripted action until its own picture showed it, to the next sample.</param>
+/// <param name="InputLatency">Milliseconds from a player's action until its own picture showed it, to the next sample.</param>
 /// <param name="Trace">What there is to draw.</param>
 public sealed record CompareRun(
     CompareOptions Options,

@@ -26,7 +26,7 @@ public static class CompareTest
     public static CompareRun Run(CompareOptions options, Action<SimDuration>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(options);
-        BodyId[] spawned = options.Plan.Where(scripted => scripted.Kind == EventKind.Spawn).Select(scripted => scripted.Body).ToArray();
+        BodyId[] spawned = options.Plan.Where(action => action.Kind == EventKind.Spawn).Select(action => action.Body).ToArray();
         int bodies = options.Scene.Bodies.Count + spawned.Length;
         if (bodies > CompareOptions.MaxBodies)
         {
@@ -47,12 +47,12 @@ public static class CompareTest
         HealWatch heals = new(peers);
         InputWatch inputs = new(peers);
         PortTraffic[] before = GroupFigures.Traffic(peers);
-        foreach (PlannedAction scripted in options.Plan)
+        foreach (PlannedAction action in options.Plan)
         {
-            peers.RunUntil(scripted.Time, progress);
-            int peer = PlaceOf(peers, scripted.Peer);
-            Action<SimTime> noted = inputs.Expect(peer, scripted.Body);
-            ExternalEvent external = heals.Own(() => peers.Do(peer, scripted.ToAction()));
+            peers.RunUntil(action.Time, progress);
+            int peer = PlaceOf(peers, action.Peer);
+            Action<SimTime> noted = inputs.Expect(peer, action.Body);
+            ExternalEvent external = heals.Own(() => peers.Do(peer, action.ToAction()));
             noted(external.Time);
             watch.Did(external);
         }

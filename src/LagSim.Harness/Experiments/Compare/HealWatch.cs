@@ -48,12 +48,12 @@ internal sealed class HealWatch
     internal IReadOnlyList<double> Jumps => jumps;
 
     /// <summary>Lets a peer do something; what that rewrites of the little future that is known already is not counted.</summary>
-    internal T Own<T>(Func<T> scripted)
+    internal T Own<T>(Func<T> action)
     {
         isOwn = true;
         try
         {
-            return scripted();
+            return action();
         }
         finally
         {

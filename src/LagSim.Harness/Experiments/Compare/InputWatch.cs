@@ -9,11 +9,12 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Experiments.Compare;
 
 /// <summary>
-/// How long a player waits until it sees what it does: what its render snapshot was going to show of the body is noted before the scripted action, and held against what was shown.
+/// How long a player waits until it sees what it does: what its render snapshot was going to show of the body is noted before the action,
+/// and held against what was shown.
 /// </summary>
 internal sealed class InputWatch(PeerGroup peers)
 {
-    private readonly List<(int Peer, int Body, int First, BodyState[] Expected, SimTime Stamp)> scriptedActions = [];
+    private readonly List<(int Peer, int Body, int First, BodyState[] Expected, SimTime Stamp)> actions = [];
 
     /// <summary>Notes what the peer is going to show of the body unless something happens, as far as its render snapshot goes.</summary>
     /// <returns>To be called with the stamp of what was then done.</returns>
@@ -31,16 +32,16 @@ internal sealed class InputWatch(PeerGroup peers)
         }
 
         int first = seen.Next;
-        return stamp => scriptedActions.Add((peer, Array.IndexOf(peers.Bodies, body), first, expected.ToArray(), stamp));
+        return stamp => actions.Add((peer, Array.IndexOf(peers.Bodies, body), first, expected.ToArray(), stamp));
     }
 
     /// <summary>
-    /// For each scripted action the milliseconds from its stamp to the first sample that showed another body than was expected. A scripted action that changes nothing to be seen within what
-    /// was known beforehand has none.
+    /// For each action the milliseconds from its stamp to the first sample that showed another body than was expected. An action that
+    /// changes nothing to be seen within what was known beforehand has none.
     /// </summary>
     internal IEnumerable<double> Milliseconds()
     {
-        foreach ((int peer, int body, int first, BodyState[] expected, SimTime stamp) in scriptedActions)
+        foreach ((int peer, int body, int first, BodyState[] expected, SimTime stamp) in actions)
         {
             for (int n = 0; n < expected.Length; n++)
             {

@@ -21,7 +21,7 @@ public sealed class PlayerPlan
     private static readonly SimDuration Earliest = SimDuration.FromSeconds(1);
     private static readonly SimDuration Latest = SimDuration.FromSeconds(6);
 
-    /// <summary>The kinds of a plan's scripted actions, in an order that is drawn.</summary>
+    /// <summary>The kinds of a plan's actions, in an order that is drawn.</summary>
     private static readonly EventKind[] Kinds =
     [
         EventKind.Impulse, EventKind.Impulse, EventKind.Impulse, EventKind.Impulse, EventKind.Impulse,
@@ -89,16 +89,16 @@ public sealed class PlayerPlan
         SimTime at = rehearsal.Start + time;
         rehearsal.AdvanceTo(at);
         int[] spawners = Enumerable.Range(0, sequences.Length).Where(scene.Spawners.Contains).ToArray();
-        PlannedAction? scripted = kind switch
+        PlannedAction? action = kind switch
         {
             EventKind.Spawn when spawners.Length > 0 => Spawn(spawners[Below(spawners.Length)], time, at),
             EventKind.Teleport => Teleport(time, at),
             EventKind.SetVelocity => Touch(EventKind.SetVelocity, time),
             _ => null,
         };
-        scripted ??= Touch(EventKind.Impulse, time); // where there is no room, or nobody may
-        rehearsal.Submit(scripted.ToAction().Stamp(at, (byte)scripted.Peer, ++sequences[scripted.Peer]));
-        return scripted;
+        action ??= Touch(EventKind.Impulse, time); // where there is no room, or nobody may
+        rehearsal.Submit(action.ToAction().Stamp(at, (byte)action.Peer, ++sequences[action.Peer]));
+        return action;
     }
 
     private PlannedAction Touch(EventKind kind, SimDuration time)

@@ -11,7 +11,7 @@ namespace LagSim.Harness.Verification.Check;
 /// <param name="Peer">Who, by index; if that one is not in the session at the time, the host does it.</param>
 /// <param name="Kind">What.</param>
 /// <param name="Body">To which body of the scene, by the index it was drawn with; negative where to a spawned one.</param>
-/// <param name="Spawn">To what which scripted action spawned, by index; negative where to one of the scene's.</param>
+/// <param name="Spawn">To the body that an action spawned, by the index of that action; negative where to one of the scene's.</param>
 /// <param name="Position">Where to, in metres; of a grab by which point from the body's centre, of a keyframe where the hand is.</param>
 /// <param name="Velocity">Metres per second, of an impulse the change of velocity, of a keyframe the hand's.</param>
 /// <param name="Spec">Of a spawn what appears; of an impulse what it is done to.</param>

@@ -71,7 +71,7 @@ internal sealed class CheckCase
     private readonly bool isHeap;
     private readonly CheckScene room;
     private readonly List<CheckPlayer> players = [];
-    private readonly List<CheckAction> scriptedActions = [];
+    private readonly List<CheckAction> actions = [];
 
     /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
     internal CheckCase(ulong seed, CheckOptions options, CancellationToken cancellation = default)
@@ -107,9 +107,9 @@ internal sealed class CheckCase
         // What is compared at the end is all since the start, or only what a session keeps of itself.
         ExtraHistory = rest.IsLucky(50) ? SimDuration.FromSeconds(60) : SimDuration.Zero;
         BodyIndices = options.Bodies ?? Enumerable.Range(0, room.BodyCount).ToArray();
-        ActionIndices = options.Events ?? Enumerable.Range(0, scriptedActions.Count).ToArray();
+        ActionIndices = options.Events ?? Enumerable.Range(0, actions.Count).ToArray();
         Throw(BodyIndices, room.BodyCount, "bodies", seed);
-        Throw(ActionIndices, scriptedActions.Count, "events", seed);
+        Throw(ActionIndices, actions.Count, "events", seed);
         Scene = room.Build(BodyIndices);
         Accelerations = CheckScene.Accelerations;
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
@@ -134,12 +134,12 @@ internal sealed class CheckCase
     internal bool HasStops => players.Exists(p => p.Stop is not null);
 
     /// <summary>All that was drawn, by ascending time.</summary>
-    internal IReadOnlyList<CheckAction> ScriptedActions => scriptedActions;
+    internal IReadOnlyList<CheckAction> Actions => actions;
 
     /// <summary>Which of the scene's bodies there are.</summary>
     internal IReadOnlyList<int> BodyIndices { get; }
 
-    /// <summary>Which of the scripted actions are done.</summary>
+    /// <summary>Which of the actions are done.</summary>
     internal IReadOnlyList<int> ActionIndices { get; }
 
     internal SimDuration History { get; }
@@ -286,18 +286,19 @@ internal sealed class CheckCase
     {
         Scene scene = room.Build([.. Enumerable.Range(0, room.BodyCount)]);
         Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation));
-        BodyId[] bodies = new BodyId[scriptedActions.Count];
-        for (int i = 0; i < scriptedActions.Count; i++)
+        BodyId[] bodies = new BodyId[actions.Count];
+        for (int i = 0; i < actions.Count; i++)
         {
-            CheckAction scripted = scriptedActions[i];
-            SimTime time = SimTime.FromSeconds(scripted.AtSeconds);
+            CheckAction action = actions[i];
+            SimTime time = SimTime.FromSeconds(action.AtSeconds);
             if (!alone.TryAdvanceTo(SimTime.Max(time - SimDuration.OneTick, alone.SimulatedTo), ref budget))
             {
                 return false;
             }
 
             StepsAhead = alone.Engine.Stepper.StepsTaken;
-            ExternalEvent external = scripted.On(scripted.Spawn >= 0 ? bodies[scripted.Spawn] : BodyId.OfScene(Math.Max(0, scripted.Body))).Stamp(time, (byte)scripted.Peer, (uint)i + 1);
+            BodyId body = action.Spawn >= 0 ? bodies[action.Spawn] : BodyId.OfScene(Math.Max(0, action.Body));
+            ExternalEvent external = action.On(body).Stamp(time, (byte)action.Peer, (uint)i + 1);
             bodies[i] = external.Body;
             alone.Submit(external);
         }
@@ -307,7 +308,7 @@ internal sealed class CheckCase
 
     private void DrawActions(SeededRandom random)
     {
-        scriptedActions.Clear();
+        actions.Clear();
         int count = FewestActions + random.NextInt(17);
         List<int> spawns = [];
         double[] times = Enumerable.Range(0, count).Select(_ => random.NextDouble() * room.BusySeconds).Order().ToArray();
@@ -316,13 +317,13 @@ internal sealed class CheckCase
         {
             // In the same instant as the one before, by the same player or another, and often to the same body.
             bool isTogether = i > 0 && random.IsLucky(25);
-            double at = isTogether ? scriptedActions[i - 1].AtSeconds : times[i];
-            int peer = isTogether && random.IsLucky(60) ? scriptedActions[i - 1].Peer : random.NextInt(players.Count);
+            double at = isTogether ? actions[i - 1].AtSeconds : times[i];
+            int peer = isTogether && random.IsLucky(60) ? actions[i - 1].Peer : random.NextInt(players.Count);
             int spawn = spawns.Count > 0 && random.IsLucky(20) ? spawns[random.NextInt(spawns.Count)] : -1;
             int body = spawn >= 0 ? -1 : room.DrawBody(random);
-            if (isTogether && scriptedActions[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
+            if (isTogether && actions[i - 1].Kind != EventKind.Spawn && random.IsLucky(50))
             {
-                (body, spawn) = (scriptedActions[i - 1].Body, scriptedActions[i - 1].Spawn);
+                (body, spawn) = (actions[i - 1].Body, actions[i - 1].Spawn);
             }
 
             EventKind kind = random.Pick(
@@ -333,8 +334,8 @@ internal sealed class CheckCase
                 kind = EventKind.SetVelocity;
             }
 
-            BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? scriptedActions[spawn].Spec : room.SpecOf(body);
-            scriptedActions.Add(new CheckAction(
+            BodySpec spec = kind == EventKind.Spawn ? room.DrawSpec() : spawn >= 0 ? actions[spawn].Spec : room.SpecOf(body);
+            actions.Add(new CheckAction(
                 at, peer, kind, kind == EventKind.Spawn ? -1 : body, kind == EventKind.Spawn ? -1 : spawn, room.DrawPosition(), room.DrawVelocity(6), spec,
                 kind == EventKind.Spawn ? room.DrawSpin(spec) : default));
             removals += kind == EventKind.Remove ? 1 : 0;
@@ -348,38 +349,42 @@ internal sealed class CheckCase
     /// <summary>Hands that take a body, move it about and let go of it, or only cease to tell where they are; often two at one time are after the same.</summary>
     private void DrawHands(SeededRandom random)
     {
-        List<CheckAction> all = [.. scriptedActions];
-        int[] spawns = [.. Enumerable.Range(0, scriptedActions.Count).Where(i => scriptedActions[i].Kind == EventKind.Spawn)];
+        List<CheckAction> all = [.. actions];
+        int[] spawns = [.. Enumerable.Range(0, actions.Count).Where(i => actions[i].Kind == EventKind.Spawn)];
         int hands = room.FewestHands + random.NextInt(room.MostHands - room.FewestHands + 1);
         CheckAction? before = null;
         for (int hand = 0; hand < hands; hand++)
         {
             int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
             int body = spawn >= 0 ? -1 : room.DrawHeld(random);
-            double at = spawn >= 0 ? random.NextDouble(scriptedActions[spawn].AtSeconds, room.BusySeconds) : random.NextDouble(0, room.GraspSeconds);
+            double at = spawn >= 0
+                ? random.NextDouble(actions[spawn].AtSeconds, room.BusySeconds)
+                : random.NextDouble(0, room.GraspSeconds);
             if (before is not null && random.IsLucky(50))
             {
                 (spawn, body) = (before.Spawn, before.Body);
                 at = Math.Min(Length, before.AtSeconds + random.Pick(0, 0, random.NextDouble()));
             }
 
-            CheckAction scripted = new(at, random.NextInt(players.Count), EventKind.Grab, body, spawn, new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
-            all.Add(scripted);
-            before = scripted;
+            CheckAction action = new(
+                at, random.NextInt(players.Count), EventKind.Grab, body, spawn,
+                new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
+            all.Add(action);
+            before = action;
             Vector3D position = room.DrawPosition();
             for (int keyframes = FewestKeyframes + random.NextInt(MostKeyframes - FewestKeyframes + 1); keyframes > 0 && at < Length; keyframes--)
             {
                 // Some of the way to anywhere in the room, so it never leaves that.
                 double gap = random.Pick(0.02, 0.1, 0.1, 0.3);
                 Vector3D velocity = (room.DrawPosition() - position) * 1.5;
-                all.Add(scripted with { AtSeconds = at, Kind = EventKind.HoldKeyframe, Position = position, Velocity = velocity });
+                all.Add(action with { AtSeconds = at, Kind = EventKind.HoldKeyframe, Position = position, Velocity = velocity });
                 position += velocity * gap;
                 at += gap;
             }
 
             if (at < Length && random.IsLucky(70))
             {
-                all.Add(scripted with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
+                all.Add(action with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
             }
         }
 
@@ -391,7 +396,7 @@ internal sealed class CheckCase
             place[order[i]] = i;
         }
 
-        scriptedActions.Clear();
-        scriptedActions.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
+        actions.Clear();
+        actions.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
     }
 }

@@ -79,5 +79,5 @@ public sealed record CheckOutcome
     public IReadOnlyList<int> Bodies { get; init; } = [];
 
     /// <summary>What of it was played: what was to be done, by index.</summary>
-    public IReadOnlyList<int> ScriptedActions { get; init; } = [];
+    public IReadOnlyList<int> Actions { get; init; } = [];
 }

@@ -99,7 +99,7 @@ public static class InvariantCheck
     internal static string Command(CheckOutcome of, CheckOptions options, bool isShrunk)
     {
         bool isPart = isShrunk || (options.Bodies ?? options.Events) is not null;
-        string part = isPart ? $" --bodies {string.Join(',', of.Bodies)} --events {List(of.ScriptedActions)}" : "";
+        string part = isPart ? $" --bodies {string.Join(',', of.Bodies)} --events {List(of.Actions)}" : "";
         string peers = options.FromPeers == CheckOptions.FewestPeers && options.ToPeers == CheckOptions.MostPeers ? ""
             : options.FromPeers == options.ToPeers ? $" --peers {options.FromPeers}"
             : $" --peers {options.FromPeers}-{options.ToPeers}";

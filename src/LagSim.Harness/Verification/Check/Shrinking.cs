@@ -47,13 +47,13 @@ internal sealed class Shrinking
         do
         {
             before = Size;
-            Reduce(Least.ScriptedActions, FailsWithActions);
+            Reduce(Least.Actions, FailsWithActions);
             Reduce(Least.Bodies, FailsWithBodies);
         }
         while (Size < before && CanPlay);
     }
 
-    private int Size => Least.ScriptedActions.Count + Least.Bodies.Count;
+    private int Size => Least.Actions.Count + Least.Bodies.Count;
 
     private bool CanPlay => plays > 0 && !cancellation.IsCancellationRequested;
 
@@ -90,14 +90,14 @@ internal sealed class Shrinking
         }
     }
 
-    private bool FailsWithActions(IReadOnlyList<int> scriptedActions) => Fails(Least.Bodies, scriptedActions);
+    private bool FailsWithActions(IReadOnlyList<int> actions) => Fails(Least.Bodies, actions);
 
-    private bool FailsWithBodies(IReadOnlyList<int> bodies) => bodies.Count > 0 && Fails(bodies, Least.ScriptedActions);
+    private bool FailsWithBodies(IReadOnlyList<int> bodies) => bodies.Count > 0 && Fails(bodies, Least.Actions);
 
-    private bool Fails(IReadOnlyList<int> bodies, IReadOnlyList<int> scriptedActions)
+    private bool Fails(IReadOnlyList<int> bodies, IReadOnlyList<int> actions)
     {
         plays--;
-        CheckOutcome outcome = CheckSession.Play(seed, options with { Bodies = bodies, Events = scriptedActions }, cancellation);
+        CheckOutcome outcome = CheckSession.Play(seed, options with { Bodies = bodies, Events = actions }, cancellation);
         if (outcome.Failure is null)
         {
             return false;

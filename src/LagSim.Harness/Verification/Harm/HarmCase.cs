@@ -23,7 +23,7 @@ public sealed class HarmCase
     private static readonly double[] Restitutions = [0, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99, 1, 1];
 
     private readonly SeededRandom random;
-    private readonly List<HarmAction> scriptedActions = [];
+    private readonly List<HarmAction> actions = [];
     private readonly double radius;
     private int spawns;
 
@@ -58,7 +58,7 @@ public sealed class HarmCase
                 break;
         }
 
-        ScriptedActions = [.. scriptedActions.Where(d => d.AtSeconds < Seconds).OrderBy(d => d.AtSeconds)];
+        Actions = [.. actions.Where(d => d.AtSeconds < Seconds).OrderBy(d => d.AtSeconds)];
     }
 
     /// <summary>What it is drawn from.</summary>
@@ -83,12 +83,13 @@ public sealed class HarmCase
     public double Width { get; }
 
     /// <summary>What is done, by time.</summary>
-    internal IReadOnlyList<HarmAction> ScriptedActions { get; }
+    internal IReadOnlyList<HarmAction> Actions { get; }
 
     /// <summary>All of it in a few words.</summary>
     public override string ToString() => string.Create(
         CultureInfo.InvariantCulture,
-        $"{Kind} in {Scene.Name}, restitution {Restitution:0.##}, friction {Friction:0.##}, {ScriptedActions.Count(d => d.Kind == EventKind.Spawn)} bodies, {ScriptedActions.Count} events, {LinkMilliseconds:0} ms away");
+        $"{Kind} in {Scene.Name}, restitution {Restitution:0.##}, friction {Friction:0.##}, {Actions.Count(d => d.Kind == EventKind.Spawn)}"
+        + $" bodies, {Actions.Count} events, {LinkMilliseconds:0} ms away");
 
     private Scene BuiltIn()
     {
@@ -123,18 +124,19 @@ public sealed class HarmCase
 
     private int Spawn(double at, int like, Vector3D place)
     {
-        scriptedActions.Add(new HarmAction(at, EventKind.Spawn, -1, like, place));
+        actions.Add(new HarmAction(at, EventKind.Spawn, -1, like, place));
         return spawns++;
     }
 
-    private void Push(double at, int spawn, Vector3D velocity) => scriptedActions.Add(new HarmAction(at, EventKind.SetVelocity, spawn, 0, default, velocity));
+    private void Push(double at, int spawn, Vector3D velocity) =>
+        actions.Add(new HarmAction(at, EventKind.SetVelocity, spawn, 0, default, velocity));
 
     private void Hold(double at, int spawn, Vector3D place, Func<double, Vector3D>? path = null, double every = KeyframeSeconds)
     {
-        scriptedActions.Add(new HarmAction(at, EventKind.Grab, spawn, 0, default));
+        actions.Add(new HarmAction(at, EventKind.Grab, spawn, 0, default));
         for (double then = at + 0.001; then < Seconds; then += every)
         {
-            scriptedActions.Add(new HarmAction(then, EventKind.HoldKeyframe, spawn, 0, path?.Invoke(then) ?? place));
+            actions.Add(new HarmAction(then, EventKind.HoldKeyframe, spawn, 0, path?.Invoke(then) ?? place));
         }
     }
 
@@ -218,7 +220,7 @@ public sealed class HarmCase
         {
             int which = random.NextInt(count);
             Vector3D place = middle + new Vector3D(random.NextDouble(-0.3, 0.3), random.NextDouble(0, 0.6), random.NextDouble(-0.3, 0.3));
-            scriptedActions.Add(random.IsLucky(60)
+            actions.Add(random.IsLucky(60)
                 ? new HarmAction(at, EventKind.Teleport, which, 0, place)
                 : new HarmAction(at, EventKind.SetVelocity, which, 0, default, new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 0), random.NextDouble(-1, 1)) * (0.57 * Fast())));
         }
@@ -230,7 +232,7 @@ public sealed class HarmCase
         for (double at = 0; at < Seconds; at += every)
         {
             int body = random.NextInt(Scene.Bodies.Count);
-            scriptedActions.Add(random.IsLucky(20)
+            actions.Add(random.IsLucky(20)
                 ? new HarmAction(at, EventKind.Teleport, -1, body, new Vector3D(random.NextDouble(-0.4, 0.4), random.NextDouble(0.6, 3), random.NextDouble(-0.4, 0.4)))
                 : new HarmAction(at, EventKind.SetVelocity, -1, body, default, new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * Fast() * 0.57));
         }

@@ -74,10 +74,13 @@ public sealed class HarmProcessRun : IDisposable
 
         relay = new UdpRelay(
             new IPEndPoint(IPAddress.Loopback, 0), IPEndPoint.Parse(address), LinkProfiles.PureDelay(drawn.LinkMilliseconds), drawn.Seed, new StopwatchClock());
-        uint[] sequences = [.. drawn.ScriptedActions.Select((scripted, n) => (scripted, n)).Where(d => d.scripted.Kind == EventKind.Spawn).Select(d => (uint)d.n + 1)];
+        uint[] sequences =
+        [
+            .. drawn.Actions.Select((action, n) => (action, n)).Where(d => d.action.Kind == EventKind.Spawn).Select(d => (uint)d.n + 1),
+        ];
         StallProcess attacker = Run([
             "join", relay.LocalAddress.ToString(), "--json",
-            .. drawn.ScriptedActions.SelectMany(scripted => new[] { "--do", scripted.ToText(drawn.Scene, From, Others + 1, n => sequences[n]) })]);
+            .. drawn.Actions.SelectMany(action => new[] { "--do", action.ToText(drawn.Scene, From, Others + 1, n => sequences[n]) })]);
         if (!host.AwaitEnd(PlaySeconds + StartSeconds, cancellation))
         {
             failures.Add("The host did not end in time.");

@@ -94,9 +94,9 @@ internal sealed class HarmRun
         for (double now = 0; now < HarmCase.Seconds + 1 || (isLate is not null && now < isLate + (2 * MostSeconds) + 1); now += LookSeconds)
         {
             cancellation.ThrowIfCancellationRequested();
-            for (; done < drawn.ScriptedActions.Count && drawn.ScriptedActions[done].AtSeconds <= now; done++)
+            for (; done < drawn.Actions.Count && drawn.Actions[done].AtSeconds <= now; done++)
             {
-                Do(drawn.ScriptedActions[done]);
+                Do(drawn.Actions[done]);
             }
 
             for (int peer = 0; peer < others.Length; peer++)
@@ -188,15 +188,15 @@ internal sealed class HarmRun
     private static double Late(Session session) =>
         session.World is null || session.World.RenderedTo >= session.SharedTime.Now ? 0 : (session.SharedTime.Now - session.World.RenderedTo).ToSeconds();
 
-    private void Do(HarmAction scripted)
+    private void Do(HarmAction action)
     {
-        if (scripted.Spawn >= spawned.Count)
+        if (action.Spawn >= spawned.Count)
         {
             return;
         }
 
-        ExternalEvent? external = Try(Attacker, scripted.In(drawn.Scene, n => spawned[n]));
-        if (scripted.Kind == EventKind.Spawn)
+        ExternalEvent? external = Try(Attacker, action.In(drawn.Scene, n => spawned[n]));
+        if (action.Kind == EventKind.Spawn)
         {
             spawned.Add(external?.Body ?? BodyId.OfScene(0));
         }

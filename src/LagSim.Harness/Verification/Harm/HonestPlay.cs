@@ -16,8 +16,9 @@ namespace LagSim.Harness.Verification.Harm;
 
 /// <summary>What players cost who mean no harm, in every built-in scene: how far they stay from their budgets.</summary>
 /// <remarks>
-/// In virtual time by a seed. Four play, 100 ms from the host, each with four scripted actions a second in the mean, as many as the busiest of the drawn sessions of <c>lagsim stalls</c>: velocities,
-/// impulses and teleports of the scene's bodies, up to six balls of its own, and hands that hold a body for a second with keyframes every 50 ms.
+/// In virtual time by a seed. Four play, 100 ms from the host, each with four actions a second in the mean, as many as the busiest of the
+/// drawn sessions of <c>lagsim stalls</c>: velocities, impulses and teleports of the scene's bodies, up to six balls of its own, and hands
+/// that hold a body for a second with keyframes every 50 ms.
 /// </remarks>
 public static class HonestPlay
 {

@@ -32,7 +32,7 @@ public sealed class StallProcessRun : IDisposable
     private readonly List<StallProcess> all = [];
     private readonly List<StallProcess> hosts = [];
     private readonly List<StallProcess>[] clients; // by number less one, each with all its lives
-    private readonly List<(double Seconds, string Text)>[] scriptedActions;
+    private readonly List<(double Seconds, string Text)>[] actions;
     private readonly List<string> failures = [];
     private readonly UdpRelay[] relays; // of each client
     private readonly string?[] numbers; // that they got first
@@ -64,7 +64,7 @@ public sealed class StallProcessRun : IDisposable
         clients = [.. Enumerable.Range(0, drawn.Clients).Select(_ => new List<StallProcess>())];
         relays = new UdpRelay[drawn.Clients];
         numbers = new string?[drawn.Clients];
-        scriptedActions = [.. clients.Select(_ => Draw())];
+        actions = [.. clients.Select(_ => Draw())];
     }
 
     /// <summary>How long a session is played, in seconds from the moment that all are in: some more until the processes have started and got in.</summary>
@@ -158,7 +158,7 @@ public sealed class StallProcessRun : IDisposable
     private void StartClient(int n)
     {
         double from = clients[n].Count == 0 ? 3 : watch.Elapsed.TotalSeconds + 15;
-        IEnumerable<string> done = scriptedActions[n].Where(d => d.Seconds > from).SelectMany(d => new[] { "--do", d.Text });
+        IEnumerable<string> done = actions[n].Where(d => d.Seconds > from).SelectMany(d => new[] { "--do", d.Text });
         clients[n].Add(Run(["join", relays[n].LocalAddress.ToString(), "--pass", PassOf(n), "--json", .. done]));
     }
 

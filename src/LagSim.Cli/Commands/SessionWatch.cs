@@ -1,0 +1,131 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Cli.Output;
+using LagSim.Net.Sessions;
+using LagSim.Time;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>Tells what happens in a session: who comes and goes, what is committed, how links are, and what is wrong.</summary>
+/// <remarks>Its methods are for the printing thread. What the session's thread tells it comes by the queue.</remarks>
+internal sealed class SessionWatch
+{
+    /// <summary>After so long without an answer it is told that there is none.</summary>
+    private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(450);
+
+    private readonly Session session;
+    private readonly SessionRequest request;
+    private readonly SessionPrinter printer;
+    private readonly PrintQueue queue;
+    private readonly PaceWatch pace = new();
+    private bool hasToldDifference; // the session's thread's
+    private bool hasToldSilence;
+    private bool isLooking;
+
+    internal SessionWatch(Session session, SessionRequest request, SessionPrinter printer, PrintQueue queue)
+    {
+        this.session = session;
+        this.request = request;
+        this.printer = printer;
+        this.queue = queue;
+        if (session is HostSession host)
+        {
+            host.ClientCame += link => queue.Tell(() => printer.Came(link));
+            host.ClientGone += link => queue.Tell(() => printer.Gone(link));
+            host.PlayerExpelled += e => queue.Tell(() => printer.Problem(e.Sentence));
+            host.ClientDiverged += (peer, time) =>
+                queue.Tell(() => printer.Problem(DivergenceOf(peer, time - session.World!.Simulation.Start)));
+        }
+
+        session.StateCommitted += OnCommitted;
+        if (session is ClientSession client)
+        {
+            client.Diverged += _ => TellDifference();
+            client.Interrupted += why => queue.Tell(() => printer.Problem($"{why} Asking to be let in again."));
+            client.Regained += () => queue.Tell(() => printer.Problem("The host is there again; all goes on."));
+            client.Renewed += _ => TellRenewal(client.Peer);
+        }
+    }
+
+    /// <summary>Has the session's thread say how its links are; what it said before of who came and went is printed before.</summary>
+    internal void LookAtLinks(PeerThread thread)
+    {
+        if (!isLooking)
+        {
+            isLooking = true;
+            thread.Ask(peer =>
+            {
+                IReadOnlyList<LinkTraffic> links = peer.Links;
+                queue.Add(() =>
+                {
+                    isLooking = false;
+                    printer.LookAt(links);
+                });
+                return true;
+            });
+        }
+    }
+
+    /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
+    internal void LookAtPace()
+    {
+        if (session.World is not { } world || session.State != SessionState.Running)
+        {
+            return; // there is no shared time yet, or the world waits for a host that is silent
+        }
+
+        SimTime now = session.SharedTime.Now;
+        SimDuration behind = now - world.Simulation.SimulatedTo;
+        if (pace.Finds(now, behind))
+        {
+            printer.Problem(FormattableString.Invariant(
+                $"The world is {behind.ToSeconds():0.0} s behind: this machine cannot simulate it in real time."));
+        }
+    }
+
+    /// <summary>Tells, once and soon, that no host answers, and for how long it will be asked: with a pass that is minutes.</summary>
+    internal void LookAtSilence(TimeSpan asked)
+    {
+        bool isUnanswered = session is ClientSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0;
+        if (!hasToldSilence && asked >= SilenceToTell && isUnanswered)
+        {
+            hasToldSilence = true;
+            ClientOptions options = ClientOptions.From(request.Options);
+            SimDuration most = options.Pass.Number > 0 && options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
+            printer.Problem(FormattableString.Invariant(
+                $"No host answers at {request.Host} yet; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
+        }
+    }
+
+    /// <summary>
+    /// Tells of the first committed state that was not the host's, and what is known of it. For the session's thread, and for the
+    /// printing one once that has stopped.
+    /// </summary>
+    internal void TellDifference()
+    {
+        if (!hasToldDifference && session is ClientSession { Divergence: Divergence divergence })
+        {
+            hasToldDifference = true;
+            string sentences = divergence.ToString();
+            queue.Tell(() => printer.Problem(sentences));
+        }
+    }
+
+    private static string DivergenceOf(byte peer, SimDuration sinceStart) => FormattableString.Invariant(
+        $"Peer {peer} says that its committed state at T {sinceStart.ToSeconds()} s is not this one's.");
+
+    private void TellRenewal(byte player) =>
+        queue.Tell(() => printer.Problem($"In again as player {player}, with a fresh copy of the world."));
+
+    private void OnCommitted(CommittedState state)
+    {
+        ClockReading? clock = session is ClientSession client
+            ? new ClockReading(client.ClockSync.Estimate.Offset, client.ClockSync.Estimate.ErrorBound, client.ClockSync.RoundTrip / 2)
+            : null;
+        SimDuration sinceStart = state.Time - session.World!.Simulation.Start;
+        if (!(sinceStart > request.Length))
+        {
+            queue.Tell(() => printer.State(state, sinceStart, clock));
+        }
+    }
+}

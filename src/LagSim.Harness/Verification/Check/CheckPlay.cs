@@ -1,0 +1,250 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using System.Threading;
+using LagSim.Events;
+using LagSim.Net.Carriers;
+using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Testing.Running;
+using LagSim.Time;
+
+namespace LagSim.Harness.Verification.Check;
+
+/// <summary>Plays a drawn session in virtual time, and keeps what is to be compared.</summary>
+internal sealed class CheckPlay
+{
+    /// <summary>What a clock of a machine reads at least: true time begins this far from its origin.</summary>
+    private const double Origin = 10;
+
+    /// <summary>How long peers may take to get in, and events to get everywhere, in seconds; far longer than on the worst of links.</summary>
+    private const double Timeout = 120;
+
+    /// <summary>Clocks of one session are not further apart, but on slow and uneven ways.</summary>
+    private static readonly SimDuration LongestWait = SimDuration.FromMilliseconds(50);
+
+    private readonly CheckCase drawn;
+    private readonly CheckOptions options;
+    private readonly CancellationToken cancellation;
+    private readonly VirtualRun run;
+    private readonly List<CheckMember> members = []; // by address; clients that come late are added when they ask
+    private readonly BodyId?[] spawned;
+    private (double AtSeconds, SimTime Stamp) last = (-1, SimTime.MinValue); // what was done last
+
+    internal CheckPlay(CheckCase drawn, CheckOptions options, CancellationToken cancellation)
+    {
+        this.drawn = drawn;
+        this.options = options;
+        this.cancellation = cancellation;
+        run = new VirtualRun(Origin, drawn.Seed, cancellation);
+        spawned = new BodyId?[drawn.Actions.Count];
+    }
+
+    /// <summary>The peers that have asked by now, the host first.</summary>
+    internal IReadOnlyList<CheckMember> Members => members;
+
+    /// <summary>What the host said of every event.</summary>
+    internal HostLog Log { get; } = new();
+
+    private HostSession Host => (HostSession)members[0].Session;
+
+    /// <summary>Lets everything happen; a sentence if something came to no end.</summary>
+    internal string? Run(IReadOnlyList<CheckStep> plan)
+    {
+        int expectedClients = drawn.Players.Skip(1).Count(p => p.AsksAtSeconds is null);
+        for (int peer = 0; peer < drawn.Players.Count; peer++)
+        {
+            if (peer == 0 || drawn.Players[peer].AsksAtSeconds is null)
+            {
+                Add(peer, expectedClients);
+            }
+        }
+
+        if (!RunUntil(() => members.All(m => m.Session.World is not null) && Host.State == SessionState.Running))
+        {
+            return $"Not all were in after {Timeout} s: {States()}.";
+        }
+
+        // In true time; the clocks' errors do not matter here.
+        SimTime start = run.Clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now);
+        foreach (CheckStep step in plan)
+        {
+            run.AdvanceTo(SimTime.Max(start + SimDuration.FromSeconds(step.AtSeconds), run.Clock.Now));
+            Take(step);
+        }
+
+        if (!RunUntil(IsSettled))
+        {
+            return $"Not all had heard of everything {Timeout} s later: {States()}.";
+        }
+
+        return members.Find(m => m.Session.State != SessionState.Running && !m.HasGone) is CheckMember ended
+            ? $"Peer {ended.Peer} is {ended.Session.State}: {ended.Session.EndReason}"
+            : null;
+    }
+
+    private void Take(CheckStep step)
+    {
+        switch (step.Kind)
+        {
+            case CheckStepKind.Ask:
+                Add(step.Index, 0);
+                break;
+            case CheckStepKind.Leave:
+                Leave(step.Index, drawn.Players[step.Index].IsKilled);
+                break;
+            case CheckStepKind.Stop:
+                Stop(step.Index);
+                break;
+            case CheckStepKind.GoOn:
+                GoOn(step.Index);
+                break;
+            case CheckStepKind.Act:
+                Do(step.Index);
+                break;
+            default:
+                break; // time has passed until the end
+        }
+    }
+
+    private void Add(int address, int expectedClients)
+    {
+        CheckPlayer player = drawn.Players[address];
+        HostOptions hostOptions = new()
+        {
+            MaxGivenSpeed = double.PositiveInfinity, // a light ball among heavy ones gets faster than any player may make it
+            PlayerBudget = null, // it is about bits, however dear
+            Window = new(drawn.History, drawn.LookAhead),
+            ExtraHistory = drawn.ExtraHistory,
+            RenderedPast = SimDuration.Zero,
+            Strategy = LateEventStrategies.OfName(options.Strategy),
+            ExpectedClients = expectedClients,
+            Timeout = SimDuration.FromSeconds(20), // several times the slowest round trip
+            Cancellation = cancellation,
+        };
+        (Session session, int number) = run.Open(
+            address,
+            address == 0 ? null : player.Link,
+            player.ClockPartsPerMillion,
+            SimDuration.FromSeconds(player.ClockOffsetSeconds),
+            (port, clock) => Make(address, port, clock, hostOptions));
+        members.Add(new CheckMember(address, player, session, number, Log));
+    }
+
+    private Session Make(int address, IDatagramPort port, SkewedClock clock, HostOptions hostOptions)
+    {
+        Session session = address == 0
+            ? new HostSession(drawn.Scene, port, clock, hostOptions, drawn.Seed)
+            : new ClientSession(
+                null, port, clock, ClientOptions.From(hostOptions) with { Accelerations = drawn.Accelerations },
+                VirtualRun.HostAddress, drawn.Seed + (ulong)address);
+        options.PrepareSession?.Invoke(address, session);
+        return session;
+    }
+
+    private void Leave(int address, bool isKilled)
+    {
+        CheckMember? member = members.Find(m => m.Peer == address);
+        if (member is null || member.Session.State != SessionState.Running)
+        {
+            return; // it had not come in yet; so it stays
+        }
+
+        if (isKilled)
+        {
+            // Nothing gets through any more: the host finds out by its silence.
+            run.Network.SetLink(address, 0, new LinkLeg(0, lossPercent: 100));
+            run.Network.SetLink(0, address, new LinkLeg(0, lossPercent: 100));
+        }
+
+        member.HasGone = true;
+        member.Session.Leave();
+        run.Steps.Wake(member.Number);
+    }
+
+    private void Stop(int address)
+    {
+        if (members.Find(m => m.Peer == address) is { HasGone: false } member)
+        {
+            member.IsStopped = true;
+            run.Steps.Freeze(member.Number);
+        }
+    }
+
+    private void GoOn(int address)
+    {
+        if (members.Find(m => m.Peer == address) is { IsStopped: true } member)
+        {
+            member.IsStopped = false;
+            run.Steps.Thaw(member.Number);
+        }
+    }
+
+    private void Do(int index)
+    {
+        CheckAction action = drawn.Actions[index];
+        BodyId? body = action.Kind == EventKind.Spawn ? default(BodyId)
+            : action.Spawn >= 0 ? spawned[action.Spawn]
+            : drawn.BodyDrawnAs(action.Body);
+        if (body is not BodyId target)
+        {
+            return; // to a body that was left out
+        }
+
+        CheckMember actor = members.Find(m => m.Peer == action.Peer && m.Session.State == SessionState.Running && !m.IsStopped)
+            ?? members[0];
+        if (actor.IsStopped)
+        {
+            return; // nobody is there to do it
+        }
+
+        if (action.Kind == EventKind.Impulse && actor.Session.World!.Simulation.SpecOf(target).Mass != action.Spec.Mass)
+        {
+            return; // it has not heard of the body, or of another of that name: who spawned it went before anybody heard of it
+        }
+
+        if (action.AtSeconds == last.AtSeconds)
+        {
+            WaitFor(actor, last.Stamp);
+        }
+
+        ExternalEvent external = actor.Session.Do(action.On(target));
+        last = (action.AtSeconds, external.Time);
+        run.Steps.Wake(actor.Number);
+        spawned[index] = action.Kind == EventKind.Spawn ? external.Body : null;
+    }
+
+    /// <summary>Lets time pass until a peer's clock reads that, to the tick; not if that is far off, or past.</summary>
+    private void WaitFor(CheckMember actor, SimTime reading)
+    {
+        SimDuration left = reading - actor.Session.SharedTime.Now;
+        while (left > SimDuration.Zero && left < LongestWait && actor.Session.State == SessionState.Running)
+        {
+            // By less than what is left: the clock may run fast.
+            run.AdvanceTo(run.Clock.Now + (left - (left / 16) > SimDuration.OneTick ? left - (left / 16) : SimDuration.OneTick));
+            left = reading - actor.Session.SharedTime.Now;
+        }
+    }
+
+    private bool IsSettled()
+    {
+        foreach (CheckMember member in members)
+        {
+            bool isOut = member.HasGone || member.Session.State == SessionState.Ended;
+            if (!isOut && (member.Session.State != SessionState.Running || member.Session.LogLength != Host.LogLength
+                || member.Session is ClientSession { UnconfirmedEvents: > 0 }))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
+
+    private bool RunUntil(Func<bool> isSo) => run.RunUntil(isSo, () => Host.State == SessionState.Ended, Timeout) == WaitEnd.IsSo;
+
+    private string States() =>
+        string.Join("; ", members.Select(m => $"peer {m.Peer} {m.Session.State} {m.Session.EndReason} log {m.Session.LogLength}"));
+}
