@@ -79,8 +79,8 @@ public class EventQueueBenchmark
         int sum = 0;
         for (int i = 0; i < Holds; i++)
         {
-            int slot = ours.LeastSlot;
-            SimTime now = ours.LeastKey.Time;
+            int slot = ours.MinSlot;
+            SimTime now = ours.MinKey.Time;
             ours.Set(slot, KeyAfter(now, slot));
             if ((i & 3) == 0)
             {

@@ -6,11 +6,11 @@ using System.CommandLine.Invocation;
 namespace LagSim.Cli;
 
 /// <summary>The help of every command.</summary>
-/// <remarks>No line is longer than <see cref="MostColumns"/>. The list of all commands has one sentence for each.</remarks>
+/// <remarks>No line is longer than <see cref="MaxColumns"/>. The list of all commands has one sentence for each.</remarks>
 internal sealed class HelpOfTool : SynchronousCommandLineAction
 {
     /// <summary>The longest line, in characters; a narrower terminal gets shorter lines.</summary>
-    internal const int MostColumns = 100;
+    internal const int MaxColumns = 100;
 
     private readonly HelpAction help = new();
 
@@ -28,7 +28,7 @@ internal sealed class HelpOfTool : SynchronousCommandLineAction
             command.Description = FirstSentence(command.Description ?? "");
         }
 
-        help.MaxWidth = help.MaxWidth is > 0 and < MostColumns ? help.MaxWidth : MostColumns;
+        help.MaxWidth = help.MaxWidth is > 0 and < MaxColumns ? help.MaxWidth : MaxColumns;
         return help.Invoke(parseResult);
     }
 

@@ -41,7 +41,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     public const int DefaultMaxConnections = 4 * SessionOptions.MaxClients;
 
     /// <summary>The most connections that can be asked for.</summary>
-    public const int MostConnections = 4096;
+    public const int MaxConnections = 4096;
 
     /// <summary>The largest number of closed connections kept beside the live ones: LiteNetLib remembers a closed connection for as long as
     /// a silent one.</summary>
@@ -80,7 +80,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <param name="key">The shared secret that a peer must present to connect, 1 to <see cref="MaxKeyLength"/> characters; null for none.
     /// The name and version of LagSim's protocol are always compared too.</param>
     /// <param name="maxConnections">How many connections there may be, both granted and asked for, 1 to
-    /// <see cref="MostConnections"/>.</param>
+    /// <see cref="MaxConnections"/>.</param>
     /// <exception cref="ArgumentNullException"><paramref name="bind"/> is null.</exception>
     /// <exception cref="ArgumentException">Another IPv6 address, which LiteNetLib cannot bind to alone; or a key of another
     /// length.</exception>
@@ -217,10 +217,10 @@ public sealed partial class LiteNetLibPort : IDatagramPort
             throw new ArgumentException($"A key has 1 to {MaxKeyLength} characters; this one has {key.Length}.", nameof(key));
         }
 
-        if (maxConnections is < 1 or > MostConnections)
+        if (maxConnections is < 1 or > MaxConnections)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(maxConnections), maxConnections, $"There can be 1 to {MostConnections} connections.");
+                nameof(maxConnections), maxConnections, $"There can be 1 to {MaxConnections} connections.");
         }
     }
 

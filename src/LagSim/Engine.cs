@@ -63,7 +63,7 @@ internal sealed class Engine
         CollisionPredictor collisions = new(
             scene, start, Bodies, Timelines, rollback, view, memberContacts, strikes, Step.Scale, hasIslands);
         CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, marks);
-        BroadPhase = parts.BroadPhase(scene, Bodies, Timelines, options.MostPairs);
+        BroadPhase = parts.BroadPhase(scene, Bodies, Timelines, options.BruteForceLimit);
         predictor = parts.EventPredictor(Bodies, Timelines, log, scheduler, rollback, flights, BroadPhase, search, view);
 
         // Rewinding for late events.
@@ -144,7 +144,7 @@ internal sealed class Engine
     /// <summary>The last instant that can be read: nothing happens between what is simulated and here.</summary>
     internal SimTime Horizon => scheduler.Count == 0
         ? SimTime.MaxValue
-        : SimTime.Max(Progress.SimulatedTo, scheduler.LeastKey.Time - SimDuration.OneTick);
+        : SimTime.Max(Progress.SimulatedTo, scheduler.MinKey.Time - SimDuration.OneTick);
 
     /// <summary>Adds a body of the scene, on the first segment of its flight.</summary>
     internal void AddFromScene(int n)

@@ -34,8 +34,8 @@ internal class EngineParts
 
     internal virtual PathView PathView(TimelineStore timelines, RollbackState rollback) => new(timelines, rollback);
 
-    internal virtual AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs) =>
-        new(scene, bodies, timelines, mostPairs);
+    internal virtual AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int bruteForceLimit) =>
+        new(scene, bodies, timelines, bruteForceLimit);
 
     internal virtual CollisionSearch CollisionSearch(
         BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,

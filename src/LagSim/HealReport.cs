@@ -8,9 +8,9 @@ namespace LagSim;
 public readonly struct HealReport : IEquatable<HealReport>
 {
     /// <summary>A report of these.</summary>
-    public HealReport(SimTime from, SimTime to, int lateEvents, int bodies, long segmentsCut, long events, SimTime? met = null)
+    public HealReport(SimTime from, SimTime to, int lateEvents, int bodies, long segmentsCut, long events, SimTime? reconvergedAt = null)
     {
-        Met = met;
+        ReconvergedAt = reconvergedAt;
         From = from;
         To = to;
         LateEvents = lateEvents;
@@ -45,17 +45,17 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// Null if that never came, or was not tested: after a full rollback, after more late events before the heal was finished, and where it
     /// had cut more than 256 segments.
     /// </summary>
-    public SimTime? Met { get; }
+    public SimTime? ReconvergedAt { get; }
 
     /// <inheritdoc/>
     public bool Equals(HealReport other) =>
-        (From, To, LateEvents, Bodies, SegmentsCut, Events, Met) == (other.From, other.To, other.LateEvents, other.Bodies, other.SegmentsCut, other.Events, other.Met);
+        (From, To, LateEvents, Bodies, SegmentsCut, Events, ReconvergedAt) == (other.From, other.To, other.LateEvents, other.Bodies, other.SegmentsCut, other.Events, other.ReconvergedAt);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is HealReport other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => (From, To, LateEvents, Bodies, SegmentsCut, Events, Met).GetHashCode();
+    public override int GetHashCode() => (From, To, LateEvents, Bodies, SegmentsCut, Events, ReconvergedAt).GetHashCode();
 
     /// <summary>Same in every part.</summary>
     public static bool operator ==(in HealReport a, in HealReport b) => a.Equals(b);

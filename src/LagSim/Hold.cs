@@ -9,11 +9,11 @@ namespace LagSim;
 public readonly struct Hold : IEquatable<Hold>
 {
     /// <summary>A hold of these.</summary>
-    public Hold(byte peer, in Vector3D offset, SimTime keyframe)
+    public Hold(byte peer, in Vector3D offset, SimTime keyframeTime)
     {
         Peer = peer;
         Offset = offset;
-        Keyframe = keyframe;
+        KeyframeTime = keyframeTime;
     }
 
     /// <summary>The peer that holds the body.</summary>
@@ -25,16 +25,16 @@ public readonly struct Hold : IEquatable<Hold>
     /// <summary>
     /// The time of the hand's last keyframe, or of the grab. The hold ends by itself <see cref="Motion.HandPath.Lasts"/> later.
     /// </summary>
-    public SimTime Keyframe { get; }
+    public SimTime KeyframeTime { get; }
 
     /// <inheritdoc/>
-    public bool Equals(Hold other) => Peer == other.Peer && Offset.Equals(other.Offset) && Keyframe == other.Keyframe;
+    public bool Equals(Hold other) => Peer == other.Peer && Offset.Equals(other.Offset) && KeyframeTime == other.KeyframeTime;
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is Hold other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => Keyframe.GetHashCode() ^ (Offset.GetHashCode() * 397) ^ Peer;
+    public override int GetHashCode() => KeyframeTime.GetHashCode() ^ (Offset.GetHashCode() * 397) ^ Peer;
 
     /// <summary>Same in every part.</summary>
     public static bool operator ==(in Hold a, in Hold b) => a.Equals(b);

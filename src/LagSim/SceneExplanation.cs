@@ -14,8 +14,8 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class SceneExplanation
 {
-    private const int MostGroupsInText = 10;
-    private const int MostNamesInText = 3;
+    private const int MaxGroupsInText = 10;
+    private const int MaxNamesInText = 3;
 
     private SceneExplanation(IReadOnlyList<BodyExplanation> bodies, IReadOnlyList<FeatureExplanation> features, string? cannotBegin)
     {
@@ -49,7 +49,7 @@ public sealed class SceneExplanation
             {
                 groups[group].Names.Add(body.Body);
             }
-            else if (groups.Count < MostGroupsInText)
+            else if (groups.Count < MaxGroupsInText)
             {
                 groups.Add((line, new List<string> { body.Body }));
             }
@@ -62,7 +62,7 @@ public sealed class SceneExplanation
         StringBuilder text = new();
         foreach ((string line, List<string> names) in groups)
         {
-            int named = names.Count <= MostNamesInText + 1 ? names.Count : MostNamesInText; // "and 1 more" is as long as a name
+            int named = names.Count <= MaxNamesInText + 1 ? names.Count : MaxNamesInText; // "and 1 more" is as long as a name
             text.Append(string.Join(", ", names.GetRange(0, named)));
             text.Append(named < names.Count ? $" and {names.Count - named} more" : "").Append(line).Append('\n');
         }
@@ -211,7 +211,7 @@ public sealed class SceneExplanation
             }
         }
 
-        bool hasIndex = bodies > SimulationOptions.DefaultMostPairs;
+        bool hasIndex = bodies > SimulationOptions.DefaultBruteForceLimit;
         bool canLast = scene.PlaneArray.Length > 0 && scene.Gravity != Vector3D.Zero;
         FeatureExplanation islands = Islands(scene, used != 0);
         return new[]
@@ -241,7 +241,7 @@ public sealed class SceneExplanation
                 "contacts of bodies", bodies > 1 || scene.Spawners != PeerSet.Nobody,
                 hasIndex
                     ? $"{bodies} bodies: an index of swept paths names those that come near."
-                    : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultMostPairs} every pair is looked at, without an index."),
+                    : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultBruteForceLimit} every pair is looked at, without an index."),
             new FeatureExplanation(
                 "periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
         };

@@ -17,7 +17,7 @@ public sealed class SimulationOptions
     public const int DefaultMaxSegments = 1 << 23;
 
     /// <summary>The number of bodies above which neighbour lists cost less than testing every body.</summary>
-    internal const int DefaultMostPairs = 64;
+    internal const int DefaultBruteForceLimit = 64;
 
     /// <summary>Options, each with its default.</summary>
     /// <param name="start">The instant at which the scene begins; default the origin. It has no influence on the motion, to the
@@ -99,11 +99,11 @@ public sealed class SimulationOptions
     /// The number of bodies up to which the broad phase is brute force. No bit depends on it; tests set it to have neighbour lists in small
     /// worlds.
     /// </summary>
-    internal int MostPairs { get; init; } = DefaultMostPairs;
+    internal int BruteForceLimit { get; private set; } = DefaultBruteForceLimit;
 
-    /// <summary>The same with another <see cref="MostPairs"/>.</summary>
-    internal SimulationOptions WithMostPairs(int most) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, MostPairs = most, Parts = Parts };
+    /// <summary>The same with another <see cref="BruteForceLimit"/>.</summary>
+    internal SimulationOptions WithBruteForceLimit(int most) =>
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, BruteForceLimit = most, Parts = Parts };
 
     /// <summary>The factory of the engine's parts.</summary>
     internal EngineParts Parts { get; private set; } = EngineParts.Usual;
@@ -115,16 +115,16 @@ public sealed class SimulationOptions
     /// The same, for the twin of a sync test: no cancellation, so that it is never behind, and the usual parts, by which it checks others.
     /// </summary>
     internal SimulationOptions FullyRolledBack() =>
-        new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { MostPairs = MostPairs };
+        new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { BruteForceLimit = BruteForceLimit };
 
     /// <summary>Notified of impacts, including those of the very first instant; null for none.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>
     internal SimulationOptions WithObserver(IImpactObserver? observer) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, MostPairs = MostPairs, Parts = Parts };
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, BruteForceLimit = BruteForceLimit, Parts = Parts };
 
     /// <summary>The same with parts that others make.</summary>
     internal SimulationOptions WithParts(EngineParts parts) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, MostPairs = MostPairs, Parts = parts };
+        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, BruteForceLimit = BruteForceLimit, Parts = parts };
 }

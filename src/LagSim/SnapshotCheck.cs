@@ -156,11 +156,11 @@ internal static class SnapshotCheck
         }
 
         Limits.Components(hold.Offset, Limits.MaxCoordinate, whose, "offset of the hand", "m");
-        bool isPast = hold.Keyframe >= snapshot.Start && hold.Keyframe <= body.Epoch;
-        if (!isPast || (body.End != hold.Keyframe + HandPath.Settles && body.End != hold.Keyframe + HandPath.Stops && body.End != hold.Keyframe + HandPath.Lasts))
+        bool isPast = hold.KeyframeTime >= snapshot.Start && hold.KeyframeTime <= body.Epoch;
+        if (!isPast || (body.End != hold.KeyframeTime + HandPath.Settles && body.End != hold.KeyframeTime + HandPath.Stops && body.End != hold.KeyframeTime + HandPath.Lasts))
         {
             throw new SceneException(
-                $"The hand that holds {whose} last told where it is at {hold.Keyframe}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
+                $"The hand that holds {whose} last told where it is at {hold.KeyframeTime}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
                 + $" {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
         }
     }

@@ -80,7 +80,7 @@ internal static class TestWorlds
     internal static IEnumerable<BodyId> Bodies(Simulation simulation) => Enumerable.Range(0, simulation.BodyCount).Select(simulation.BodyAt);
 
     /// <summary>The least distance between any two surfaces at an instant; negative where they overlap.</summary>
-    internal static double LeastGap(Simulation simulation, SimTime time)
+    internal static double MinGap(Simulation simulation, SimTime time)
     {
         List<(Vector3D Position, double Radius)> balls = Bodies(simulation)
             .Select(body => (State: Read(simulation, body, time), simulation.SpecOf(body).Radius))

@@ -24,9 +24,9 @@ internal static class CheckCommand
         Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions; each takes the next seed", 1000, 1, 10_000_000);
         Option<string> peers = new("--peers")
         {
-            Description = $"How many peers a session has, the host included: a number, or a range ({CheckOptions.FewestPeers} to {CheckOptions.MostPeers}).",
+            Description = $"How many peers a session has, the host included: a number, or a range ({CheckOptions.FewestPeers} to {CheckOptions.MaxPeers}).",
             HelpName = "N|N-M",
-            DefaultValueFactory = _ => $"{CheckOptions.FewestPeers}-{CheckOptions.MostPeers}",
+            DefaultValueFactory = _ => $"{CheckOptions.FewestPeers}-{CheckOptions.MaxPeers}",
         };
         Option<string> profile = new("--profile")
         {
@@ -109,9 +109,9 @@ internal static class CheckCommand
     {
         string[] parts = text.Split('-');
         int[] numbers = [.. parts.Select(part => int.TryParse(part, NumberStyles.None, CultureInfo.InvariantCulture, out int number) ? number : -1)];
-        return parts.Length <= 2 && numbers[0] >= CheckOptions.FewestPeers && numbers[^1] <= CheckOptions.MostPeers && numbers[0] <= numbers[^1]
+        return parts.Length <= 2 && numbers[0] >= CheckOptions.FewestPeers && numbers[^1] <= CheckOptions.MaxPeers && numbers[0] <= numbers[^1]
             ? (numbers[0], numbers[^1])
-            : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MostPeers}, or a range of"
+            : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MaxPeers}, or a range of"
                 + " them such as 2-8.");
     }
 

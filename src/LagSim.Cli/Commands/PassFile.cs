@@ -9,7 +9,7 @@ namespace LagSim.Cli.Commands;
 /// <summary>The file that keeps a player's pass from one run of <c>lagsim join</c> to the next.</summary>
 internal static class PassFile
 {
-    private const int MostBytes = 1_000; // a pass is one line of at most 36
+    private const int MaxBytes = 1_000; // a pass is one line of at most 36
 
     /// <summary>The pass in the file; none if there is no such file yet.</summary>
     /// <exception cref="InputException">The file holds something else.</exception>
@@ -22,9 +22,9 @@ internal static class PassFile
         }
 
         using FileStream stream = File.OpenRead(file); // what is no plain file may have no end
-        byte[] bytes = new byte[MostBytes];
-        int length = stream.ReadAtLeast(bytes, MostBytes, throwOnEndOfStream: false);
-        return length < MostBytes && PlayerPass.TryParse(Encoding.UTF8.GetString(bytes, 0, length), out PlayerPass pass)
+        byte[] bytes = new byte[MaxBytes];
+        int length = stream.ReadAtLeast(bytes, MaxBytes, throwOnEndOfStream: false);
+        return length < MaxBytes && PlayerPass.TryParse(Encoding.UTF8.GetString(bytes, 0, length), out PlayerPass pass)
             ? pass
             : throw new InputException($"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
     }

@@ -18,7 +18,7 @@ namespace LagSim.Cli.Commands;
 internal static class RunCommand
 {
     /// <summary>Some 1.5 GB of CSV.</summary>
-    private const double MostSampleRows = 1e7;
+    private const double MaxSampleRows = 1e7;
 
     /// <summary>In seconds; what has run for so long is compiled as well as it will be.</summary>
     private const double LongEnoughToWarmUp = 1;
@@ -106,12 +106,12 @@ internal static class RunCommand
     private static void RefuseTooManyRows(double every, double until, int bodies)
     {
         double rows = (Math.Floor(until / every) + 1) * bodies;
-        if (rows > MostSampleRows)
+        if (rows > MaxSampleRows)
         {
             throw new UsageException(string.Create(
                 CultureInfo.InvariantCulture,
                 $"--every-s is {every}; up to --until-s {until} that is {rows:N0} rows of samples, one for each instant and body, and at most"
-                    + $" {MostSampleRows:N0} are allowed."));
+                    + $" {MaxSampleRows:N0} are allowed."));
         }
     }
 
@@ -134,7 +134,7 @@ internal static class RunCommand
             long began = Stopwatch.GetTimestamp();
             Simulation end = Write(console, request, done => progress(done.ToSeconds()));
             double written = Lap(ref began);
-            double wall = request.Timed == 0 ? written : SceneRun.LeastSeconds(
+            double wall = request.Timed == 0 ? written : SceneRun.MinSeconds(
                 scene, length, request.Timed, done => progress(once + done), isWarm: written > LongEnoughToWarmUp, request.History, console.Stop);
             double timed = Lap(ref began);
             RunSummary summary = new(end, SimTime.Zero + length, start, SceneEnergy.Of(end, SimTime.Zero + length), wall)

@@ -19,7 +19,7 @@ internal sealed class ScriptedAction
         + "BODY is the name of a body of the scene, by default the first, or PEER.SEQUENCE.0 for a spawned one. "
         + "Examples: teleport@3:0,15,0, impulse@2.5:ball:0,4,0, remove@9:ball. May be repeated.";
 
-    internal const double MostSeconds = 1e6;
+    internal const double MaxSeconds = 1e6;
 
     private static readonly string[] Kinds = ["teleport", "set-velocity", "impulse", "spawn", "grab", "knot", "release", "remove"];
 
@@ -54,7 +54,7 @@ internal sealed class ScriptedAction
         }
 
         string[] parts = text[(at + 1)..].Split(':');
-        if (!TryNumber(parts[0], out double seconds) || seconds is < 0 or > MostSeconds)
+        if (!TryNumber(parts[0], out double seconds) || seconds is < 0 or > MaxSeconds)
         {
             throw Wrong(text, $"its time is '{parts[0]}', it must be a number of seconds between 0 and 1000000");
         }

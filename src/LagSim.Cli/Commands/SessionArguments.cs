@@ -13,11 +13,11 @@ namespace LagSim.Cli.Commands;
 /// <summary>The options that host and join share.</summary>
 internal sealed class SessionArguments
 {
-    internal const double LeastLength = 0.1;
+    internal const double MinLength = 0.1;
 
     private const double DefaultTimeoutSeconds = 10;
     private const double DefaultRejoinSeconds = 120;
-    private const double MostKeepAliveSeconds = 2;
+    private const double MaxKeepAliveSeconds = 2;
 
     private readonly Option<string?> key = new("--key")
     {
@@ -26,7 +26,7 @@ internal sealed class SessionArguments
     };
 
     private readonly Option<string[]> actions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "ACTION" };
-    private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", LeastLength, ScriptedAction.MostSeconds);
+    private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.", MinLength, ScriptedAction.MaxSeconds);
     private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, whose name usually ends in .lagsim; an"
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"
         + " come game.2.lagsim, game.3.lagsim and so on. The summary names them all.");
@@ -104,7 +104,7 @@ internal sealed class SessionArguments
             ConnectKey = parsed.GetValue(key) ?? "",
             Timeout = SimDuration.FromSeconds(silence),
             RejoinTime = SimDuration.FromSeconds(parsed.GetValue(rejoin)),
-            KeepAlive = SimDuration.FromSeconds(Math.Min(MostKeepAliveSeconds, silence / 4)),
+            KeepAlive = SimDuration.FromSeconds(Math.Min(MaxKeepAliveSeconds, silence / 4)),
         };
         return new SessionRequest(options, ordered, seconds, file);
     }

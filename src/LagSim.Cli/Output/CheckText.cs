@@ -10,7 +10,7 @@ namespace LagSim.Cli.Output;
 /// <summary>A check as lines of text.</summary>
 internal static class CheckText
 {
-    private const int MostNamed = 20;
+    private const int MaxNamed = 20;
 
     internal static void Write(TextWriter output, CheckOptions options, CheckReport report, string? folder)
     {
@@ -41,7 +41,7 @@ internal static class CheckText
             output.WriteLine(shrunk);
         }
 
-        for (int n = 0; n < report.Failures.Count && n < MostNamed; n++)
+        for (int n = 0; n < report.Failures.Count && n < MaxNamed; n++)
         {
             CheckFailure failure = report.Failures[n];
             output.WriteLine();
@@ -58,9 +58,9 @@ internal static class CheckText
             output.WriteLine($"  {failure.Command}");
         }
 
-        if (report.Failures.Count > MostNamed)
+        if (report.Failures.Count > MaxNamed)
         {
-            output.WriteLine(string.Create(culture, $"and {report.Failures.Count - MostNamed:N0} more; --json names all"));
+            output.WriteLine(string.Create(culture, $"and {report.Failures.Count - MaxNamed:N0} more; --json names all"));
         }
 
         if (folder is not null)

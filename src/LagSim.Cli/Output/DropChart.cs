@@ -16,7 +16,7 @@ internal static class DropChart
     private const double LeadSeconds = 0.5;
 
     /// <summary>The least that the picture of an event's milliseconds shows before and after them.</summary>
-    private const double LeastMarginSeconds = 0.02;
+    private const double MinMarginSeconds = 0.02;
 
     private const string Time = "shared time since the start of the scene (s)";
 
@@ -62,7 +62,7 @@ internal static class DropChart
             return null;
         }
 
-        double margin = Math.Max(LeastMarginSeconds, dealt - lifted);
+        double margin = Math.Max(MinMarginSeconds, dealt - lifted);
         DropTrace trace = before is null ? run.Trace : WithLead(run.Trace, before.Trace);
         int from = Math.Max(0, Array.FindIndex(trace.Seconds, seconds => seconds >= lifted - margin));
         int end = Array.FindLastIndex(trace.Seconds, seconds => seconds <= dealt + margin) + 1;

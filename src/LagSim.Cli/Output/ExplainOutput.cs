@@ -13,7 +13,7 @@ namespace LagSim.Cli.Output;
 /// <summary>What the engine makes of a scene, as tables and as JSON.</summary>
 internal static class ExplainOutput
 {
-    private const int MostNames = 3;
+    private const int MaxNames = 3;
 
     /// <summary>So long that what is named besides the first body leaves room for the sentence.</summary>
     private const int LongestNames = 40;
@@ -112,7 +112,7 @@ internal static class ExplainOutput
     {
         int named = 1;
         string names = bodies[0].Body;
-        while (named < Math.Min(MostNames, bodies.Count) && names.Length + bodies[named].Body.Length < LongestNames)
+        while (named < Math.Min(MaxNames, bodies.Count) && names.Length + bodies[named].Body.Length < LongestNames)
         {
             names += $", {bodies[named++].Body}";
         }

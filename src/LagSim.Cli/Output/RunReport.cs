@@ -15,7 +15,7 @@ namespace LagSim.Cli.Output;
 internal static class RunReport
 {
     private const int Samples = 2000;
-    private const int MostBodies = 7;
+    private const int MaxBodies = 7;
 
     internal static void Write(string folder, Scene scene, RunSummary run, ulong seed, string? sampleFile, SimDuration history, Action<SimDuration> progress)
     {
@@ -36,7 +36,7 @@ internal static class RunReport
 
     private static LineChart Heights(Scene scene, SimDuration length, SimDuration history, Action<SimDuration> progress)
     {
-        int bodies = Math.Min(scene.Bodies.Count, MostBodies);
+        int bodies = Math.Min(scene.Bodies.Count, MaxBodies);
         List<double> seconds = [];
         List<double>[] heights = Enumerable.Range(0, bodies).Select(_ => new List<double>()).ToArray();
         new SceneRun(scene)

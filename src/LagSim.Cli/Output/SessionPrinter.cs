@@ -241,7 +241,7 @@ internal sealed class SessionPrinter
             document.WriteStartObject();
             document.WriteNumber("player", cost.Player);
             document.WriteNumber("work", cost.Work);
-            document.WriteNumber("most_at_once", cost.MostAtOnce);
+            document.WriteNumber("most_at_once", cost.MaxAtOnce);
             document.WriteEndObject();
         }
 
@@ -264,7 +264,7 @@ internal sealed class SessionPrinter
         SessionEnd.HostEnded => "host-ended",
         SessionEnd.Refused => "refused",
         SessionEnd.HostSilent => "host-silent",
-        SessionEnd.Disconnect => "let-go",
+        SessionEnd.Disconnected => "let-go",
         SessionEnd.LinkTooSlow => "link-too-slow",
         _ => "failed",
     };

@@ -109,7 +109,7 @@ internal static class SweepTables
     {
         yield return $"Offered and delivered: what a client is to hear of, in bytes of entries. Sent: what the host sent it, datagrams with UDP and IP. Load: what the events need at"
             + " least, of what the link carries in its dips. Round trips are the client's, as it measures them; idle is before the first event.";
-        string least = string.Create(CultureInfo.InvariantCulture, $"{100 * SweepOutcome.LeastComparedShare:0} %");
+        string least = string.Create(CultureInfo.InvariantCulture, $"{100 * SweepOutcome.MinComparedShare:0} %");
         SweepOutcome[] bad = [.. outcomes.Where(o => !o.IsGood)];
         string all = outcomes.Count == 1 ? "The one cell" : $"All {outcomes.Count} cells";
         yield return bad.Length == 0

@@ -8,7 +8,7 @@ namespace LagSim.Harness.SceneFiles;
 /// <content>Forces, and which of them act on a body.</content>
 internal ref partial struct SceneJsonReader
 {
-    private const int MostListed = 10;
+    private const int MaxListed = 10;
 
     private static readonly JsonKeys ForceKeys = new(
         ["name", "kind"],
@@ -119,7 +119,7 @@ internal ref partial struct SceneJsonReader
             if (!forceNames.Contains(name))
             {
                 string there = forceNames.Count == 0 ? "it has none"
-                    : $"it has {string.Join(", ", forceNames.Take(MostListed).Select(JsonFault.Quote))}{(forceNames.Count > MostListed ? $" and {forceNames.Count - MostListed} more" : "")}";
+                    : $"it has {string.Join(", ", forceNames.Take(MaxListed).Select(JsonFault.Quote))}{(forceNames.Count > MaxListed ? $" and {forceNames.Count - MaxListed} more" : "")}";
                 throw new SceneFileException(where.File, where.Path, where.Line, $"no force of the scene is named {JsonFault.Quote(name)}; {there}");
             }
         }

@@ -32,7 +32,7 @@ internal static class SceneJsonWriter
         json.WriteNumber("contact_tolerance_m", scene.ContactTolerance);
 
         // Where it is what the bodies say anyway it stays open, so that someone who edits a radius need not think of it.
-        if (scene.SmallestRadius != LeastRadius(scene))
+        if (scene.SmallestRadius != MinRadius(scene))
         {
             json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
         }
@@ -98,7 +98,7 @@ internal static class SceneJsonWriter
     }
 
     /// <summary>The smallest radius of a scene that promises none.</summary>
-    private static double LeastRadius(Scene scene)
+    private static double MinRadius(Scene scene)
     {
         double least = 1e9;
         foreach (SceneBody body in scene.Bodies)

@@ -19,8 +19,8 @@ internal struct ClockExchange
         back = ownReceive;
         most = otherReceive - ownSend; // when it left, the other clock had not yet read what it read on arrival
         least = otherSend - ownReceive; // when it came back, the other clock had already read what it read on leaving
-        LeastDrift = double.NegativeInfinity;
-        MostDrift = double.PositiveInfinity;
+        DriftFloor = double.NegativeInfinity;
+        DriftLimit = double.PositiveInfinity;
     }
 
     /// <summary>The local time at which it came back.</summary>
@@ -30,10 +30,10 @@ internal struct ClockExchange
     internal readonly SimDuration Least => least;
 
     /// <summary>The least drift that this exchange and those before it allow, as a fraction.</summary>
-    internal double LeastDrift { get; private set; }
+    internal double DriftFloor { get; private set; }
 
     /// <summary>The most drift that this exchange and those before it allow, as a fraction.</summary>
-    internal double MostDrift { get; private set; }
+    internal double DriftLimit { get; private set; }
 
     /// <summary>The time from the request to the answer, in seconds of the local clock, including the wait at the other peer.</summary>
     internal readonly double Length => (back - left).ToSeconds();
@@ -75,9 +75,9 @@ internal struct ClockExchange
     }
 
     /// <summary>Intersects with a narrower range of drift.</summary>
-    internal void Intersect(double leastDrift, double mostDrift)
+    internal void Intersect(double driftFloor, double driftLimit)
     {
-        LeastDrift = leastDrift > LeastDrift ? leastDrift : LeastDrift;
-        MostDrift = mostDrift < MostDrift ? mostDrift : MostDrift;
+        DriftFloor = driftFloor > DriftFloor ? driftFloor : DriftFloor;
+        DriftLimit = driftLimit < DriftLimit ? driftLimit : DriftLimit;
     }
 }

@@ -61,7 +61,7 @@ internal sealed class OnlineLeastSquares
     }
 
     /// <summary>Predicts the mean velocity that follows these velocities.</summary>
-    internal Vector3D Foretell(Vector3D[] inputs)
+    internal Vector3D Predict(Vector3D[] inputs)
     {
         Vector3D sum = default;
         for (int i = 0; i < Inputs; i++)

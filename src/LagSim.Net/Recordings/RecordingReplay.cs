@@ -21,7 +21,7 @@ namespace LagSim.Net.Recordings;
 /// </remarks>
 public sealed class RecordingReplay
 {
-    private const int MostNamed = 5;
+    private const int MaxNamed = 5;
 
     private RecordingReplay(
         ReplayOutcome outcome, int eventsApplied, int statesChecked, SimTime? agreedUpTo, CommittedState? expected, CommittedState? actual, string message)
@@ -107,7 +107,7 @@ public sealed class RecordingReplay
                     return new RecordingReplay(
                         ReplayOutcome.Differs, applied, agreed, last?.Time, expected, actual,
                         $"The replay differs at {Words.SinceStart(expected.Time, recording.Header!.Start)}: recorded {expected}; replayed {actual}."
-                            + WhoseDoing(simulation, recording, expected, actual, last?.Time ?? recording.Joined?.Time)
+                            + SuspectsOf(simulation, recording, expected, actual, last?.Time ?? recording.Joined?.Time)
                             + Holds(recording))
                     {
                         World = simulation,
@@ -143,7 +143,7 @@ public sealed class RecordingReplay
     /// Names the bodies that the difference can stem from. Hashes do not show it, but everything agreed up to the last equal state, so the
     /// difference arose in what happened since.
     /// </summary>
-    private static string WhoseDoing(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
+    private static string SuspectsOf(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
     {
         SimTime start = recording.Header!.Start;
         StringBuilder named = new();
@@ -154,7 +154,7 @@ public sealed class RecordingReplay
             IReadOnlyList<TimelineEntry> kept = replayed.Timeline(body);
             if (kept[kept.Count - 1].Key.Time > (agreed ?? start))
             {
-                named.Append(count < MostNamed ? (count == 0 ? ": " : ", ") + Words.Named(replayed.Scene, body) : count == MostNamed ? ", ..." : "");
+                named.Append(count < MaxNamed ? (count == 0 ? ": " : ", ") + Words.Named(replayed.Scene, body) : count == MaxNamed ? ", ..." : "");
                 count++;
             }
         }

@@ -37,7 +37,7 @@ public sealed class HandSender
     }
 
     /// <summary>The number of keyframes that were due so far.</summary>
-    public long Keyframes { get; private set; }
+    public long KeyframesSent { get; private set; }
 
     /// <summary>
     /// The greatest distance in metres between a sample and the other peers' prediction of it, samples that caused a keyframe included; the
@@ -70,7 +70,7 @@ public sealed class HandSender
             sent = time;
             sentPosition = position;
             sentVelocity = velocity;
-            Keyframes++;
+            KeyframesSent++;
         }
 
         keyframe = isDue ? PlayerAction.HoldKeyframe(body, position, velocity) : default;

@@ -8,16 +8,16 @@ namespace LagSim.Net.Sessions;
 public sealed class HandSenderOptions
 {
     /// <summary>The error in metres that other peers may have without a keyframe, above zero; default 0.01.</summary>
-    public double Distance { get; set; } = 0.01;
+    public double Distance { get; init; } = 0.01;
 
     /// <summary>The least time between two keyframes, however large the error: 1 ms to <see cref="Longest"/>, default 50 ms.</summary>
-    public SimDuration Shortest { get; set; } = SimDuration.FromMilliseconds(50);
+    public SimDuration Shortest { get; init; } = SimDuration.FromMilliseconds(50);
 
     /// <summary>
     /// The longest time without a keyframe, however still the hand is: up to half of <see cref="HandPath.Lasts"/>, after which a hold ends
     /// by itself, so that one keyframe may be late; default 400 ms.
     /// </summary>
-    public SimDuration Longest { get; set; } = SimDuration.FromMilliseconds(400);
+    public SimDuration Longest { get; init; } = SimDuration.FromMilliseconds(400);
 
     internal HandSenderOptions Checked()
     {

@@ -149,7 +149,7 @@ public sealed class HostSession : Session
     {
         host.Parts.Owner.ThrowIfForeign();
         ThrowIfNoPlayer(player);
-        return host.Roster.SendAway(j => j.Peer == player) > 0;
+        return host.Roster.Kick(j => j.Peer == player) > 0;
     }
 
     /// <summary>
@@ -171,7 +171,7 @@ public sealed class HostSession : Session
 
         PeerAddress machine = found.Link.Other.Machine;
         host.Door.ShutOuts.Ban(machine);
-        host.Roster.SendAway(j => j.Link.Other.Machine == machine);
+        host.Roster.Kick(j => j.Link.Other.Machine == machine);
         return machine;
     }
 

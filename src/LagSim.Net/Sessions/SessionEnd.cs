@@ -19,7 +19,7 @@ public enum SessionEnd
     HostSilent,
 
     /// <summary>The host disconnected this client, because it was silent or did not keep up.</summary>
-    Disconnect,
+    Disconnected,
 
     /// <summary>
     /// The part of this peer's world that may still change exceeds <see cref="SessionOptions.MaxSegments"/>, and did so again in fresh

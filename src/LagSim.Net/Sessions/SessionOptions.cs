@@ -24,7 +24,7 @@ public abstract record SessionOptions
     /// <summary>The longest <see cref="ConnectKey"/>, in characters.</summary>
     public const int MaxKeyLength = 256;
 
-    private static readonly SimDuration MostKeepAlive = SimDuration.FromSeconds(2);
+    private static readonly SimDuration MaxKeepAlive = SimDuration.FromSeconds(2);
 
     private readonly SimDuration? keepAlive;
 
@@ -123,7 +123,7 @@ public abstract record SessionOptions
     /// <summary>The longest pause between datagrams, 10 ms to a third of the timeout; default that third, but no more than 2 s.</summary>
     public SimDuration KeepAlive
     {
-        get => keepAlive ?? (Timeout / 3 < MostKeepAlive ? Timeout / 3 : MostKeepAlive);
+        get => keepAlive ?? (Timeout / 3 < MaxKeepAlive ? Timeout / 3 : MaxKeepAlive);
         init => keepAlive = value;
     }
 

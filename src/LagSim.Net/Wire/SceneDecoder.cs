@@ -211,7 +211,7 @@ internal ref struct SceneDecoder
     }
 
     /// <summary>Begins the parts of one kind. More than are allowed, or than the remaining bytes can hold, are refused at once.</summary>
-    private int Begin(string what, int most, int leastBytes)
+    private int Begin(string what, int most, int minBytes)
     {
         if (!IsSound)
         {
@@ -225,10 +225,10 @@ internal ref struct SceneDecoder
         {
             Refuse($"The scene announces {count} parts of the kind '{what}'; at most {most} are allowed.");
         }
-        else if (count > reader.Remaining / (1 + leastBytes))
+        else if (count > reader.Remaining / (1 + minBytes))
         {
             Refuse(
-                $"The scene announces {count} parts of the kind '{what}', of {1 + leastBytes} bytes or more, and has {reader.Remaining} bytes left.");
+                $"The scene announces {count} parts of the kind '{what}', of {1 + minBytes} bytes or more, and has {reader.Remaining} bytes left.");
         }
 
         return count;

@@ -124,7 +124,7 @@ internal static class SnapshotFormat
             WriteExactly(ref writer, body.Cubic);
             writer.WriteByte(body.Hold.Peer);
             WriteExactly(ref writer, body.Hold.Offset);
-            writer.WriteInt64(body.Hold.Keyframe.Ticks);
+            writer.WriteInt64(body.Hold.KeyframeTime.Ticks);
         }
 
         writer.WriteByte((byte)body.SupportCount);

@@ -62,7 +62,7 @@ internal static class WireFormat
     public const int StateHashBytes = 16;
 
     /// <summary>The length of the most state hashes and their time in an <see cref="UpdateDatagram"/>.</summary>
-    internal const int MostHashBytes = StateHashBytes + ((UpdateDatagram.MaxHashes - 1) * sizeof(ulong));
+    internal const int MaxHashBytes = StateHashBytes + ((UpdateDatagram.MaxHashes - 1) * sizeof(ulong));
 
     /// <summary>The longest datagram.</summary>
     public const int MaxBytes = IDatagramPort.MaxDatagramBytes;

@@ -41,8 +41,8 @@ internal sealed class BulkTransfer
     private const long InitialWindow = 10 * SegmentBytes;
     private const int DuplicatesThatTellALoss = 3;
 
-    private static readonly SimDuration LeastTimeout = SimDuration.FromSeconds(1);
-    private static readonly SimDuration MostTimeout = SimDuration.FromSeconds(60);
+    private static readonly SimDuration MinTimeout = SimDuration.FromSeconds(1);
+    private static readonly SimDuration MaxTimeout = SimDuration.FromSeconds(60);
 
     private readonly LinkModel data;
     private readonly LinkModel acks;
@@ -65,7 +65,7 @@ internal sealed class BulkTransfer
     private bool isRecovering;
     private bool hadPartial;
     private SimTime? timeout;
-    private SimDuration timeoutAfter = LeastTimeout;
+    private SimDuration timeoutAfter = MinTimeout;
     private SimDuration? smoothed;
     private SimDuration variation;
 
@@ -278,7 +278,7 @@ internal sealed class BulkTransfer
         Timeouts++;
         threshold = HalfOfFlight();
         window = SegmentBytes;
-        timeoutAfter = timeoutAfter > MostTimeout / 2 ? MostTimeout : timeoutAfter * 2;
+        timeoutAfter = timeoutAfter > MaxTimeout / 2 ? MaxTimeout : timeoutAfter * 2;
         recover = highest;
         isRecovering = false;
         duplicates = 0;
@@ -305,7 +305,7 @@ internal sealed class BulkTransfer
         }
 
         SimDuration wanted = smoothed.Value + (variation * 4);
-        timeoutAfter = wanted < LeastTimeout ? LeastTimeout : wanted > MostTimeout ? MostTimeout : wanted;
+        timeoutAfter = wanted < MinTimeout ? MinTimeout : wanted > MaxTimeout ? MaxTimeout : wanted;
     }
 
     private void SendWhatMay(SimTime now)

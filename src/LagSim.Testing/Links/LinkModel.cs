@@ -226,7 +226,7 @@ internal sealed class LinkModel
     {
         double milliseconds = Leg.Tail is null
             ? Math.Max(0, usual + (Leg.JitterMilliseconds * deviations))
-            : Math.Min(LongTail.MostMilliseconds, usual * SeededRandom.Exp(logDeviation * deviations));
+            : Math.Min(LongTail.MaxMilliseconds, usual * SeededRandom.Exp(logDeviation * deviations));
         return SimDuration.FromMilliseconds(milliseconds);
     }
 

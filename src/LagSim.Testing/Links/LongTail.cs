@@ -21,7 +21,7 @@ public sealed class LongTail
     /// The longest delay of a datagram, 2,000 ms: the slowest hop that a session is made for. Without a limit one of 100,000 over good
     /// Wi-Fi would take 5 s.
     /// </summary>
-    public const double MostMilliseconds = 2_000;
+    public const double MaxMilliseconds = 2_000;
 
     /// <summary>Creates a tail in which that percentage of datagrams takes longer than that time.</summary>
     /// <param name="percent">See <see cref="Percent"/>.</param>
@@ -34,10 +34,10 @@ public sealed class LongTail
             throw new ArgumentOutOfRangeException(nameof(percent), percent, "A long tail has 0.001 to 49 % of the datagrams; the median is the leg's delay.");
         }
 
-        if (!(aboveMilliseconds is > 0 and <= MostMilliseconds))
+        if (!(aboveMilliseconds is > 0 and <= MaxMilliseconds))
         {
             throw new ArgumentOutOfRangeException(
-                nameof(aboveMilliseconds), aboveMilliseconds, $"A long tail begins above 0 and at most at {MostMilliseconds} ms.");
+                nameof(aboveMilliseconds), aboveMilliseconds, $"A long tail begins above 0 and at most at {MaxMilliseconds} ms.");
         }
 
         Percent = percent;
@@ -49,7 +49,7 @@ public sealed class LongTail
 
     /// <summary>
     /// The delay that <see cref="Percent"/> of the datagrams exceed, in milliseconds; above the leg's delay, at most
-    /// <see cref="MostMilliseconds"/>.
+    /// <see cref="MaxMilliseconds"/>.
     /// </summary>
     public double AboveMilliseconds { get; }
 

@@ -235,7 +235,7 @@ internal sealed class SessionRun
 
     private static double OneWay(LinkLeg leg) => leg.DelayMilliseconds
         + (4 * leg.JitterMilliseconds)
-        + (leg.Tail is null ? 0 : LongTail.MostMilliseconds)
+        + (leg.Tail is null ? 0 : LongTail.MaxMilliseconds)
         + (leg.Bottleneck?.QueueMilliseconds ?? 0)
         + (leg.Outage?.Length.ToMilliseconds() ?? 0);
 

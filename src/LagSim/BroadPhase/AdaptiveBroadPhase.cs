@@ -8,7 +8,7 @@ namespace LagSim.BroadPhase;
 
 /// <summary>Which bodies are asked whether they meet: all of them while they are few, those that come near once they are many.</summary>
 /// <remarks>No bit depends on which of the two it is, nor on when one takes the other's place.</remarks>
-internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs)
+internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int bruteForceLimit)
 {
     /// <summary>The size of a cell in radii of a body that nine tenths are not larger than: two diameters.</summary>
     private const double CellInRadii = 4;
@@ -16,7 +16,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     private int outgrownAt; // number of bodies too wide or fast for the cells at which other cells are tried
 
     /// <summary>At about so many others a body looks, however many there are.</summary>
-    internal const int MostLooks = 64;
+    internal const int MaxLooks = 64;
 
     /// <summary>The broad phase in use; not to be called before <see cref="Begin"/>.</summary>
     internal IBroadPhase Current { get; private set; } = null!;
@@ -24,10 +24,10 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     /// <summary>Whether the bodies have become so many, or so much larger, that another serves them better.</summary>
     internal bool IsOutgrown => Current is NeighbourLists shells
         ? shells.WideCount > Math.Max(outgrownAt, bodies.Count / 8)
-        : bodies.Count > mostPairs;
+        : bodies.Count > bruteForceLimit;
 
     /// <summary>Chooses the broad phase of a world that begins and has no path listed yet.</summary>
-    internal void Begin() => Current = bodies.Count > mostPairs ? NewLists() : MakePairs();
+    internal void Begin() => Current = bodies.Count > bruteForceLimit ? NewLists() : MakeBruteForce();
 
     /// <summary>Makes neighbour lists of all that is kept.</summary>
     /// <param name="from">From when on paths are kept.</param>
@@ -69,7 +69,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>Makes the broad phase for few bodies.</summary>
-    private protected virtual BruteForce MakePairs() => new();
+    private protected virtual BruteForce MakeBruteForce() => new();
 
     /// <summary>Makes the broad phase for many bodies; see <see cref="NeighbourLists"/>.</summary>
     private protected virtual NeighbourLists MakeLists(double cell, double speed, double tickLength) =>

@@ -40,7 +40,7 @@ internal class NeighbourLists : IBroadPhase
 
     /// <summary>A shell's radius at first and at least, in parts of the cell's size.</summary>
     private const double FirstStray = 1.0 / 8;
-    private const double LeastStray = 1.0 / 32;
+    private const double MinStray = 1.0 / 32;
 
     private const int NeighboursExpected = 8;
 
@@ -170,7 +170,7 @@ internal class NeighbourLists : IBroadPhase
             Leave(slot, heal);
         }
 
-        stay.Wanted = stay.Wanted == 0 ? FirstStray * cell : Math.Min(0.5 * cell, Math.Max(LeastStray * cell, stay.Wanted));
+        stay.Wanted = stay.Wanted == 0 ? FirstStray * cell : Math.Min(0.5 * cell, Math.Max(MinStray * cell, stay.Wanted));
         Shell shell = NewShell(path, dense, from, radius, stay.Wanted);
         found.Clear();
         present.Look(shell, near, found);
@@ -243,7 +243,7 @@ internal class NeighbourLists : IBroadPhase
         double speed = path.VelocityAt(seconds, dense).Length;
         double acceleration = Shell.LargestAcceleration(path, dense, seconds, shortestStay);
         double least = 2 * ((speed * shortestStay) + (2 * acceleration * shortestStay * shortestStay)); // twice, for three quarters are for the velocity
-        double stray = Math.Max(least, Math.Min(wanted, Math.Max(LeastStray * cell, (0.5 * cell * (1 - 1e-9)) - radius)));
+        double stray = Math.Max(least, Math.Min(wanted, Math.Max(MinStray * cell, (0.5 * cell * (1 - 1e-9)) - radius)));
         return new Shell(path.PositionAt(seconds, dense), stray < double.MaxValue ? stray : double.PositiveInfinity, radius);
     }
 

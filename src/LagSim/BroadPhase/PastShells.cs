@@ -64,7 +64,7 @@ internal sealed class PastShells
                 continue;
             }
 
-            if (block.Count > PresentShells.MostCells)
+            if (block.Count > PresentShells.MaxCells)
             {
                 for (int entry = 0; entry < slab.Count; entry++)
                 {

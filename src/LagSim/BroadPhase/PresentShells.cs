@@ -13,7 +13,7 @@ internal sealed class PresentShells
     internal const ulong Wide = ulong.MaxValue;
 
     /// <summary>The number of cells beyond which a search tests all bodies instead.</summary>
-    internal const double MostCells = 512;
+    internal const double MaxCells = 512;
 
     private const int FewestLists = 64;
 
@@ -112,7 +112,7 @@ internal sealed class PresentShells
         }
 
         CellBlock block = grid.Around(shell.Centre, reach + widest);
-        if (block.Count > MostCells)
+        if (block.Count > MaxCells)
         {
             for (int bucket = 0; bucket < cells.Count; bucket++)
             {

@@ -118,7 +118,7 @@ internal sealed class CollisionPredictor(
         piece = timelines.Last(other);
         if (rollback.MayBeKnownBeyond(rollback.Cursor) && slot != other)
         {
-            piece = view.PieceFrom(slot, other);
+            piece = view.SegmentFrom(slot, other);
         }
 
         while (true)

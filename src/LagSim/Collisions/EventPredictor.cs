@@ -60,7 +60,7 @@ internal class EventPredictor(
             return false;
         }
 
-        int piece = view.PieceAt(partner, key);
+        int piece = view.SegmentAt(partner, key);
         return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
     }
 

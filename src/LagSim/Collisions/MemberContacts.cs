@@ -57,7 +57,7 @@ internal sealed class MemberContacts(TimelineStore timelines, PathView view, Bod
 
     private bool IsOpenedWith(int hand, in EventKey key)
     {
-        int before = view.PieceBefore(hand, key);
+        int before = view.SegmentBefore(hand, key);
         int opened = before == TimelineStore.None ? timelines.First(hand) : timelines.Next(before);
         return opened != TimelineStore.None && paths.IsHeld(opened) && (before == TimelineStore.None || timelines.Key(opened) == key);
     }

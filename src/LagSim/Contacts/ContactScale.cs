@@ -27,7 +27,7 @@ internal class ContactScale
     /// The assumed pressing acceleration where the scene has no gravity, in m/s². Hands and forces are not known beforehand, and a hand
     /// moves things by about this much.
     /// </summary>
-    private const double LeastPull = 1;
+    private const double MinPull = 1;
 
     /// <summary>
     /// The sweeps leave contacts to close by this part of the tolerance in a step. Measured: at a twentieth friction at the edge of rolling
@@ -48,7 +48,7 @@ internal class ContactScale
     {
         this.start = start;
         Length = tolerance;
-        Pull = Math.Max(gravity.Length, LeastPull);
+        Pull = Math.Max(gravity.Length, MinPull);
         double seconds = Math.Sqrt(2 * tolerance / Pull);
         long ticks = LongestTicks;
         while (ticks > ShortestTicks && ticks > seconds * SimDuration.TicksPerSecond)

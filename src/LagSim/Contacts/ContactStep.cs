@@ -22,7 +22,7 @@ internal sealed class ContactStep
     /// The largest number of sweeps. Then <see cref="NormalsAfterSweeps"/> solves the normals. What is left of friction is an error but no
     /// fault: the next step continues from the impulses that the sweeps reached.
     /// </summary>
-    internal const int MostSweeps = 200;
+    internal const int MaxSweeps = 200;
 
     private NormalsAfterSweeps? normals; // made when a step needs it, as the next
     private EnergyLimit? limit;
@@ -180,7 +180,7 @@ internal sealed class ContactStep
             Sweeps += SolveNormals(tolerance);
         }
 
-        int sweeps = ContactSolver.Solve(Problem, tolerance, MostSweeps);
+        int sweeps = ContactSolver.Solve(Problem, tolerance, MaxSweeps);
         Sweeps += sweeps;
         if (Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, sweeps, tolerance))
         {

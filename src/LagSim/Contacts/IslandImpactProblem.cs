@@ -70,7 +70,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
     internal void Solve(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
         int taken = ContactSolver.Solve(Problem, tolerance, sweeps, knownBodies, knownContacts);
-        if (sweeps == ContactStep.MostSweeps && step.Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, taken, tolerance))
+        if (sweeps == ContactStep.MaxSweeps && step.Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, taken, tolerance))
         {
             for (int i = 0; i < Problem.BodyCount; i++)
             {
@@ -115,7 +115,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
         }
 
         Problem.DropRebounds();
-        Solve(tolerance, ContactStep.MostSweeps, 0, 0);
+        Solve(tolerance, ContactStep.MaxSweeps, 0, 0);
     }
 
     private void SwapVelocities()

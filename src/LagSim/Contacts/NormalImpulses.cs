@@ -10,7 +10,7 @@ namespace LagSim.Contacts;
 internal sealed class NormalImpulses
 {
     /// <summary>The largest number of contacts that are solved exactly: beyond it the cost grows too fast for one event.</summary>
-    internal const int MostAtOnce = 96;
+    internal const int MaxAtOnce = 96;
 
     /// <summary>
     /// The number of contacts that are always solved exactly. More are only if masses differ by more than <see cref="LikeMasses"/>;
@@ -59,9 +59,9 @@ internal sealed class NormalImpulses
     /// <summary>Whether so many contacts, between such masses, are left to <see cref="ProjectedGradients"/>.</summary>
     private static bool AreMany(int count, Span<double> masses)
     {
-        if (count <= FewAtOnce || count > MostAtOnce)
+        if (count <= FewAtOnce || count > MaxAtOnce)
         {
-            return count > MostAtOnce;
+            return count > MaxAtOnce;
         }
 
         double least = double.PositiveInfinity;

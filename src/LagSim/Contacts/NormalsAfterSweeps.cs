@@ -21,11 +21,11 @@ internal sealed class NormalsAfterSweeps
     private Vector3D[] changes = Array.Empty<Vector3D>();
 
     /// <summary>
-    /// Whether so many sweeps, of <see cref="ContactStep.MostSweeps"/> at most, have left a problem's normals to it: they have not settled,
+    /// Whether so many sweeps, of <see cref="ContactStep.MaxSweeps"/> at most, have left a problem's normals to it: they have not settled,
     /// or look settled because impulses are too large to add up.
     /// </summary>
     internal static bool IsNeeded(ContactProblem problem, int sweeps, double tolerance) =>
-        !problem.HasHand() && (sweeps == ContactStep.MostSweeps || !ContactSolver.CanAddUp(problem, tolerance));
+        !problem.HasHand() && (sweeps == ContactStep.MaxSweeps || !ContactSolver.CanAddUp(problem, tolerance));
 
     /// <summary>Sets velocities, and the impulses along normals: each contact opens at least at its target, or pushes.</summary>
     /// <param name="problem">With the velocities before it, and the impulses that sweeps reached; no body is held.</param>

@@ -11,13 +11,13 @@ namespace LagSim.Contacts;
 /// one of them would pull, and one along what closes where that has come to outweigh the rest. The minimised quantity never grows. So where
 /// nothing is to part faster than at rest no energy is gained, whenever it ends.</para>
 /// <para>Each contact is measured by the root of its 1/mass, so that unequal masses count alike. Cost: the number of contacts, times some
-/// 50 to 300 steps, at most <see cref="MostSteps"/>; more where light bodies carry heavy ones. Allocates only when there are more contacts
+/// 50 to 300 steps, at most <see cref="MaxSteps"/>; more where light bodies carry heavy ones. Allocates only when there are more contacts
 /// or bodies than ever before.</para>
 /// </remarks>
 internal sealed class ProjectedGradients
 {
     /// <summary>The largest number of steps.</summary>
-    internal const int MostSteps = 1000;
+    internal const int MaxSteps = 1000;
 
     /// <summary>A demand counts as met once its shortfall is below this part of the largest that any contact had.</summary>
     private const double Met = 1e-12;
@@ -47,7 +47,7 @@ internal sealed class ProjectedGradients
     /// <param name="steps">The largest number of steps.</param>
     internal bool TrySolve(
         Span<ContactPoint> contacts, Span<double> masses, Span<double> demand, Span<double> impulse, Span<Vector3D> change, bool again,
-        double enough = 0, int steps = MostSteps)
+        double enough = 0, int steps = MaxSteps)
     {
         Grow(contacts.Length);
         double stride = Prepare(contacts, masses, demand, change, again, out double lacking);

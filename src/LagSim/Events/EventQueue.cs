@@ -20,7 +20,7 @@ internal sealed class EventQueue
     /// <summary>Up to so many events are all in the heap; and so many there are too many, if they need not be.</summary>
     private const int Few = 64;
 
-    private const int MostSamples = 256;
+    private const int MaxSamples = 256;
     private const int None = -1;
 
     /// <summary>From this value on <see cref="Node.Where"/> is a place in the heap.</summary>
@@ -54,22 +54,22 @@ internal sealed class EventQueue
     internal int Count => near.Count + inSlices + inBeyond;
 
     /// <summary>The slot of the least event.</summary>
-    internal int LeastSlot
+    internal int MinSlot
     {
         get
         {
             Advance();
-            return near.LeastSlot;
+            return near.MinSlot;
         }
     }
 
     /// <summary>The least pending key.</summary>
-    internal ref readonly EventKey LeastKey
+    internal ref readonly EventKey MinKey
     {
         get
         {
             Advance();
-            return ref nodes[near.LeastSlot].Key;
+            return ref nodes[near.MinSlot].Key;
         }
     }
 
@@ -82,7 +82,7 @@ internal sealed class EventQueue
             return false;
         }
 
-        slot = LeastSlot;
+        slot = MinSlot;
         key = nodes[slot].Key;
         return true;
     }
@@ -99,8 +99,8 @@ internal sealed class EventQueue
     /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the
     /// same.
     /// </summary>
-    internal bool IsLeastAloneWith(int other, in EventKey least) =>
-        other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsLeastAloneWith(other);
+    internal bool IsMinAloneWith(int other, in EventKey least) =>
+        other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsMinAloneWith(other);
 
     /// <summary>Makes this the slot's one pending event, in place of any other.</summary>
     internal void Set(int slot, in EventKey key)
@@ -328,9 +328,9 @@ internal sealed class EventQueue
     private long Least(out int sampled)
     {
         long least = long.MaxValue;
-        int every = Math.Max(1, (Count + MostSamples - 1) / MostSamples);
+        int every = Math.Max(1, (Count + MaxSamples - 1) / MaxSamples);
         int seen = 0;
-        samples = samples.Length > 0 ? samples : new long[MostSamples];
+        samples = samples.Length > 0 ? samples : new long[MaxSamples];
         sampled = 0;
         for (int slot = 0; slot < nodes.Length; slot++)
         {

@@ -15,10 +15,10 @@ internal sealed class EventScheduler(int expected)
     internal int Count => queue.Count;
 
     /// <summary>The slot of the least event.</summary>
-    internal int LeastSlot => queue.LeastSlot;
+    internal int MinSlot => queue.MinSlot;
 
     /// <summary>The least pending key.</summary>
-    internal ref readonly EventKey LeastKey => ref queue.LeastKey;
+    internal ref readonly EventKey MinKey => ref queue.MinKey;
 
     /// <summary>Makes room for a body, of which nothing is pending.</summary>
     internal void AddSlot(int slot)
@@ -44,7 +44,7 @@ internal sealed class EventScheduler(int expected)
     /// Whether nothing is pending up to and including the time of the least key but that, of one body and of another that waits for the
     /// same.
     /// </summary>
-    internal bool IsLeastAloneWith(int other, in EventKey least) => queue.IsLeastAloneWith(other, least);
+    internal bool IsMinAloneWith(int other, in EventKey least) => queue.IsMinAloneWith(other, least);
 
     /// <summary>Makes this the body's one pending event, in place of any other.</summary>
     internal void Set(int slot, in EventKey key, in PendingContact contact)

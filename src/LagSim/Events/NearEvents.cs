@@ -17,10 +17,10 @@ internal sealed class NearEvents
 
     internal int Count { get; private set; }
 
-    internal int LeastSlot => items[0].Slot;
+    internal int MinSlot => items[0].Slot;
 
     /// <summary>Whether all others but one slot's come at a later time than the least.</summary>
-    internal bool IsLeastAloneWith(int other)
+    internal bool IsMinAloneWith(int other)
     {
         long ticks = items[0].Ticks;
         int at = 0;

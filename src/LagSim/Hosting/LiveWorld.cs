@@ -25,7 +25,7 @@ public sealed class LiveWorld
     private const long DefaultEffort = 8_192;
 
     /// <summary>However many bodies there are, so many events a step: it has to get on.</summary>
-    private const long LeastEvents = 16;
+    private const long MinEvents = 16;
 
     private readonly SimDuration renderedPast;
     private bool changed = true;
@@ -128,7 +128,7 @@ public sealed class LiveWorld
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
-    private long EventsAStep => Math.Max(LeastEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.MostLooks) + 8));
+    private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.MaxLooks) + 8));
 
     /// <summary>
     /// Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to

@@ -9,7 +9,7 @@ namespace LagSim.Hosting;
 /// <summary>One body's timeline inside a render snapshot: a copy that follows the simulation's by taking over only what changed.</summary>
 internal sealed class RenderTimeline
 {
-    private const double LeastStep = 1e-6; // m; a smaller step between two segments is rounding, or a bounce's height
+    private const double MinStep = 1e-6; // m; a smaller step between two segments is rounding, or a bounce's height
 
     private Entry[] entries = Array.Empty<Entry>(); // a body that is known only by name never needs one
     private int first;
@@ -109,7 +109,7 @@ internal sealed class RenderTimeline
             bool wasThere = before.Motion != MotionLaw.Absent, isThere = now.Motion != MotionLaw.Absent;
             if (wasThere || isThere)
             {
-                bool stays = wasThere && isThere && box.Nearest(now.Position - before.Position).Length <= LeastStep;
+                bool stays = wasThere && isThere && box.Nearest(now.Position - before.Position).Length <= MinStep;
                 largest = Math.Max(largest, stays ? (now.Velocity - before.Velocity).Length : double.PositiveInfinity);
             }
         }

@@ -211,7 +211,7 @@ internal sealed class IslandStepper(
         SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
         double last = double.PositiveInfinity;
         double change = 0;
-        for (int n = 0; n < MostForceIterations && HasForces() && change < last; n++)
+        for (int n = 0; n < MaxForceIterations && HasForces() && change < last; n++)
         {
             last = n == 0 ? double.PositiveInfinity : change;
             change = 0;
@@ -246,7 +246,7 @@ internal sealed class IslandStepper(
     /// The largest number of times that a force is evaluated again for the velocity that it leaves: each time the error halves, or shrinks
     /// far more.
     /// </summary>
-    private const int MostForceIterations = 64;
+    private const int MaxForceIterations = 64;
 
     private bool HasForces()
     {

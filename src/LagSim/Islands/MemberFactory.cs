@@ -13,7 +13,7 @@ namespace LagSim.Islands;
 internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories)
 {
     /// <summary>The longest step, in parts of a force's own time.</summary>
-    private const double MostRateTimesStep = 1.0 / 16;
+    private const double MaxRateTimesStep = 1.0 / 16;
 
     private readonly Forces forces = forces;
 
@@ -79,7 +79,7 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
         }
 
         double fall = scale.FallAt(PullOn(slot, time, position, velocity, spin));
-        return rate > 0 ? Math.Min(fall, MostRateTimesStep / rate) : fall;
+        return rate > 0 ? Math.Min(fall, MaxRateTimesStep / rate) : fall;
     }
 
     /// <summary>

@@ -24,7 +24,7 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathVi
     internal bool TryFind(BodyId body, BodyId partnerId, in EventKey key, out int partner)
     {
         partner = bodies.SlotOf(partnerId);
-        int piece = partner < 0 ? TimelineStore.None : view.PieceBefore(partner, key);
+        int piece = partner < 0 ? TimelineStore.None : view.SegmentBefore(partner, key);
         if (piece == TimelineStore.None)
         {
             return false;

@@ -29,7 +29,7 @@ internal class SleepWaker(
         {
             ref readonly PersistentContact contact = ref timelines.Carried.At(at);
             int partner = contact.Surface == PersistentContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
-            int piece = partner < 0 ? TimelineStore.None : view.PieceBefore(partner, key);
+            int piece = partner < 0 ? TimelineStore.None : view.SegmentBefore(partner, key);
             if (piece != TimelineStore.None && paths.IsMember(piece) && timelines.Segment(piece).Law == MotionLaw.Resting)
             {
                 if (piece != timelines.Last(partner))

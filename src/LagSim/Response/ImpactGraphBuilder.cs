@@ -90,7 +90,7 @@ internal class ImpactGraphBuilder(
         foreach (int other in broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, rollback.AtHand != 0))
         {
             int piece = other == slot || !timelines.IsKnown(other) || flights.AreApart(slot, other, key.Time, key.Time)
-                ? TimelineStore.None : view.PieceAt(other, key);
+                ? TimelineStore.None : view.SegmentAt(other, key);
             if (piece == TimelineStore.None)
             {
                 continue;

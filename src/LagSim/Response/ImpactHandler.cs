@@ -16,7 +16,7 @@ internal sealed class ImpactHandler(
     /// The number of rounds of impacts beyond which an instant counts as endless. Only elastic impacts get there, because all others
     /// collapse. The longest series that end, 3,141,592 impacts of two balls and a wall, have a few in each instant.
     /// </summary>
-    private const uint MostRounds = 1 << 16;
+    private const uint MaxRounds = 1 << 16;
 
     /// <summary>Opens the segments after an impact; the graph then has their bodies. False if a body has to be rewound first.</summary>
     /// <exception cref="EndlessInstantException">The instant does not end.</exception>
@@ -27,7 +27,7 @@ internal sealed class ImpactHandler(
             return true;
         }
 
-        if (key.Round >= MostRounds)
+        if (key.Round >= MaxRounds)
         {
             throw Endless(slot, key.Time);
         }
@@ -71,6 +71,6 @@ internal sealed class ImpactHandler(
     }
 
     private EndlessInstantException Endless(int slot, SimTime time) => new(
-        $"At {time.ToShortString()} the impacts of {scene.Whose(bodies.Id(slot))} have no end: {MostRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
+        $"At {time.ToShortString()} the impacts of {scene.Whose(bodies.Id(slot))} have no end: {MaxRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
         + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
 }

@@ -141,7 +141,7 @@ internal sealed class IslandImpact(
             if (goesOn && rewinds.AreNone)
             {
                 impact.LimitHands(more);
-                impact.Solve(tolerance, grows ? GrowingSweeps : ContactStep.MostSweeps, known, knownContacts);
+                impact.Solve(tolerance, grows ? GrowingSweeps : ContactStep.MaxSweeps, known, knownContacts);
                 isSolved = !grows;
             }
         }

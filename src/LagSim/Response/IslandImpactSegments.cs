@@ -40,7 +40,7 @@ internal sealed class IslandImpactSegments(
             {
                 trajectories.Hands.GoOn(graph.Slots[i], key);
             }
-            else if (!paths.IsMember(before) && !HasPersistent(i))
+            else if (!paths.IsMember(before) && !HasPersistentContact(i))
             {
                 alone.Open(i, key, residual);
             }
@@ -57,7 +57,7 @@ internal sealed class IslandImpactSegments(
         int before = timelines.Last(slot);
         if (paths.IsMember(before))
         {
-            bool hasChanged = HasPersistent(body) || impact.HasChanged(body, graph.Velocities[body], graph.Spins[body]);
+            bool hasChanged = HasPersistentContact(body) || impact.HasChanged(body, graph.Velocities[body], graph.Spins[body]);
             members.GoOn(slot, key, position, graph.Velocities[body], graph.Spins[body], hasChanged);
         }
         else
@@ -73,11 +73,11 @@ internal sealed class IslandImpactSegments(
             }
         }
 
-        AddPersistent(body, timelines.Last(slot));
+        AddPersistentContact(body, timelines.Last(slot));
         timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
     }
 
-    private bool HasPersistent(int body)
+    private bool HasPersistentContact(int body)
     {
         bool has = false;
         for (int i = 0; i < graph.ContactCount && !has; i++)
@@ -92,7 +92,7 @@ internal sealed class IslandImpactSegments(
     /// A member's new segment carries the contacts of the impact that last from here on; those that bounced off without a loss hold no
     /// more.
     /// </summary>
-    private void AddPersistent(int body, int piece)
+    private void AddPersistentContact(int body, int piece)
     {
         for (int i = 0; i < graph.ContactCount; i++)
         {

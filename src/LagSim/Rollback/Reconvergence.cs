@@ -91,9 +91,9 @@ internal sealed class Reconvergence(
             predictor.Predict(cut.SlotAt(n));
         }
 
-        while (scheduler.Count > 0 && scheduler.LeastKey.Time <= to)
+        while (scheduler.Count > 0 && scheduler.MinKey.Time <= to)
         {
-            predictor.Predict(scheduler.LeastSlot); // its next was to be with a path that did not last
+            predictor.Predict(scheduler.MinSlot); // its next was to be with a path that did not last
         }
 
         heldBack.Release(at);

@@ -147,9 +147,9 @@ internal static class Limits
             sum += force.Kind == ForceKind.QuadraticDrag ? 0 : rate; // which is not that where the body starts
         }
 
-        if (FlightLaws.HasFixedSteps(spec) && sum > FlightLaws.MostRateFollowed(spec))
+        if (FlightLaws.HasFixedSteps(spec) && sum > FlightLaws.MaxRateFollowed(spec))
         {
-            double most = FlightLaws.MostRateFollowed(spec);
+            double most = FlightLaws.MaxRateFollowed(spec);
             throw new SceneException(
                 $"On {whose}, of {Text(spec.Mass)} kg, the forces {spec.Forces.NamesAmong(forces)} act together at a rate of {Above(sum, most)} 1/s; at most"
                 + $" {Short(most)} 1/s is allowed under {spec.Flight} with fixed steps, which are halved to {Short(FlightLaws.ShortestStep(spec).ToSeconds())} s. Make"
@@ -192,17 +192,17 @@ internal static class Limits
     internal static void CheckBox<T>(in PeriodicBox box, double smallestRadius, T whose)
     {
         Components(box.Size, MaxCoordinate, whose, "periodic box", "m");
-        if (!(box.LeastSide > 0))
+        if (!(box.MinSide > 0))
         {
             throw new SceneException($"The periodic box of {whose} is {box.Size} m; every side must be above zero.");
         }
 
-        double least = 2 * PeriodicBox.LeastSides * smallestRadius;
-        if (box.LeastSide < least)
+        double least = 2 * PeriodicBox.MinSides * smallestRadius;
+        if (box.MinSide < least)
         {
             throw new SceneException(
                 $"The periodic box of {whose} is {box.Size} m, and the smallest radius of a body {Text(smallestRadius)} m; every side must be at least"
-                + $" {PeriodicBox.LeastSides} times the diameter, {Short(least)} m.");
+                + $" {PeriodicBox.MinSides} times the diameter, {Short(least)} m.");
         }
     }
 
@@ -214,11 +214,11 @@ internal static class Limits
             throw new SceneException($"The motion law of {whose} is {spec.Flight}; in a periodic box a body flies by Ballistic.");
         }
 
-        double least = 2 * PeriodicBox.LeastSides * spec.Radius;
-        if (box.LeastSide < least)
+        double least = 2 * PeriodicBox.MinSides * spec.Radius;
+        if (box.MinSide < least)
         {
             throw new SceneException(
-                $"The periodic box is {box.Size} m, and the radius of {whose} is {Text(spec.Radius)} m; every side must be at least {PeriodicBox.LeastSides}"
+                $"The periodic box is {box.Size} m, and the radius of {whose} is {Text(spec.Radius)} m; every side must be at least {PeriodicBox.MinSides}"
                 + $" times its diameter, {Short(least)} m.");
         }
 

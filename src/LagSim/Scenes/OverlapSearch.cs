@@ -99,7 +99,7 @@ internal sealed class OverlapSearch
             return Sweep(items, from, to, axis);
         }
 
-        return threads > 1 && count >= TwoAtOnce.LeastBodies
+        return threads > 1 && count >= TwoAtOnce.MinBodies
             ? FindOnTwoThreads(items, from, to, axis, middle, threads)
             : FindIn(items, from, to, axis, double.NegativeInfinity, middle) ?? FindIn(items, from, to, axis, middle, double.PositiveInfinity);
     }

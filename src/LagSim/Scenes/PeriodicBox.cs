@@ -7,7 +7,7 @@ namespace LagSim.Scenes;
 public readonly struct PeriodicBox : IEquatable<PeriodicBox>
 {
     /// <summary>How many of the largest diameters each side has at least, so that no body meets two images of another at once.</summary>
-    public const double LeastSides = 5;
+    public const double MinSides = 5;
 
     /// <summary>The part of the least side that a body flies before its path is opened again.</summary>
     internal const double FlightPart = 0.125;
@@ -21,7 +21,7 @@ public readonly struct PeriodicBox : IEquatable<PeriodicBox>
     /// <summary>Whether there is one.</summary>
     public bool Exists => Size != Vector3D.Zero;
 
-    internal double LeastSide => Math.Min(Size.X, Math.Min(Size.Y, Size.Z));
+    internal double MinSide => Math.Min(Size.X, Math.Min(Size.Y, Size.Z));
 
     /// <summary>Whether a point lies in the box: each coordinate at least 0 and less than the side.</summary>
     public bool Contains(in Vector3D point) =>

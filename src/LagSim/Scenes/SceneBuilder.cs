@@ -208,7 +208,7 @@ public sealed class SceneBuilder
     public Scene Build()
     {
         CheckWhole();
-        int used = bodies.Count < TwoAtOnce.LeastBodies ? 1 : threads ?? Environment.ProcessorCount;
+        int used = bodies.Count < TwoAtOnce.MinBodies ? 1 : threads ?? Environment.ProcessorCount;
         Force[] forceArray = forces.ToArray();
         SceneBody[] bodyArray = bodies.ToArray();
         TwoAtOnce.InParts(0, bodyArray.Length, used, (from, to) =>

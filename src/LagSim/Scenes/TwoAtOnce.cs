@@ -15,7 +15,7 @@ internal static class TwoAtOnce
     /// The number of bodies below which a thread is not worth it: they are checked in a few milliseconds, and a thread takes some tenth of
     /// one to start, or more where others are at work.
     /// </summary>
-    internal const int LeastBodies = 16_384;
+    internal const int MinBodies = 16_384;
 
     /// <summary>Does both at once, or one after the other if only one thread may be used.</summary>
     internal static void Do(int threads, Action first, Action second)
@@ -57,7 +57,7 @@ internal static class TwoAtOnce
     /// </summary>
     internal static void InParts(int from, int to, int threads, Action<int, int> part)
     {
-        if (threads <= 1 || to - from < LeastBodies)
+        if (threads <= 1 || to - from < MinBodies)
         {
             part(from, to);
             return;

@@ -32,7 +32,7 @@ public sealed class LatencyCompensationWindow
     public static readonly SimDuration MaxHistory = SimDuration.FromSeconds(5);
 
     /// <summary>The history that <see cref="HistoryFor"/> gives at least, however fast the links are: 250 ms.</summary>
-    public static readonly SimDuration LeastMeasuredHistory = SimDuration.FromMilliseconds(250);
+    public static readonly SimDuration MinMeasuredHistory = SimDuration.FromMilliseconds(250);
 
     /// <summary>The default look-ahead: two frames of a sixtieth of a second.</summary>
     public static readonly SimDuration DefaultLookAhead = SimDuration.FromSeconds(2.0 / 60.0);
@@ -119,7 +119,7 @@ public sealed class LatencyCompensationWindow
 
     /// <summary>
     /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but
-    /// <see cref="LeastMeasuredHistory"/> at least and <see cref="MaxHistory"/> at most.
+    /// <see cref="MinMeasuredHistory"/> at least and <see cref="MaxHistory"/> at most.
     /// </summary>
     /// <param name="lateness">By how much each event came after its stamp, negative if before; as a session counts it. At least
     /// one.</param>
@@ -145,7 +145,7 @@ public sealed class LatencyCompensationWindow
         Array.Sort(sorted);
         int rank = count - (int)(count * (1 - MeasuredQuantile)) - 1;
         SimDuration measured = sorted[rank];
-        return measured < LeastMeasuredHistory ? LeastMeasuredHistory : measured > MaxHistory ? MaxHistory : measured;
+        return measured < MinMeasuredHistory ? MinMeasuredHistory : measured > MaxHistory ? MaxHistory : measured;
     }
 
     private static bool IsOfPlayers(EventKind kind) => kind is >= EventKind.Spawn and <= EventKind.Remove;

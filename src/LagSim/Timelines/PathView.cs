@@ -9,30 +9,30 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
     /// The segment on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did
     /// before the heal from there on still standing.
     /// </summary>
-    internal int PieceAt(int slot, in EventKey key)
+    internal int SegmentAt(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
-        return !rollback.MayBeKnownBeyond(key) || timelines.Serial(last) > rollback.LastOld ? last : PastPieceAt(slot, key);
+        return !rollback.MayBeKnownBeyond(key) || timelines.Serial(last) > rollback.LastOld ? last : PastSegmentAt(slot, key);
     }
 
     /// <summary>
     /// The first segment of another body that a body's newest segment can still meet: the newest, unless that body is ahead.
     /// </summary>
-    internal int PieceFrom(int slot, int other)
+    internal int SegmentFrom(int slot, int other)
     {
         int piece = timelines.Last(other);
-        return timelines.Serial(piece) > rollback.LastOld ? piece : PastPieceFrom(slot, piece);
+        return timelines.Serial(piece) > rollback.LastOld ? piece : PastSegmentFrom(slot, piece);
     }
 
     /// <summary>The segment on which a body comes to an event.</summary>
-    internal int PieceBefore(int slot, in EventKey key)
+    internal int SegmentBefore(int slot, in EventKey key)
     {
         int last = timelines.Last(slot);
         return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
     }
 
     /// <summary>The same of another that may be ahead, whose newest segment is given.</summary>
-    private protected virtual int PastPieceFrom(int slot, int piece)
+    private protected virtual int PastSegmentFrom(int slot, int piece)
     {
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
         EventKey from = EventKey.Compare(opened, rollback.Cursor) > 0 ? opened : rollback.Cursor;
@@ -45,6 +45,6 @@ internal class PathView(TimelineStore timelines, RollbackState rollback)
     }
 
     /// <summary>The same of a body that is ahead: what it did before the late event came.</summary>
-    private protected virtual int PastPieceAt(int slot, in EventKey key) =>
+    private protected virtual int PastSegmentAt(int slot, in EventKey key) =>
         timelines.Before(slot, EventKey.BeforeImpacts(key.Time, key.Round));
 }

@@ -71,7 +71,7 @@ internal sealed class SegmentExtras
         {
             hash.Add((ulong)holds[segment].Peer);
             hash.Add(holds[segment].Offset);
-            hash.Add(holds[segment].Keyframe - origin);
+            hash.Add(holds[segment].KeyframeTime - origin);
             hash.Add(motion.Acceleration);
             hash.Add(dense[segment].Cubic);
         }

@@ -15,7 +15,7 @@ namespace LagSim.Trajectories;
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
 {
     /// <summary>The number of times that a body released inside static geometry is moved out of one surface after the other.</summary>
-    private const int MostPuttingOut = 16;
+    private const int MaxPuttingOut = 16;
 
     private readonly Paths paths = new(timelines);
 
@@ -77,9 +77,9 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     {
         // Slower than this it would not get as far as the scene resolves: what rounding leaves of a convergence on a hand that keeps still.
         bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < scene.Resolution;
-        MotionSegment path = isStill || key.Time >= hold.Keyframe + HandPath.Stops
-            ? HandPath.Still(key.Time, hold.Keyframe, position)
-            : HandPath.Brake(key.Time, hold.Keyframe, position, velocity);
+        MotionSegment path = isStill || key.Time >= hold.KeyframeTime + HandPath.Stops
+            ? HandPath.Still(key.Time, hold.KeyframeTime, position)
+            : HandPath.Brake(key.Time, hold.KeyframeTime, position, velocity);
         limits.Check(bodies.Id(slot), key.Time, position, velocity);
         timelines.Append(slot, bodies.Id(slot), key, path, default, hold);
     }
@@ -94,7 +94,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         double seconds = paths.SecondsInto(last, key.Time);
         DenseOutput dense = timelines.Dense(last);
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
-        if (key.Time >= hold.Keyframe + HandPath.Lasts)
+        if (key.Time >= hold.KeyframeTime + HandPath.Lasts)
         {
             flights.Open(slot, key, PutOut(slot, position), Vector3D.Zero);
         }
@@ -124,7 +124,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         double radius = bodies.Spec(slot).Radius;
         Vector3D at = position;
         bool isInside = true;
-        for (int n = 0; n < MostPuttingOut && isInside; n++)
+        for (int n = 0; n < MaxPuttingOut && isInside; n++)
         {
             isInside = false;
             foreach (ref readonly StaticPlane plane in scene.PlaneArray.AsSpan())

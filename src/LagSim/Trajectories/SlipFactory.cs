@@ -21,7 +21,7 @@ namespace LagSim.Trajectories;
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
     /// <summary>By how much a direction of slip or rolling may turn in one segment, in radians, where gravity pulls aslant.</summary>
-    private const double MostTurn = 1.0 / 128;
+    private const double MaxTurn = 1.0 / 128;
 
     /// <summary>A slip, motion or turning on a surface slower than this, in m/s, counts as the rounding of zero.</summary>
     private const double RoundingSlip = 1e-10;
@@ -206,7 +206,7 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
     private double Turn(double speed, in Vector3D pull)
     {
         double slow = 100 * Math.Sqrt(2 * scene.Resolution * pull.Length);
-        return speed < slow ? Math.Min(0.5, MostTurn * Math.Sqrt(Math.Sqrt(slow / speed))) : MostTurn;
+        return speed < slow ? Math.Min(0.5, MaxTurn * Math.Sqrt(Math.Sqrt(slow / speed))) : MaxTurn;
     }
 
     /// <summary>

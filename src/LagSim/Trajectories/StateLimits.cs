@@ -41,7 +41,7 @@ internal sealed class StateLimits(Scene scene)
     /// </summary>
     internal SimTime EndOfFlight(SimTime from, in Vector3D velocity)
     {
-        double seconds = PeriodicBox.FlightPart * scene.Box.LeastSide / velocity.Length;
+        double seconds = PeriodicBox.FlightPart * scene.Box.MinSide / velocity.Length;
         return TickConversion.TryFromSeconds(seconds, out long ticks) && ticks <= SimTime.MaxValue.Ticks - Math.Max(0, from.Ticks)
             ? from + SimDuration.FromTicks(ticks)
             : SimTime.MaxValue;

@@ -181,7 +181,7 @@ public sealed class ContactWorkTests
     private static double ToleranceOf(WorkPoint point) => double.Parse(point.Setting[2..], CultureInfo.InvariantCulture);
 
     private static IEnumerable<WorkPoint> Sweep(WorkScene scene, string method, int settings) => WorkSweep.Run(
-        [scene], [Method(method)], Short with { MostSettings = settings }, null, TestContext.Current.CancellationToken).Points;
+        [scene], [Method(method)], Short with { MaxSettings = settings }, null, TestContext.Current.CancellationToken).Points;
 
     private static WorkScene Scene(string name) =>
         WorkScenes.TryGet(name, out WorkScene? found) ? found : throw new ArgumentException(name);

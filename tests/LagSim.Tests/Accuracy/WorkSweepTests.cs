@@ -120,7 +120,7 @@ public sealed class WorkSweepTests
     public void WhatIsLeftOut_IsSaidWithItsReason()
     {
         WorkReport report = Run(
-            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MostSettings = 1 });
+            [Scene("drag"), Scene("billiards")], [Method("LagSim Ballistic"), Method("MathNet RungeKutta4"), new Absent()], Short with { MaxSettings = 1 });
         Assert.Equal(
             [
                 "absent is left out: nobody has it.",
@@ -160,7 +160,7 @@ public sealed class WorkSweepTests
     private static WorkOrder Order(string scene, IWorkMethod method) => Assert.Single(Run([Scene(scene)], [method]).Orders);
 
     private static WorkPoint[] Sweep(string scene, string method, int settings) =>
-        [.. Run([Scene(scene)], [Method(method)], Short with { MostSettings = settings }).Points];
+        [.. Run([Scene(scene)], [Method(method)], Short with { MaxSettings = settings }).Points];
 
     private static WorkScene Scene(string name) => WorkScenes.TryGet(name, out WorkScene? found) ? found : throw new ArgumentException(name);
 

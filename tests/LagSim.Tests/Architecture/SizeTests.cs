@@ -10,8 +10,8 @@ namespace LagSim.Tests.Architecture;
 /// <summary>No type of the source is large, but for those in <see cref="LargeTypes"/>, each with a reason.</summary>
 public sealed class SizeTests
 {
-    private const int MostLines = 400;
-    private const int MostFields = 15;
+    private const int MaxLines = 400;
+    private const int MaxFields = 15;
 
     private static readonly string[] Files = Directory.EnumerateFiles(Path.Combine(RepositoryRoot.Path, "src"), "*.cs", SearchOption.AllDirectories)
         .Where(file => !file.Split(Path.DirectorySeparatorChar).Any(part => part is "bin" or "obj"))
@@ -41,7 +41,7 @@ public sealed class SizeTests
     [Fact]
     public void Types_OverEvenWhatAReasonIsGoodFor_AreSeenToFail()
     {
-        LargeType[] tighter = LargeTypes.All.Select(large => large with { MostLines = 10 }).ToArray();
+        LargeType[] tighter = LargeTypes.All.Select(large => large with { MaxLines = 10 }).ToArray();
         Assert.Equal(LargeTypes.All.Length, Wrong(tighter).Length);
     }
 
@@ -86,28 +86,28 @@ public sealed class SizeTests
         Dictionary<string, int> lines = TypeSizes.Lines(Files);
         Dictionary<string, string> large = [];
         List<string> wrong = [];
-        foreach ((string type, int count) in lines.Where(size => size.Value > MostLines))
+        foreach ((string type, int count) in lines.Where(size => size.Value > MaxLines))
         {
-            large[type] = $"{type} has {count} lines, more than {MostLines}";
+            large[type] = $"{type} has {count} lines, more than {MaxLines}";
         }
 
-        foreach (Type type in SourceAssemblies.All.SelectMany(TypeSizes.Written).Where(type => TypeSizes.Fields(type) > MostFields))
+        foreach (Type type in SourceAssemblies.All.SelectMany(TypeSizes.Written).Where(type => TypeSizes.Fields(type) > MaxFields))
         {
             large[type.FullName!] = (large.TryGetValue(type.FullName!, out string? also) ? also + " and " : $"{type.FullName} has ")
-                + $"{TypeSizes.Fields(type)} fields, more than {MostFields}";
+                + $"{TypeSizes.Fields(type)} fields, more than {MaxFields}";
         }
 
         foreach (LargeType entry in list)
         {
             int count = lines.GetValueOrDefault(entry.Type);
-            if (count > entry.MostLines)
+            if (count > entry.MaxLines)
             {
-                wrong.Add($"{entry.Type} has {count} lines, more than the {entry.MostLines} that its reason is good for.");
+                wrong.Add($"{entry.Type} has {count} lines, more than the {entry.MaxLines} that its reason is good for.");
             }
 
-            if (entry.MostLines > LargeType.UsualMostLines && count <= LargeType.UsualMostLines)
+            if (entry.MaxLines > LargeType.UsualMaxLines && count <= LargeType.UsualMaxLines)
             {
-                wrong.Add($"{entry.Type} has {count} lines and need not be allowed {entry.MostLines}.");
+                wrong.Add($"{entry.Type} has {count} lines and need not be allowed {entry.MaxLines}.");
             }
         }
 

@@ -187,7 +187,7 @@ public sealed class ContactUnderForcesTests
         for (int n = 1; n <= 300; n++)
         {
             simulation.AdvanceTo(At(n * 0.02));
-            deepest = Math.Max(deepest, -LeastGap(simulation, At(n * 0.02)));
+            deepest = Math.Max(deepest, -MinGap(simulation, At(n * 0.02)));
         }
 
         Assert.True(isSo == deepest <= 1e-3, $"{deepest}");

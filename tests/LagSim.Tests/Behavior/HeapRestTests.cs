@@ -24,7 +24,7 @@ public sealed class HeapRestTests
         // Who sleeps keeps its spin. In the half second that is waited, the surface of each turned by less than the contact tolerance.
         double d = world.Scene.ContactTolerance;
         Assert.All(Bodies(world), body => Assert.InRange(Read(world, body, Seconds).Spin.Length * world.SpecOf(body).Radius, 0, d / 0.5));
-        Assert.True(LeastGap(world, At(Seconds)) > -2 * d);
+        Assert.True(MinGap(world, At(Seconds)) > -2 * d);
         long events = world.EventsProcessed;
         world.AdvanceTo(At(10 * Seconds));
         Assert.Equal(events, world.EventsProcessed);

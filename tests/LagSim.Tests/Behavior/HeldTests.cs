@@ -242,7 +242,7 @@ public sealed class HeldTests
             ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.2), 1, 2, First, V(1.5), V(0)), ExternalEvent.HoldKeyframe(At(0.4), 1, 3, First, V(30), V(0))]);
         Near(V(1.5), Read(simulation, First, 1).Position, 1e-12);
         Assert.True(simulation.TryReadHold(First, At(0.9), out Hold hold));
-        Assert.Equal(At(0.2), hold.Keyframe);
+        Assert.Equal(At(0.2), hold.KeyframeTime);
         Assert.Contains("at most", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.HoldKeyframe(At(1), 1, 4, First, V(3), V(200)))).Message, StringComparison.Ordinal);
         Assert.Contains("position", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.Grab(At(1), 1, 4, First, V(double.NaN)))).Message, StringComparison.Ordinal);
         Assert.Contains("velocity", Assert.Throws<SceneException>(() => simulation.Submit(ExternalEvent.Release(At(1), 1, 4, First, V(1e300)))).Message, StringComparison.Ordinal);

@@ -28,7 +28,7 @@ public sealed class IslandTests
         world.AdvanceTo(At(3));
         Assert.Equal(holds, Math.Abs(Read(world, Third, 3).Position.Y - (R + Math.Sqrt(0.75))) < 6 * Fine);
         Assert.Equal(holds, Read(world, First, 3).Motion == MotionLaw.Resting && Read(world, First, 3).Position.X > -R - (2 * Fine));
-        Assert.True(LeastGap(world, At(3)) > -2 * Fine);
+        Assert.True(MinGap(world, At(3)) > -2 * Fine);
         double islands = holds ? 1 : 3; // at most, in steps all the time
         Assert.InRange(world.EventsProcessed, 1, islands * 3 * Tolerance.StepsASecond(Fine));
     }
@@ -140,7 +140,7 @@ public sealed class IslandTests
         for (int n = 1; n <= 30; n++)
         {
             world.AdvanceTo(At(0.01 * n));
-            Assert.True(LeastGap(world, At(0.01 * n)) > -2 * Fine, $"{LeastGap(world, At(0.01 * n))} m at {0.01 * n} s");
+            Assert.True(MinGap(world, At(0.01 * n)) > -2 * Fine, $"{MinGap(world, At(0.01 * n))} m at {0.01 * n} s");
         }
     }
 
@@ -261,7 +261,7 @@ public sealed class IslandTests
             }
 
             world.AdvanceTo(At(t));
-            double gap = LeastGap(world, At(t));
+            double gap = MinGap(world, At(t));
             if (!(gap > -2 * Usual))
             {
                 return $"seed {seed}: {gap} m at {t} s";

@@ -91,14 +91,14 @@ public sealed class NoPassingTests
         double least = double.MaxValue;
         for (int i = 0; i <= 600; i++)
         {
-            least = Math.Min(least, LeastGap(simulation, At(End * i / 600)));
+            least = Math.Min(least, MinGap(simulation, At(End * i / 600)));
         }
 
         // And where it is closest: at and next to the impacts themselves.
         foreach (SimTime time in Bodies(simulation).SelectMany(body => Impacts(simulation, body)).Select(impact => impact.Key.Time).Distinct().Take(1500))
         {
-            least = Math.Min(least, LeastGap(simulation, time));
-            least = Math.Min(least, LeastGap(simulation, time > At(0) ? time - SimDuration.OneTick : time));
+            least = Math.Min(least, MinGap(simulation, time));
+            least = Math.Min(least, MinGap(simulation, time > At(0) ? time - SimDuration.OneTick : time));
         }
 
         return least;

@@ -55,7 +55,7 @@ public sealed class PersistentContactTests
         Assert.Equal(0, simulation.EventsProcessed - before);
         Near(0.5, Read(simulation, First, 11).Position.Y, 2 * Fine); // a contact may be off by 2 d
         Near(1.5, Read(simulation, Second, 11).Position.Y, 4 * Fine);
-        Assert.True(LeastGap(simulation, At(11)) > -2 * Fine);
+        Assert.True(MinGap(simulation, At(11)) > -2 * Fine);
     }
 
     [Theory]
@@ -72,7 +72,7 @@ public sealed class PersistentContactTests
         simulation.AdvanceTo(At(2.5));
         Assert.Equal(0, simulation.EventsProcessed - before);
         Near(2.5, Read(simulation, Third, 2.5).Position.Y, 6 * Fine);
-        Assert.True(LeastGap(simulation, At(2.5)) > -2 * Fine);
+        Assert.True(MinGap(simulation, At(2.5)) > -2 * Fine);
     }
 
     [Theory]
@@ -87,7 +87,7 @@ public sealed class PersistentContactTests
         Near(1.5, heavy.Position.Y, 4 * Fine);
         foreach (double t in new[] { 0.01, 0.1, 0.3, 1.1 })
         {
-            Assert.True(LeastGap(simulation, At(t)) > -2 * Fine, $"{LeastGap(simulation, At(t))} m at {t} s");
+            Assert.True(MinGap(simulation, At(t)) > -2 * Fine, $"{MinGap(simulation, At(t))} m at {t} s");
         }
     }
 
@@ -149,7 +149,7 @@ public sealed class PersistentContactTests
         BodyState heavy = Read(simulation, Third, 1.5);
         Assert.Equal(MotionLaw.Resting, heavy.Motion);
         Near(2.5, heavy.Position.Y, 6 * Fine);
-        Assert.True(LeastGap(simulation, At(1.5)) > -2 * Fine);
+        Assert.True(MinGap(simulation, At(1.5)) > -2 * Fine);
     }
 
     [Fact]
@@ -182,7 +182,7 @@ public sealed class PersistentContactTests
 
         simulation.AdvanceTo(At(2));
         Assert.InRange(simulation.EventsProcessed, 10, 20_000);
-        Assert.True(LeastGap(simulation, At(2)) > -2e-9);
+        Assert.True(MinGap(simulation, At(2)) > -2e-9);
     }
 
     [Theory]
@@ -195,7 +195,7 @@ public sealed class PersistentContactTests
         Assert.InRange(simulation.EventsProcessed, 10, 1000);
         Assert.All(Bodies(simulation), body => Near(0, Read(simulation, body, 5).Velocity.X, 1e-6)); // and do not part, as above the threshold
         Near(0, Momentum(simulation, At(5)).X, 1e-14);
-        Assert.True(LeastGap(simulation, At(5)) > -1e-9);
+        Assert.True(MinGap(simulation, At(5)) > -1e-9);
     }
 
     [Theory]
@@ -207,7 +207,7 @@ public sealed class PersistentContactTests
         Simulation simulation = Run(Three(e), 5);
         Assert.InRange(simulation.EventsProcessed, 2, 40);
         Assert.DoesNotContain(Impacts(simulation, Second), impact => impact.Key.Round > 0);
-        Assert.True(LeastGap(simulation, At(5)) > 0);
+        Assert.True(MinGap(simulation, At(5)) > 0);
     }
 
     [Theory]

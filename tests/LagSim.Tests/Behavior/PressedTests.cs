@@ -217,6 +217,6 @@ public sealed class PressedTests
 
         Simulation simulation = Run(builder.Build(), 1.5, events);
         Assert.InRange(simulation.EventsProcessed, 100, 150_000);
-        Assert.True(LeastGap(simulation, At(1.5)) > -0.3, $"{LeastGap(simulation, At(1.5))}");
+        Assert.True(MinGap(simulation, At(1.5)) > -0.3, $"{MinGap(simulation, At(1.5))}");
     }
 }

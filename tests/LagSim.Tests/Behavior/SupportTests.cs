@@ -167,7 +167,7 @@ public sealed class SupportTests
         Scene scene = new SceneBuilder("hammer").WithContactTolerance(d).AddPlane("floor", Vector3D.Up, V(0), 0.5)
             .AddBody("anvil", Ball(e: 0.3), V(0, 0.5)).AddBody("hammer", Ball(mass: 3, e: 0.3), V(0, 3), V(0, -5)).Build();
         Simulation simulation = Run(scene, 1);
-        Assert.All(Enumerable.Range(0, 1001), i => Assert.True(LeastGap(simulation, At(i / 1000.0)) > -2 * d));
+        Assert.All(Enumerable.Range(0, 1001), i => Assert.True(MinGap(simulation, At(i / 1000.0)) > -2 * d));
         Near(0.5, Read(simulation, First, 1).Position.Y, 2 * d);
     }
 

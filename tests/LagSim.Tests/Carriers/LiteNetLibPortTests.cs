@@ -304,8 +304,8 @@ public sealed class LiteNetLibPortTests
         Assert.Contains("this one has 0", Assert.Throws<ArgumentException>("key", () => new LiteNetLibPort(bind, "")).Message, StringComparison.Ordinal);
         Assert.Contains("this one has 101", Assert.Throws<ArgumentException>("key", () => new LiteNetLibPort(bind, new string('x', 101))).Message, StringComparison.Ordinal);
         Assert.Throws<ArgumentOutOfRangeException>("maxConnections", () => new LiteNetLibPort(bind, null, 0));
-        Assert.Throws<ArgumentOutOfRangeException>("maxConnections", () => new LiteNetLibPort(bind, null, LiteNetLibPort.MostConnections + 1));
-        using LiteNetLibPort most = new(bind, new string('\u20AC', LiteNetLibPort.MaxKeyLength), LiteNetLibPort.MostConnections);
+        Assert.Throws<ArgumentOutOfRangeException>("maxConnections", () => new LiteNetLibPort(bind, null, LiteNetLibPort.MaxConnections + 1));
+        using LiteNetLibPort most = new(bind, new string('\u20AC', LiteNetLibPort.MaxKeyLength), LiteNetLibPort.MaxConnections);
         Assert.NotEqual(0, most.LocalAddress.ToEndPoint().Port);
     }
 

@@ -17,7 +17,7 @@ public sealed class DecimationTests
 
         List<(double X, double Y)> points = Decimation.Thin(x, y);
 
-        Assert.InRange(points.Count, 1000, Decimation.MostPoints + 2);
+        Assert.InRange(points.Count, 1000, Decimation.MaxPoints + 2);
         Assert.Contains((x[54_321], 50.0), points);
         Assert.Contains((x[54_322], -60.0), points);
         Assert.Equal((x[0], y[0]), points[0]);
@@ -28,7 +28,7 @@ public sealed class DecimationTests
     [Fact]
     public void Thin_ShortSeries_KeepsAll()
     {
-        (double[] x, double[] y) = Sine(Decimation.MostPoints);
+        (double[] x, double[] y) = Sine(Decimation.MaxPoints);
 
         Assert.Equal(x.Zip(y), Decimation.Thin(x, y));
     }
@@ -54,7 +54,7 @@ public sealed class DecimationTests
             y[i] = double.NaN;
         }
 
-        Assert.InRange(Decimation.Thin(x, y).Count, 1000, (2 * Decimation.MostPoints) + 4);
+        Assert.InRange(Decimation.Thin(x, y).Count, 1000, (2 * Decimation.MaxPoints) + 4);
     }
 
     [Fact]

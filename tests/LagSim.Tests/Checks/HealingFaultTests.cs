@@ -73,15 +73,15 @@ public sealed class HealingFaultTests
 
     [Theory]
     [InlineData(HealingFault.ForgetsThePast, 3u)]
-    [InlineData(HealingFault.OverlooksWhoIsAhead, 4u)]
+    [InlineData(HealingFault.OverlooksBodiesAhead, 4u)]
     [InlineData(HealingFault.GivesUpByBody, 14u)]
     [InlineData(HealingFault.DropsEvents, 2u)]
-    [InlineData(HealingFault.LeavesMates, 29u)]
+    [InlineData(HealingFault.LeavesSleepers, 29u)]
     [InlineData(HealingFault.CutsByTime, 2u)]
     [InlineData(HealingFault.LeavesWhoRests, 29u)]
     [InlineData(HealingFault.CutsMembersAlone, 4u)]
-    [InlineData(HealingFault.ForgetsWhoWasLookedAt, 4u)]
-    [InlineData(HealingFault.ForgetsWhoMovedOn, 415u)]
+    [InlineData(HealingFault.ForgetsNearMisses, 4u)]
+    [InlineData(HealingFault.ForgetsBodiesMovedOn, 415u)]
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.

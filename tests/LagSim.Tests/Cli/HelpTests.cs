@@ -60,5 +60,5 @@ public sealed class HelpTests
         Program.Root(new ToolConsole(output, TextWriter.Null, TestContext.Current.CancellationToken));
 
     private static string[] TooLong(string help) =>
-        [.. help.ReplaceLineEndings("\n").Split('\n').Where(line => line.Length > HelpOfTool.MostColumns)];
+        [.. help.ReplaceLineEndings("\n").Split('\n').Where(line => line.Length > HelpOfTool.MaxColumns)];
 }

@@ -226,7 +226,7 @@ public sealed class SessionUsageTests
     [InlineData(SessionEnd.HostSilent, true, 0, 0, false, false, ExitCode.Input)]
     [InlineData(SessionEnd.HostSilent, true, 1, 0, false, false, ExitCode.CheckFailed)]
     [InlineData(SessionEnd.Refused, true, 0, 0, false, false, ExitCode.Input)]
-    [InlineData(SessionEnd.Disconnect, true, 0, 0, false, false, ExitCode.Input)]
+    [InlineData(SessionEnd.Disconnected, true, 0, 0, false, false, ExitCode.Input)]
     [InlineData(SessionEnd.Failed, true, 0, 0, false, false, ExitCode.Input)]
     [InlineData(SessionEnd.Left, true, 0, 1, false, false, ExitCode.CheckFailed)]
     [InlineData(SessionEnd.HostSilent, true, 0, 1, true, true, ExitCode.CheckFailed)]

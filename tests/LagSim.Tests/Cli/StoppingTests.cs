@@ -146,13 +146,13 @@ public sealed class StoppingTests
     }
 
     [Fact]
-    public void LeastSeconds_OfSeveralRuns_TellsHowFarAllOfThemAre()
+    public void MinSeconds_OfSeveralRuns_TellsHowFarAllOfThemAre()
     {
         List<double> told = [];
-        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, cancellation: TestContext.Current.CancellationToken);
+        SceneRun.MinSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, cancellation: TestContext.Current.CancellationToken);
         Assert.Equal(Enumerable.Range(1, 60).Select(n => n * 1.25), told); // twenty parts of each of two, and of one before them
         told.Clear();
-        SceneRun.LeastSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, isWarm: true, cancellation: TestContext.Current.CancellationToken);
+        SceneRun.MinSeconds(BuiltInScenes.Pair(), SimDuration.FromSeconds(25), 2, told.Add, isWarm: true, cancellation: TestContext.Current.CancellationToken);
         Assert.Equal(40, told.Count);
     }
 

@@ -46,7 +46,7 @@ public sealed class ContactRuleTests
         for (double t = 0.002; t <= until; t += 0.002)
         {
             simulation.AdvanceTo(At(t));
-            deepest = Math.Max(deepest, -LeastGap(simulation, At(t)));
+            deepest = Math.Max(deepest, -MinGap(simulation, At(t)));
         }
 
         return deepest;

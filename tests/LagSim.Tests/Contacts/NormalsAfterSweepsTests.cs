@@ -23,7 +23,7 @@ public sealed class NormalsAfterSweepsTests
         {
             ContactProblem problem = Drawn(seed, friction, ratio, piles);
             ContactProblem before = Drawn(seed, friction, ratio, piles);
-            Assert.Equal(piles > 1, problem.ContactCount > NormalImpulses.MostAtOnce);
+            Assert.Equal(piles > 1, problem.ContactCount > NormalImpulses.MaxAtOnce);
             ContactSolver.Solve(problem, Tolerance, 2);
             Assert.True(Worst(problem) > 1000 * Tolerance);
             Settle(problem, before);
@@ -48,7 +48,7 @@ public sealed class NormalsAfterSweepsTests
     public void Solve_ColumnThatFalls_IsCarried(int balls)
     {
         ContactProblem problem = Column(balls);
-        ContactSolver.Solve(problem, Tolerance, ContactStep.MostSweeps);
+        ContactSolver.Solve(problem, Tolerance, ContactStep.MaxSweeps);
         Assert.True(Worst(problem) > 1000 * Tolerance);
         int steps = Settle(problem, Column(balls));
         Assert.InRange(steps, 1, 4 * balls); // where sweeps would take the square

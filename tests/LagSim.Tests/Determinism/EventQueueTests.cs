@@ -38,8 +38,8 @@ public sealed class EventQueueTests
     public void Least_NothingPending_Throws()
     {
         EventQueue queue = new();
-        Assert.Throws<InvalidOperationException>(() => queue.LeastSlot);
-        Assert.Throws<InvalidOperationException>(() => queue.LeastKey);
+        Assert.Throws<InvalidOperationException>(() => queue.MinSlot);
+        Assert.Throws<InvalidOperationException>(() => queue.MinKey);
         queue.Remove(5);
         Assert.False(queue.TryGet(5, out _));
         Assert.Equal(0, queue.Count);
@@ -61,8 +61,8 @@ public sealed class EventQueueTests
             // Grows, moves along, is emptied; now and then somebody goes back to before what is at hand, as a heal does, and all at once.
             int phase = i / slots;
             bool isTaken = phase >= 17 || (phase > 2 && random.Next(3) > 0);
-            int slot = isTaken && queue.Count > 0 ? queue.LeastSlot : random.Next(slots);
-            now = isTaken && queue.Count > 0 ? queue.LeastKey.Time.Ticks : now;
+            int slot = isTaken && queue.Count > 0 ? queue.MinSlot : random.Next(slots);
+            now = isTaken && queue.Count > 0 ? queue.MinKey.Time.Ticks : now;
             if (queue.TryGet(slot, out EventKey old))
             {
                 Assert.True(model.Remove((old, slot)));
@@ -88,13 +88,13 @@ public sealed class EventQueueTests
             Assert.Equal(model.Count, queue.Count);
             if (model.Count > 0)
             {
-                Assert.Equal(model.Min, (queue.LeastKey, queue.LeastSlot));
+                Assert.Equal(model.Min, (queue.MinKey, queue.MinSlot));
             }
         }
 
-        while (queue.TryGetLeast(out int least, out EventKey leastKey))
+        while (queue.TryGetLeast(out int least, out EventKey minKey))
         {
-            Assert.Equal(model.Min, (leastKey, least));
+            Assert.Equal(model.Min, (minKey, least));
             model.Remove(model.Min);
             queue.Remove(least);
         }
@@ -119,12 +119,12 @@ public sealed class EventQueueTests
                 queue.Set(slot, slot < 2 ? shared : new EventKey(SimTime.FromTicks(ticks[slot]), 1, EventKind.Impact, BodyId.OfScene(slot), BodyId.OfScene(slot), 0, 0));
             }
 
-            int least = queue.LeastSlot;
+            int least = queue.MinSlot;
             bool expected = ticks.Count(t => t == 7) == 2;
-            Assert.Equal(expected, queue.IsLeastAloneWith(1 - least, shared));
+            Assert.Equal(expected, queue.IsMinAloneWith(1 - least, shared));
             alone += expected ? 1 : 0;
             crowded += expected ? 0 : 1;
-            Assert.False(queue.IsLeastAloneWith(count - 1 == 1 - least ? count : count - 1, shared), "who waits for something else, or for nothing");
+            Assert.False(queue.IsMinAloneWith(count - 1 == 1 - least ? count : count - 1, shared), "who waits for something else, or for nothing");
         }
 
         Assert.True(alone > 300 && crowded > 300, $"{alone} alone, {crowded} not");
@@ -146,7 +146,7 @@ public sealed class EventQueueTests
                     break;
                 case 1 when queue.Count > 0:
                     // As the event loop does: take the least.
-                    slot = queue.LeastSlot;
+                    slot = queue.MinSlot;
                     queue.Remove(slot);
                     model.Remove(slot);
                     break;
@@ -162,9 +162,9 @@ public sealed class EventQueueTests
                 return $"count {queue.Count}, not {model.Count}, after {i}";
             }
 
-            if (model.Count > 0 && (queue.LeastKey != model.Values.Min() || model[queue.LeastSlot] != queue.LeastKey))
+            if (model.Count > 0 && (queue.MinKey != model.Values.Min() || model[queue.MinSlot] != queue.MinKey))
             {
-                return $"least {queue.LeastKey}, not {model.Values.Min()}, after {i}";
+                return $"least {queue.MinKey}, not {model.Values.Min()}, after {i}";
             }
 
             bool has = queue.TryGet(slot, out EventKey pending);

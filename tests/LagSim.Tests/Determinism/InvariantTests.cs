@@ -45,8 +45,8 @@ public sealed class InvariantTests
     [MemberData(nameof(Blocks))]
     public void State_WithAnIndexOfPathsInPlaceOfAllPairs_IsTheSameToo(int block)
     {
-        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: HealingMode.CausalCone, inPieces: seed % 2 == 0, mostPairs: 0));
-        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: HealingMode.FullRollback, mostPairs: seed % 8));
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: HealingMode.CausalCone, inPieces: seed % 2 == 0, bruteForceLimit: 0));
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, mode: HealingMode.FullRollback, bruteForceLimit: seed % 8));
     }
 
     [Theory]
@@ -109,7 +109,7 @@ public sealed class InvariantTests
     public void State_ConeThatGrowsToTakeAllBack_IsTheSameToo(int block)
     {
         int grown = 0;
-        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, inPieces: seed % 3 == 0, mostPairs: seed % 2 * 64, prepare: simulation =>
+        AssertNone(block, world => world.OnTime(), (world, seed) => world.Shuffled(seed, inPieces: seed % 3 == 0, bruteForceLimit: seed % 2 * 64, prepare: simulation =>
         {
             simulation.FewHealed = seed % 3;
             simulation.Healed += report => grown += report.Bodies == simulation.BodyCount && report.Bodies > 3 ? 1 : 0;
@@ -133,7 +133,7 @@ public sealed class InvariantTests
         foreach (int seed in Enumerable.Range(20_000, 60))
         {
             RandomWorld world = new(seed, hands: seed % 3 == 0, forced: true);
-            string? difference = RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, mode: mode, inPieces: seed % 2 == 0, mostPairs: seed % 4 == 1 ? 0 : 64));
+            string? difference = RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, mode: mode, inPieces: seed % 2 == 0, bruteForceLimit: seed % 4 == 1 ? 0 : 64));
             Assert.True(difference is null, $"seed {seed}: {difference}");
         }
     }
@@ -257,14 +257,14 @@ public sealed class InvariantTests
 
     [Theory]
     [InlineData(HealingFault.ForgetsThePast)]
-    [InlineData(HealingFault.OverlooksWhoIsAhead)]
+    [InlineData(HealingFault.OverlooksBodiesAhead)]
     [InlineData(HealingFault.GivesUpByBody)]
     [InlineData(HealingFault.DropsEvents)]
     [InlineData(HealingFault.CutsByTime)]
     [InlineData(HealingFault.LeavesWhoRests)]
     [InlineData(HealingFault.StopsWherePlacesMeet)]
     [InlineData(HealingFault.CutsMembersAlone)]
-    [InlineData(HealingFault.ForgetsWhoWasLookedAt)]
+    [InlineData(HealingFault.ForgetsNearMisses)]
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
         int seed = 0;
@@ -288,7 +288,7 @@ public sealed class InvariantTests
         Simulation inTime = new(scene, KeepAll);
         inTime.Submit(gone);
         inTime.AdvanceTo(At(3));
-        FaultyEngineParts parts = new() { Healing = isLeft ? HealingFault.LeavesMates : default };
+        FaultyEngineParts parts = new() { Healing = isLeft ? HealingFault.LeavesSleepers : default };
         Simulation late = new(scene, KeepAll.WithParts(parts));
         late.AdvanceTo(At(2.5));
         Assert.Equal(MotionLaw.Resting, Read(late, Second, 2.5).Motion);

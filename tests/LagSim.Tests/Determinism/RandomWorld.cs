@@ -74,12 +74,12 @@ internal sealed class RandomWorld
         Action<Simulation>? prepare = null,
         HealingMode mode = HealingMode.CausalCone,
         bool inPieces = false,
-        int mostPairs = SimulationOptions.DefaultMostPairs,
+        int bruteForceLimit = SimulationOptions.DefaultBruteForceLimit,
         IImpactObserver? observer = null,
         EngineParts? parts = null)
     {
         Random arrivals = new(seed);
-        SimulationOptions options = new(default, history ?? SimDuration.MaxValue, healing: mode) { MostPairs = mostPairs };
+        SimulationOptions options = new SimulationOptions(default, history ?? SimDuration.MaxValue, healing: mode).WithBruteForceLimit(bruteForceLimit);
         Simulation simulation = new(Scene, options.WithObserver(observer).WithParts(parts ?? EngineParts.Usual));
         prepare?.Invoke(simulation);
         double latest = history is SimDuration kept ? kept.ToSeconds() * 0.999 : End;

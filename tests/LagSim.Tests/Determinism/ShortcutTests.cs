@@ -76,8 +76,8 @@ public sealed class ShortcutTests
     public void Crowd_UnderEveryIndex_IsTheSameToTheBit(int seed, int bodies, double gravity)
     {
         Scene scene = Crowd(seed, bodies, gravity, false);
-        Simulation shells = new(scene, new SimulationOptions { MostPairs = 0 });
-        Simulation pairs = new(scene, new SimulationOptions { MostPairs = int.MaxValue });
+        Simulation shells = new(scene, new SimulationOptions().WithBruteForceLimit(0));
+        Simulation pairs = new(scene, new SimulationOptions().WithBruteForceLimit(int.MaxValue));
         shells.AdvanceTo(At(2));
         pairs.AdvanceTo(At(2));
         Assert.Equal(pairs.EventHash(At(2)), shells.EventHash(At(2)));

@@ -19,7 +19,7 @@ public sealed class SnapshotTests
     [MemberData(nameof(Blocks))]
     public void World_GoingOnFromASnapshot_IsTheSameToTheBit(int block)
     {
-        int bodies = 0, inPersistent = 0, held = 0, stepping = 0, turning = 0;
+        int bodies = 0, inPersistentContact = 0, held = 0, stepping = 0, turning = 0;
         foreach (int seed in Enumerable.Range(20_000 + (block * 30), 30))
         {
             RandomWorld world = new(seed, hands: seed % 2 == 0, forced: seed % 3 == 0);
@@ -31,14 +31,14 @@ public sealed class SnapshotTests
                 string? difference = RandomWorld.Difference(expected, actual);
                 Assert.True(difference is null, $"seed {seed}, from {time}: {difference}");
                 bodies += snapshot.Bodies.Count;
-                inPersistent += snapshot.Bodies.Count(b => b.Contacts.Length > 0 || b.SupportCount > 0);
+                inPersistentContact += snapshot.Bodies.Count(b => b.Contacts.Length > 0 || b.SupportCount > 0);
                 held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
                 stepping += snapshot.Bodies.Count(b => b.NextStep > SimDuration.Zero);
                 turning += snapshot.Bodies.Count(b => b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero);
             }
         }
 
-        Assert.True(bodies > 400 && inPersistent > 10 && held > 10 && stepping > 10 && turning > 10, $"{bodies} {inPersistent} {held} {stepping} {turning}"); // else nothing was shown
+        Assert.True(bodies > 400 && inPersistentContact > 10 && held > 10 && stepping > 10 && turning > 10, $"{bodies} {inPersistentContact} {held} {stepping} {turning}"); // else nothing was shown
     }
 
     /// <summary>Who joins after one of an island was removed knows nothing of it, though the others carry its contact to their next tick: no hash may count that it is looked at.</summary>

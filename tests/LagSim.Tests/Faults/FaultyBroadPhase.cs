@@ -9,8 +9,8 @@ namespace LagSim.Tests.Faults;
 
 /// <summary>A broad phase that can leave one body out of its answers, and whose lists may forget who has moved on ahead of a heal.</summary>
 internal sealed class FaultyBroadPhase(
-    Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs, FaultyEngineParts faults)
-    : AdaptiveBroadPhase(scene, bodies, timelines, mostPairs)
+    Scene scene, BodyTable bodies, TimelineStore timelines, int bruteForceLimit, FaultyEngineParts faults)
+    : AdaptiveBroadPhase(scene, bodies, timelines, bruteForceLimit)
 {
     private readonly Scene scene = scene;
     private readonly BodyTable bodies = bodies;
@@ -22,7 +22,7 @@ internal sealed class FaultyBroadPhase(
 
     private FaultyEngineParts Faults => faults;
 
-    private protected override BruteForce MakePairs() => new Pairs(this);
+    private protected override BruteForce MakeBruteForce() => new Pairs(this);
 
     private protected override NeighbourLists MakeLists(double cell, double speed, double tickLength) =>
         new Lists(this, cell, speed, scene.Resolution, tickLength, scene.Box);
@@ -53,6 +53,6 @@ internal sealed class FaultyBroadPhase(
         Span<int> IBroadPhase.Candidates(int slot, double radius, SimTime from, long heal, out SimTime until) =>
             owner.Without(Candidates(slot, radius, from, heal, out until));
 
-        private protected override bool KeepsListsOfOneHeal => !owner.Faults.Has(HealingFault.ForgetsWhoMovedOn);
+        private protected override bool KeepsListsOfOneHeal => !owner.Faults.Has(HealingFault.ForgetsBodiesMovedOn);
     }
 }

@@ -60,8 +60,8 @@ internal sealed class FaultyEngineParts : EngineParts
     internal override PathView PathView(TimelineStore timelines, RollbackState rollback) =>
         new FaultyPathView(timelines, rollback, this, isForPending: false);
 
-    internal override AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int mostPairs) =>
-        new FaultyBroadPhase(scene, bodies, timelines, mostPairs, this);
+    internal override AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int bruteForceLimit) =>
+        new FaultyBroadPhase(scene, bodies, timelines, bruteForceLimit, this);
 
     internal override CollisionSearch CollisionSearch(
         BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,

@@ -15,11 +15,11 @@ internal sealed class FaultyPathView(TimelineStore timelines, RollbackState roll
     /// <summary>How far the rollback has come of which it is a view.</summary>
     internal RollbackState Rollback { get; } = rollback;
 
-    private protected override int PastPieceFrom(int slot, int piece) =>
-        faults.Has(HealingFault.ForgetsThePast) || IsOverlooked(timelines.Owner(piece)) ? piece : base.PastPieceFrom(slot, piece);
+    private protected override int PastSegmentFrom(int slot, int piece) =>
+        faults.Has(HealingFault.ForgetsThePast) || IsOverlooked(timelines.Owner(piece)) ? piece : base.PastSegmentFrom(slot, piece);
 
-    private protected override int PastPieceAt(int slot, in EventKey key) =>
-        IsOverlooked(slot) || (isForPending && faults.Has(HealingFault.GivesUpByBody)) ? timelines.Last(slot) : base.PastPieceAt(slot, key);
+    private protected override int PastSegmentAt(int slot, in EventKey key) =>
+        IsOverlooked(slot) || (isForPending && faults.Has(HealingFault.GivesUpByBody)) ? timelines.Last(slot) : base.PastSegmentAt(slot, key);
 
-    private bool IsOverlooked(int slot) => faults.Has(HealingFault.OverlooksWhoIsAhead) && Rollback.HasTouched(slot);
+    private bool IsOverlooked(int slot) => faults.Has(HealingFault.OverlooksBodiesAhead) && Rollback.HasTouched(slot);
 }

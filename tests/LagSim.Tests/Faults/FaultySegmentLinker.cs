@@ -15,7 +15,7 @@ internal sealed class FaultySegmentLinker(
 
     internal override void Join(in EventKey key)
     {
-        if (!faults.Has(HealingFault.ForgetsWhoWasLookedAt))
+        if (!faults.Has(HealingFault.ForgetsNearMisses))
         {
             AddNearMisses(key);
         }

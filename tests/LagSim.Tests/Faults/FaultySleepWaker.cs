@@ -17,7 +17,7 @@ internal sealed class FaultySleepWaker(
 
     internal override void Wake(int slot, in EventKey key)
     {
-        if (faults.Has(HealingFault.LeavesMates) && rollback.MayBeKnownBeyond(key))
+        if (faults.Has(HealingFault.LeavesSleepers) && rollback.MayBeKnownBeyond(key))
         {
             graph.Clear();
         }

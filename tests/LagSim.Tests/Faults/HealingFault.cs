@@ -13,7 +13,7 @@ internal enum HealingFault
     ForgetsThePast = 1,
 
     /// <summary>Of a body that was taken back, but to later than the heal's clock, only the newest piece of path is looked at.</summary>
-    OverlooksWhoIsAhead = 2,
+    OverlooksBodiesAhead = 2,
 
     /// <summary>
     /// A pending contact is given up when its partner has changed at all, as if that one would find it anew, though the piece that it was
@@ -34,13 +34,13 @@ internal enum HealingFault
     StopsWherePlacesMeet = 64,
 
     /// <summary>What a late event does to one of an island leaves those asleep that lie on it.</summary>
-    LeavesMates = 128,
+    LeavesSleepers = 128,
 
     /// <summary>The pieces of path that one contact step or one impact on an island opens are not cut together.</summary>
     CutsMembersAlone = 256,
 
     /// <summary>Who was looked at by a step, and found to be no part of it, is not told so.</summary>
-    ForgetsWhoWasLookedAt = 512,
+    ForgetsNearMisses = 512,
 
     /// <summary>
     /// A heal ends where the members of an island are on their old chords again, whatever they carry: instants, contacts and impulses.
@@ -60,5 +60,5 @@ internal enum HealingFault
     /// A body that moves on ahead of the others in a heal is taken out of the index's lists for them, though they still have to meet
     /// it where it was.
     /// </summary>
-    ForgetsWhoMovedOn = 8192,
+    ForgetsBodiesMovedOn = 8192,
 }

@@ -13,7 +13,7 @@ public sealed class HandMotionTests(ITestOutputHelper output)
     [Theory]
     [InlineData(HandMotions.Slow, 0.8, 1.5, 4, 10)]
     [InlineData(HandMotions.Random, 2, 3.5, 35, 60)]
-    public void Generate_AnySeed_MovesAsFastAsItsDescriptionSays(string name, double leastSpeed, double mostSpeed, double leastAcceleration, double mostAcceleration)
+    public void Generate_AnySeed_MovesAsFastAsItsDescriptionSays(string name, double minSpeed, double maxSpeed, double minAcceleration, double maxAcceleration)
     {
         foreach (ulong seed in new ulong[] { 1, 2, 3, ulong.MaxValue })
         {
@@ -22,8 +22,8 @@ public sealed class HandMotionTests(ITestOutputHelper output)
             output.WriteLine($"{name} {seed}: {speed:0.###} m/s, {motion.LargestAcceleration():0.###} m/s^2");
             Assert.Equal(7201, motion.Count);
             Assert.Equal(HandMotions.Seconds, motion.Seconds);
-            Assert.InRange(speed, leastSpeed, mostSpeed);
-            Assert.InRange(motion.LargestAcceleration(), leastAcceleration, mostAcceleration);
+            Assert.InRange(speed, minSpeed, maxSpeed);
+            Assert.InRange(motion.LargestAcceleration(), minAcceleration, maxAcceleration);
             Assert.All(Positions(motion), at => Assert.InRange(at.Length, 0, 1));
         }
     }

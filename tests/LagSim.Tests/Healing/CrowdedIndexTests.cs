@@ -18,8 +18,8 @@ public sealed class CrowdedIndexTests
 
     [Theory]
     [InlineData(0)]
-    [InlineData(SimulationOptions.DefaultMostPairs)]
-    public void Late_ByTheIndex_HealsToTheSameBits(int mostPairs)
+    [InlineData(SimulationOptions.DefaultBruteForceLimit)]
+    public void Late_ByTheIndex_HealsToTheSameBits(int bruteForceLimit)
     {
         for (ulong seed = 1; seed <= 40; seed++)
         {
@@ -28,7 +28,7 @@ public sealed class CrowdedIndexTests
             Simulation inTime = new(Room(), new SimulationOptions(default, SimDuration.MaxValue));
             events.ForEach(e => inTime.Submit(e));
             inTime.AdvanceTo(At(End));
-            Simulation late = new(Room(), new SimulationOptions(default, SimDuration.MaxValue) { MostPairs = mostPairs });
+            Simulation late = new(Room(), new SimulationOptions(default, SimDuration.MaxValue).WithBruteForceLimit(bruteForceLimit));
             double by = random.NextDouble(0.05, 0.2);
             foreach (ExternalEvent e in events)
             {
@@ -46,13 +46,13 @@ public sealed class CrowdedIndexTests
     /// second. With one body less there is no index yet.
     /// </summary>
     [Theory]
-    [InlineData(SimulationOptions.DefaultMostPairs)]
-    [InlineData(SimulationOptions.DefaultMostPairs + 1)]
-    public void Late_WhereTheIndexBegan_IsMetBeforeThat(int mostPairs)
+    [InlineData(SimulationOptions.DefaultBruteForceLimit)]
+    [InlineData(SimulationOptions.DefaultBruteForceLimit + 1)]
+    public void Late_WhereTheIndexBegan_IsMetBeforeThat(int bruteForceLimit)
     {
         SceneBuilder builder = new SceneBuilder("row").WithGravity(Vector3D.Zero)
             .AddBody("mover", new BodySpec(0.1, 1, 1), V(0), V(1)).AddBody("shooter", new BodySpec(0.1, 1, 1), V(0.5, 1));
-        for (int n = 2; n < SimulationOptions.DefaultMostPairs; n++)
+        for (int n = 2; n < SimulationOptions.DefaultBruteForceLimit; n++)
         {
             builder.AddBody($"other {n}", new BodySpec(0.1, 1, 1), V(n, 50));
         }
@@ -60,8 +60,8 @@ public sealed class CrowdedIndexTests
         Scene scene = builder.Build();
         ExternalEvent spawn = ExternalEvent.Spawn(At(1), 1, 1, new BodySpec(0.1, 1, 1), V(-5, 50));
         ExternalEvent shot = ExternalEvent.SetVelocity(At(0.1), 1, 2, Second, V(0, -2));
-        Simulation inTime = new(scene, new SimulationOptions(default, SimDuration.MaxValue) { MostPairs = mostPairs });
-        Simulation late = new(scene, new SimulationOptions(default, SimDuration.MaxValue) { MostPairs = mostPairs });
+        Simulation inTime = new(scene, new SimulationOptions(default, SimDuration.MaxValue).WithBruteForceLimit(bruteForceLimit));
+        Simulation late = new(scene, new SimulationOptions(default, SimDuration.MaxValue).WithBruteForceLimit(bruteForceLimit));
         inTime.Submit(shot);
         inTime.Submit(spawn);
         late.AdvanceTo(At(1));

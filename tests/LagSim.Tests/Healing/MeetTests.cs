@@ -27,7 +27,7 @@ public sealed class MeetTests
         simulation.AdvanceTo(At(4));
 
         HealReport report = Assert.Single(reports);
-        Assert.Equal(At(0.5), report.Met);
+        Assert.Equal(At(0.5), report.ReconvergedAt);
         Assert.Equal((1L, 1), (report.Events, report.Bodies));
         Assert.True(simulation.SegmentsCut - cut > 2); // it had bounced a few times, and that stands again
         AssertIs(Row(late).Simulation, simulation);
@@ -43,7 +43,7 @@ public sealed class MeetTests
         simulation.AdvanceTo(At(4));
 
         HealReport report = Assert.Single(reports);
-        Assert.Equal(At(1), report.Met);
+        Assert.Equal(At(1), report.ReconvergedAt);
         Assert.Equal((2L, 1), (report.Events, report.Bodies));
         AssertIs(Row(Back, late).Simulation, simulation);
     }
@@ -55,7 +55,7 @@ public sealed class MeetTests
         simulation.AdvanceTo(At(4));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(0, 5)));
         simulation.AdvanceTo(At(4));
-        Assert.Null(Assert.Single(reports).Met);
+        Assert.Null(Assert.Single(reports).ReconvergedAt);
     }
 
     [Fact]
@@ -66,7 +66,7 @@ public sealed class MeetTests
         simulation.AdvanceTo(At(4));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(5, 0)));
         simulation.AdvanceTo(At(4));
-        Assert.Null(Assert.Single(reports).Met);
+        Assert.Null(Assert.Single(reports).ReconvergedAt);
         Assert.True(reports[0].Bodies > 1);
     }
 
@@ -81,7 +81,7 @@ public sealed class MeetTests
         simulation.AdvanceTo(At(4));
         simulation.Submit(ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(5, -0.5 * 9.81)));
         simulation.AdvanceTo(At(4));
-        Assert.Null(Assert.Single(reports).Met);
+        Assert.Null(Assert.Single(reports).ReconvergedAt);
         Assert.Equal(7, reports[0].Bodies); // it and all in the row beyond, each of which had one flight
         Simulation onTime = new(simulation.Scene, new SimulationOptions(default, SimDuration.MaxValue));
         onTime.Submit(Back);
@@ -103,7 +103,7 @@ public sealed class MeetTests
             events = 1;
         }
 
-        Assert.Equal(At(1), Assert.Single(reports).Met);
+        Assert.Equal(At(1), Assert.Single(reports).ReconvergedAt);
         simulation.AdvanceTo(At(6)); // the index knows what was put back: it goes on like one that never lost it
         Simulation onTime = Row(Back, ExternalEvent.SetVelocity(At(0.5), 1, 1, Ball3, V(0.5, 5))).Simulation;
         onTime.AdvanceTo(At(6));
@@ -119,7 +119,7 @@ public sealed class MeetTests
         simulation.Submit(ExternalEvent.Release(At(0.5), 1, 1, Ball3, V(0)));
         simulation.Submit(ExternalEvent.Release(At(0.6), 1, 2, Ball3, V(0)));
         simulation.AdvanceTo(At(4));
-        Assert.Null(Assert.Single(reports).Met);
+        Assert.Null(Assert.Single(reports).ReconvergedAt);
         Assert.Equal(2, reports[0].LateEvents);
     }
 
@@ -149,8 +149,8 @@ public sealed class MeetTests
         {
             new RandomWorld(seed, hands: true).Shuffled(seed, prepare: simulation => simulation.Healed += report =>
             {
-                met += report.Met is null ? 0 : 1;
-                cut += report.Met is null ? 0 : (int)report.SegmentsCut;
+                met += report.ReconvergedAt is null ? 0 : 1;
+                cut += report.ReconvergedAt is null ? 0 : (int)report.SegmentsCut;
             });
         }
 
@@ -184,11 +184,11 @@ public sealed class MeetTests
         return builder.Build();
     }
 
-    private static (Simulation Simulation, List<HealReport> Reports) Row(params ExternalEvent[] events) => Row(SimulationOptions.DefaultMostPairs, events);
+    private static (Simulation Simulation, List<HealReport> Reports) Row(params ExternalEvent[] events) => Row(SimulationOptions.DefaultBruteForceLimit, events);
 
-    private static (Simulation Simulation, List<HealReport> Reports) Row(int mostPairs, params ExternalEvent[] events)
+    private static (Simulation Simulation, List<HealReport> Reports) Row(int bruteForceLimit, params ExternalEvent[] events)
     {
-        Simulation simulation = new(Scene(), new SimulationOptions(default, SimDuration.MaxValue) { MostPairs = mostPairs });
+        Simulation simulation = new(Scene(), new SimulationOptions(default, SimDuration.MaxValue).WithBruteForceLimit(bruteForceLimit));
         foreach (ExternalEvent external in events)
         {
             simulation.Submit(external);

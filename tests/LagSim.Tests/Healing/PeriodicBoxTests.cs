@@ -112,9 +112,9 @@ public sealed class PeriodicBoxTests
     [InlineData(HealingMode.CausalCone, 64)]
     [InlineData(HealingMode.CausalCone, 100_000)]
     [InlineData(HealingMode.FullRollback, 64)]
-    public void Gas_WithEventsInAnyOrder_IsThatOfAWorldThatHadThemBefore(HealingMode mode, int mostPairs)
+    public void Gas_WithEventsInAnyOrder_IsThatOfAWorldThatHadThemBefore(HealingMode mode, int bruteForceLimit)
     {
-        for (int seed = 0; seed < (mostPairs == 64 ? 6 : 2); seed++)
+        for (int seed = 0; seed < (bruteForceLimit == 64 ? 6 : 2); seed++)
         {
             Random random = new(seed);
             Scene scene = BuiltInScenes.Gas(125, seed % 2 == 0 ? 0.2 : 0.35);
@@ -123,7 +123,7 @@ public sealed class PeriodicBoxTests
             events.ForEach(external => onTime.Submit(external));
             onTime.AdvanceTo(At(End));
 
-            Simulation late = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.6), healing: mode) { MostPairs = mostPairs });
+            Simulation late = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.6), healing: mode).WithBruteForceLimit(bruteForceLimit));
             foreach ((double when, ExternalEvent external) in events.Select(e => (e.Time.ToSeconds() + (random.NextDouble() * 0.59), e)).OrderBy(e => e.Item1))
             {
                 late.AdvanceTo(SimTime.Max(At(Math.Min(when, End)), late.SimulatedTo));

@@ -80,7 +80,7 @@ public sealed class ContactNoticesTests
         SessionGroup group = new SessionGroup(
             ScriptedActions.Box(), 3, profile, (ulong)seed,
             peer => new HostOptions { Window = new(SimDuration.FromSeconds(3)), Strategy = LateEventStrategies.OfName(strategy), Contacts = ledgers[peer].Notices }).Connect();
-        new ScriptedActions(seed, mostSpawns: 4).DoIn(group, 24, 0.2);
+        new ScriptedActions(seed, maxSpawns: 4).DoIn(group, 24, 0.2);
         group.Run(12);
         int count = ledgers.Min(l => l.Confirmed.Count);
         Assert.True(count > 20, $"{count}");
@@ -98,11 +98,11 @@ public sealed class ContactNoticesTests
     {
         Ledger early = new(), late = new();
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(20), 5, _ => new HostOptions { Contacts = early.Notices }).Connect();
-        new ScriptedActions(1, mostSpawns: 2).DoIn(group, 10, 0.2);
+        new ScriptedActions(1, maxSpawns: 2).DoIn(group, 10, 0.2);
         group.Run(3);
         ClientSession client = group.Join(7, 77, new ClientOptions { Contacts = late.Notices });
         Assert.True(group.RunUntil(() => client.State == SessionState.Running), client.EndReason);
-        new ScriptedActions(2, mostSpawns: 2).DoIn(group, 20, 0.2);
+        new ScriptedActions(2, maxSpawns: 2).DoIn(group, 20, 0.2);
         group.Run(5);
         Assert.NotNull(client.BegunFrom);
         Assert.True(late.Confirmed.Count > 10 && late.Confirmed.Count < early.Confirmed.Count, $"{late.Confirmed.Count} of {early.Confirmed.Count}");

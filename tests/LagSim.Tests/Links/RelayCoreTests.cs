@@ -13,7 +13,7 @@ namespace LagSim.Tests.Links;
 public sealed class RelayCoreTests : IDisposable
 {
     private const int Front = 10, FirstClient = 1, FirstBack = 20;
-    private const int MostClients = 4;
+    private const int MaxClients = 4;
 
     private static readonly LinkProfile Uneven = new("uneven", toHost: new LinkLeg(10), fromHost: new LinkLeg(200));
 
@@ -30,7 +30,7 @@ public sealed class RelayCoreTests : IDisposable
     {
         network = new VirtualNetwork(clock, 1);
         host = network.CreatePort(0);
-        clients = Enumerable.Range(FirstClient, MostClients + 1).Select(network.CreatePort).ToArray();
+        clients = Enumerable.Range(FirstClient, MaxClients + 1).Select(network.CreatePort).ToArray();
     }
 
     public void Dispose() => relay?.Dispose();
@@ -179,8 +179,8 @@ public sealed class RelayCoreTests : IDisposable
         }
 
         Turn();
-        Assert.Equal(2 * MostClients, Drain(host).Count);
-        Assert.Equal(new RelayTraffic(MostClients, 2 * MostClients, 0, 0, 0, 2), relay!.Traffic);
+        Assert.Equal(2 * MaxClients, Drain(host).Count);
+        Assert.Equal(new RelayTraffic(MaxClients, 2 * MaxClients, 0, 0, 0, 2), relay!.Traffic);
         Send(clients[0], 3);
         Turn();
         Assert.Equal(3, Assert.Single(Drain(host)).Number);
@@ -280,7 +280,7 @@ public sealed class RelayCoreTests : IDisposable
     private static SimTime At(double milliseconds) => SimTime.Zero + SimDuration.FromMilliseconds(milliseconds);
 
     private void Relay(LinkProfile profile, SimDuration? change = null) => relay = new RelayCore(
-        network.CreatePort(Front), host.LocalAddress, profile, 1, MostClients, () =>
+        network.CreatePort(Front), host.LocalAddress, profile, 1, MaxClients, () =>
         {
             if (outOfPorts)
             {

@@ -104,7 +104,7 @@ public sealed class MassRatioTests
     {
         Simulation simulation = Run(Squeeze(ratio, e), 3);
         Assert.InRange(simulation.EventsProcessed, 2, 10_000);
-        Assert.True(LeastGap(simulation, At(3)) >= -1e-9);
+        Assert.True(MinGap(simulation, At(3)) >= -1e-9);
         Assert.True(Energy(simulation, At(3)) <= Energy(simulation, At(0)) * (1 + 1e-14));
     }
 

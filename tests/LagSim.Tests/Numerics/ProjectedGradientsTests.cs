@@ -82,7 +82,7 @@ public sealed class ProjectedGradientsTests
 
     private delegate void Solver(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities);
 
-    private static bool ByGradients(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, int steps = ProjectedGradients.MostSteps)
+    private static bool ByGradients(Span<ContactPoint> contacts, Span<double> masses, Span<Vector3D> velocities, int steps = ProjectedGradients.MaxSteps)
     {
         double[] demand = new double[contacts.Length];
         for (int i = 0; i < demand.Length; i++)
@@ -105,7 +105,7 @@ public sealed class ProjectedGradientsTests
     private static (double Closing, double Gain) Settle(int seed, Solver solve, double ratio = 3)
     {
         (ContactPoint[] contacts, double[] masses, Vector3D[] velocities) = Layers(seed, 8, ratio);
-        Assert.True(contacts.Length > NormalImpulses.MostAtOnce);
+        Assert.True(contacts.Length > NormalImpulses.MaxAtOnce);
         double before = Energy(masses, velocities), closing = 0;
         solve(contacts, masses, velocities);
         foreach (ContactPoint c in contacts)

@@ -26,7 +26,7 @@ public sealed class SmallFastFarTests
         double expected = (2.37 - (2 * Radius)) / (2 * Speed);
         Near(expected, Assert.Single(Impacts(simulation, First)).Key.Time.ToSeconds(), 1e-12);
         Assert.Equal(-Speed, Read(simulation, First, 3e-6).Velocity.X);
-        Assert.True(LeastGapOver(simulation, 3e-6) > -1e-9);
+        Assert.True(MinGapOver(simulation, 3e-6) > -1e-9);
     }
 
     [Theory]
@@ -41,7 +41,7 @@ public sealed class SmallFastFarTests
         double lap = 1 - (2 * Radius);
         int expected = (int)(((1e-4 * Speed) - (1 - Radius - 0.3)) / lap) + 1;
         Assert.Equal(expected, Impacts(simulation, First).Count);
-        Assert.True(LeastGapOver(simulation, 1e-4) > -1e-9);
+        Assert.True(MinGapOver(simulation, 1e-4) > -1e-9);
     }
 
     [Fact]
@@ -91,8 +91,8 @@ public sealed class SmallFastFarTests
         return simulation;
     }
 
-    private static double LeastGapOver(Simulation simulation, double seconds) =>
-        Enumerable.Range(0, 5001).Min(i => LeastGap(simulation, SimTime.FromTicks(At(seconds).Ticks / 5000 * i)));
+    private static double MinGapOver(Simulation simulation, double seconds) =>
+        Enumerable.Range(0, 5001).Min(i => MinGap(simulation, SimTime.FromTicks(At(seconds).Ticks / 5000 * i)));
 
     private static Scene Cluster(double offset, double nudge = 0)
     {

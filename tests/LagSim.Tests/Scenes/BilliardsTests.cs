@@ -18,13 +18,13 @@ public sealed class BilliardsTests
         Simulation world = Run(BuiltInScenes.Billiards(), Length);
         for (double time = 0; time <= Length; time += Every)
         {
-            Assert.True(LeastGap(world, At(time)) > -1e-9, $"at {time} s");
+            Assert.True(MinGap(world, At(time)) > -1e-9, $"at {time} s");
             Assert.All(Bodies(world), body => Assert.Equal(Radius, Read(world, body, time).Position.Y));
         }
     }
 
     [Fact]
-    public void LeastGap_OfATableWithoutItsFootCushion_IsSeenToBeLeft()
+    public void MinGap_OfATableWithoutItsFootCushion_IsSeenToBeLeft()
     {
         Scene whole = BuiltInScenes.Billiards();
         SceneBuilder open = new("open");

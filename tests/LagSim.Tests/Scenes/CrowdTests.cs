@@ -75,7 +75,7 @@ public sealed class CrowdTests
         for (double time = 0; time <= length; time += 0.1)
         {
             world.AdvanceTo(At(time));
-            Assert.True(LeastGap(world, At(time)) > -1e-9, $"at {time} s");
+            Assert.True(MinGap(world, At(time)) > -1e-9, $"at {time} s");
             half = time <= length / 2 ? world.ImpactsProcessed : half;
         }
 
@@ -85,7 +85,7 @@ public sealed class CrowdTests
     }
 
     [Fact]
-    public void LeastGap_OfABoxWithoutItsCeiling_IsSeenToBeLeft()
+    public void MinGap_OfABoxWithoutItsCeiling_IsSeenToBeLeft()
     {
         Scene whole = BuiltInScenes.Crowd(8);
         SceneBuilder open = new SceneBuilder("open").WithGravity(whole.Gravity);

@@ -81,7 +81,7 @@ public sealed class ComingInAgainTests
             group.Run(0.1);
         }
 
-        Assert.Equal((SessionState.Ended, SessionEnd.Disconnect), (client.State, client.EndedBy));
+        Assert.Equal((SessionState.Ended, SessionEnd.Disconnected), (client.State, client.EndedBy));
         Assert.Equal("The host at virtual:0 does not have this peer among its clients, or no longer.", client.EndReason);
     }
 

@@ -17,7 +17,7 @@ public sealed class CopyPacesTests
     [InlineData("::ffff:10.0.0.1", "10.0.0.1", true)]
     public void TrySpend_IsSharedByWhatIsOneMachine(string one, string other, bool isShared)
     {
-        CopyPaces paces = new(new DoorLimits { PiecesPerSecond = 100, PiecesAtOnce = 10 });
+        CopyPaces paces = new(new DoorLimits { ChunksPerSecond = 100, ChunkBurst = 10 });
         PeerAddress first = Address(one, 1000), second = Address(other, 2000);
         Assert.Equal((isShared, isShared), (first.IsSameMachine(second), first.Machine == second.Machine));
         SimTime now = SimTime.FromSeconds(1);

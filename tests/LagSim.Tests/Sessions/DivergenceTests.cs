@@ -193,7 +193,7 @@ public sealed class DivergenceTests
     [Fact]
     public void DesyncReport_ThatNobodyAskedForOrThatDoesNotFit_IsCountedAndChangesNothing()
     {
-        Inquiry inquiry = new(At(1), At(2), At(0));
+        DesyncQuery inquiry = new(At(1), At(2), At(0));
         Assert.False(inquiry.Take(new DesyncReportDatagram(1, 2000, 0, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0))); // more than a host keeps
         Assert.False(inquiry.Take(new DesyncReportDatagram(1, 2, 1, 1, ExternalEvent.Remove(At(1.5), 1, 1, First)), At(0))); // not the next
         Assert.False(inquiry.Take(new DesyncReportDatagram(1, 2, 0, 1, ExternalEvent.Remove(At(2.5), 1, 1, First)), At(0))); // not asked for

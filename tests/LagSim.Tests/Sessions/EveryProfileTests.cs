@@ -116,7 +116,7 @@ public sealed class EveryProfileTests
         }
 
         SimTime end = group.Clock.Now + SimDuration.FromSeconds(Seconds);
-        ScriptedActions actions = new((int)seed, mostSpawns: 4); // a heap of dozens in that box would take longer than all the rest
+        ScriptedActions actions = new((int)seed, maxSpawns: 4); // a heap of dozens in that box would take longer than all the rest
         int done = 0;
         while (group.Clock.Now < end)
         {

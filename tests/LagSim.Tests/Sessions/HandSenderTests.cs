@@ -42,7 +42,7 @@ public sealed class HandSenderTests
 
             Assert.InRange(errors.Max(), 0, distance);
             Assert.InRange(sender.GreatestError, distance, 0.2); // the control: there was something to be sent
-            Assert.Equal(sent.Count, sender.Keyframes);
+            Assert.Equal(sent.Count, sender.KeyframesSent);
             Assert.All(sent.Zip(sent.Skip(1)), pair => Assert.True(pair.Second.Time - pair.First.Time < SimDuration.FromMilliseconds(420)));
         }
     }
@@ -56,7 +56,7 @@ public sealed class HandSenderTests
             sender.TrySample(At(frame / 60.0), V(1), V(0), out _);
         }
 
-        Assert.Equal(40, sender.Keyframes);
+        Assert.Equal(40, sender.KeyframesSent);
         Assert.Equal(0, sender.GreatestError);
     }
 
@@ -77,7 +77,7 @@ public sealed class HandSenderTests
                 sender.TrySample(time, position, velocity, out _);
             }
 
-            return sender.Keyframes;
+            return sender.KeyframesSent;
         }
     }
 
@@ -132,7 +132,7 @@ public sealed class HandSenderTests
         (long Up, long Down) after = Traffic();
         double up = (after.Up - before.Up) / (double)seconds, down = (after.Down - before.Down) / (double)seconds;
         string figures = FormattableString.Invariant(
-            $"{(isSlow ? "slow" : "random")}: {sender.Keyframes / (double)seconds:F1} knots/s, up {up:F0} B/s, down {down:F0} B/s, error mean {errors.Average():F4} m, worst {worst:F3} m");
+            $"{(isSlow ? "slow" : "random")}: {sender.KeyframesSent / (double)seconds:F1} knots/s, up {up:F0} B/s, down {down:F0} B/s, error mean {errors.Average():F4} m, worst {worst:F3} m");
         TestContext.Current.TestOutputHelper?.WriteLine(figures);
         Assert.True(up + down < bytesASecond, figures); // 4.7 KiB, both ways together
         Assert.True(up > 300, figures);

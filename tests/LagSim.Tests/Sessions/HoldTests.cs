@@ -81,7 +81,7 @@ public sealed class HoldTests
         {
             Simulation world = session.World!.Simulation;
             Assert.True(world.TryReadHold(First, end - SimDuration.OneTick, out Hold hold));
-            Assert.Equal((1, last.Time), (hold.Peer, hold.Keyframe));
+            Assert.Equal((1, last.Time), (hold.Peer, hold.KeyframeTime));
             Assert.False(world.TryReadHold(First, end, out _));
             Near(V(1.05, 4), Read(world, First, end).Position, 1e-9); // 0.9 m, and half of 0.3 s of its speed
         }

@@ -66,7 +66,7 @@ public sealed class JoinAnyTimeTests
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
         HostOptions Options() => new() { Window = new(SimDuration.FromSeconds(3)) };
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, profile, (ulong)seed, _ => Options()).Connect();
-        ScriptedActions actions = new(seed, mostSpawns: 20);
+        ScriptedActions actions = new(seed, maxSpawns: 20);
         Random random = new(seed);
         HashSet<(byte Peer, uint Sequence)> judged = [];
         group.Host.Logged += entry => judged.Add((entry.Event.Peer, entry.Event.Sequence));

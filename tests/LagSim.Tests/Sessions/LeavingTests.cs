@@ -75,7 +75,7 @@ public sealed class LeavingTests
         group.Run(1);
         Assert.Equal(1, group.Host.ClientCount);
         Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason);
-        Assert.Equal(SessionEnd.Disconnect, group.Sessions[1].EndedBy);
+        Assert.Equal(SessionEnd.Disconnected, group.Sessions[1].EndedBy);
         GoesOn(group);
     }
 
@@ -132,7 +132,7 @@ public sealed class LeavingTests
         group.Restore(1, 0);
         group.Run(0.1);
         Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason); // the reason is said again
-        Assert.Equal(SessionEnd.Disconnect, group.Sessions[1].EndedBy);
+        Assert.Equal(SessionEnd.Disconnected, group.Sessions[1].EndedBy);
         GoesOn(group);
     }
 

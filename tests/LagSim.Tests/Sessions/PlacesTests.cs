@@ -171,7 +171,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [InlineData(false)] // the limit taken away
     public void GreedyDownloadsOfOneMachine_ShareOnePace(bool isPaced)
     {
-        DoorLimits door = isPaced ? new DoorLimits() : new DoorLimits { PiecesPerSecond = 1e9, PiecesAtOnce = int.MaxValue };
+        DoorLimits door = isPaced ? new DoorLimits() : new DoorLimits { ChunksPerSecond = 1e9, ChunkBurst = int.MaxValue };
         List<double> took = [];
         List<double> rates = [];
         for (int seed = 1; seed <= (isPaced ? Seeds : 1); seed++)

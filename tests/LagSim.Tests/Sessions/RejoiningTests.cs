@@ -118,7 +118,7 @@ public sealed class RejoiningTests
         ClientSession before = group.Client(1);
         ClientSession after = group.Join(7, 77, new ClientOptions { Pass = before.Pass!.Value });
         Assert.True(group.RunUntil(() => after.State == SessionState.Running && before.State == SessionState.Ended, 2));
-        Assert.Equal((before.Peer, 2, SessionEnd.Disconnect), (after.Peer, group.Host.ClientCount, before.EndedBy));
+        Assert.Equal((before.Peer, 2, SessionEnd.Disconnected), (after.Peer, group.Host.ClientCount, before.EndedBy));
         Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", before.EndReason);
     }
 
@@ -208,7 +208,7 @@ public sealed class RejoiningTests
         group.Cut(0, 1);
         group.Cut(2, 0);
         group.Run(Timeout.ToSeconds() + 1);
-        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.Disconnect], group.Sessions.Select(s => s.EndedBy));
+        Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.Disconnected], group.Sessions.Select(s => s.EndedBy));
         Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
     }
 

@@ -8,7 +8,7 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>What players do, drawn by a seed: everything that can be done, by everybody, to what anybody brought into the world.</summary>
-internal sealed class ScriptedActions(int seed, int mostSpawns = int.MaxValue)
+internal sealed class ScriptedActions(int seed, int maxSpawns = int.MaxValue)
 {
     private readonly Random random = new(seed);
     private readonly List<BodyId> bodies = [];
@@ -70,7 +70,7 @@ internal sealed class ScriptedActions(int seed, int mostSpawns = int.MaxValue)
 
         return random.Next(12) switch
         {
-            0 or 1 when spawns++ < mostSpawns => PlayerAction.Spawn(Ball(0.25 + (0.1 * random.NextDouble()), 1, 0.7, random.Next(3) == 0 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), Place(), Speed(3)),
+            0 or 1 when spawns++ < maxSpawns => PlayerAction.Spawn(Ball(0.25 + (0.1 * random.NextDouble()), 1, 0.7, random.Next(3) == 0 ? MotionLaw.RungeKutta4 : MotionLaw.Ballistic), Place(), Speed(3)),
             2 => PlayerAction.Remove(body),
             3 or 4 or 5 => PlayerAction.Teleport(body, Place(), Speed(2)),
             6 or 7 or 8 => PlayerAction.SetVelocity(body, Speed(5)),

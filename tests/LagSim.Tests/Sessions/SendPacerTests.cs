@@ -29,9 +29,9 @@ public sealed class SendPacerTests
     public void Rest_IsAtLeastTheLeastDistance()
     {
         SendPacer pacer = new(Start);
-        pacer.NoteSent(Start, SendPacer.LeastDistance);
+        pacer.NoteSent(Start, SendPacer.MinDistance);
         pacer.Rest(Start, SimDuration.Zero);
-        Assert.Equal(Start + SendPacer.LeastDistance, pacer.Due);
+        Assert.Equal(Start + SendPacer.MinDistance, pacer.Due);
     }
 
     [Fact]
@@ -40,9 +40,9 @@ public sealed class SendPacerTests
         SendPacer pacer = new(Start);
         for (int n = 1; n <= SendWindow.MaxDatagramsAtOnce; n++)
         {
-            pacer.NoteSent(Start, SendPacer.LeastDistance);
+            pacer.NoteSent(Start, SendPacer.MinDistance);
             pacer.GoOn(Start);
-            Assert.Equal(n < SendWindow.MaxDatagramsAtOnce ? Start : Start + SendPacer.LeastDistance, pacer.Due);
+            Assert.Equal(n < SendWindow.MaxDatagramsAtOnce ? Start : Start + SendPacer.MinDistance, pacer.Due);
         }
     }
 }

@@ -23,7 +23,7 @@ public sealed class TrafficTests
         string[] then = new string[copies.Length];
         for (int n = 0; n < copies.Length; n++)
         {
-            done += new ScriptedActions(n, mostSpawns: 0).DoIn(group, 2).Count;
+            done += new ScriptedActions(n, maxSpawns: 0).DoIn(group, 2).Count;
             group.Run(0.1);
             copies[n] = group.Host.Counters.Copy();
             then[n] = Everything(group.Host.Counters);

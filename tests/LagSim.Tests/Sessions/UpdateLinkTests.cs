@@ -131,7 +131,7 @@ public sealed class UpdateLinkTests
             if (now < silent)
             {
                 entries.Last += each;
-                link.NoteLateEvent((int)each * 4, now);
+                link.NoteNewEntry((int)each * 4, now);
             }
 
             if (!link.IsDue(now))

@@ -36,10 +36,10 @@ public sealed class WindowedMinimumTests
                 minimum.Add(sample, now, Window);
                 all.Add((now, sample));
                 all.RemoveAll(s => now - s.Time > Window);
-                SimDuration least = all.Min(s => s.Sample), leastOfLate = all.Where(s => now - s.Time <= Window / 2).Min(s => s.Sample);
+                SimDuration least = all.Min(s => s.Sample), minOfLate = all.Where(s => now - s.Time <= Window / 2).Min(s => s.Sample);
                 string what = $"seed {seed}, {n}: {minimum.Value.ToSeconds()} s";
                 Assert.True(minimum.Value >= least, $"{what} is of a sample older than the while; since then {least} was the least");
-                Assert.True(minimum.Value <= leastOfLate, $"{what}, though {leastOfLate} is in the last half of the while");
+                Assert.True(minimum.Value <= minOfLate, $"{what}, though {minOfLate} is in the last half of the while");
             }
         }
     }

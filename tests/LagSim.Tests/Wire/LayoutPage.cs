@@ -110,7 +110,7 @@ internal static class LayoutPage
             case "dense" or "spin":
                 return ((Vector3D[])value).SelectMany(c => Bytes("bits", c)).ToArray();
             case "hold":
-                return ((Hold Hold, Vector3D Cubic)?)value is var (hold, cubic) ? [.. Bytes("bits", cubic), hold.Peer, .. Bytes("bits", hold.Offset), .. Bytes("ticks", hold.Keyframe)] : [];
+                return ((Hold Hold, Vector3D Cubic)?)value is var (hold, cubic) ? [.. Bytes("bits", cubic), hold.Peer, .. Bytes("bits", hold.Offset), .. Bytes("ticks", hold.KeyframeTime)] : [];
             case "member":
                 return ((SimTime Centre, SimTime Still, int Contacts)?)value is var (centre, still, contacts)
                     ? [.. Bytes("ticks", centre), .. Bytes("ticks", still), .. Bytes("u16", contacts)] : [];

@@ -259,7 +259,7 @@ public sealed class SnapshotFormatTests
     {
         return new BodySnapshot(
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
-            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.Keyframe) : default, b.NextStep, b.Spin, b.SpinRate,
+            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.KeyframeTime) : default, b.NextStep, b.Spin, b.SpinRate,
             b.Centre, b.StillSince,
             [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))]);
 

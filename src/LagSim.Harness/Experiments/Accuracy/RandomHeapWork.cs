@@ -18,7 +18,7 @@ internal sealed class RandomHeapWork : ContactWork
     private const int Most = 100;
     private const double Largest = 0.1;
     private const double Half = 0.4;
-    private const double MostRestitution = 0.9;
+    private const double MaxRestitution = 0.9;
     private const double WidestRatio = 3;
 
     private readonly int number;
@@ -33,7 +33,7 @@ internal sealed class RandomHeapWork : ContactWork
         (this.number, this.seed, this.isSmall) = (number, seed, isSmall);
         SeededRandom random = Generator(number, seed);
         int balls = Fewest + (int)((Most - Fewest + 1) * random.NextDouble());
-        (friction, restitution) = (random.NextDouble(), MostRestitution * random.NextDouble());
+        (friction, restitution) = (random.NextDouble(), MaxRestitution * random.NextDouble());
         double smallest = Largest / random.NextDouble(1, WidestRatio);
         radii = [.. Enumerable.Range(0, isSmall ? balls / 8 : balls).Select(_ => random.NextDouble(smallest, Largest))];
     }

@@ -6,10 +6,10 @@ namespace LagSim.Harness.Experiments.Accuracy;
 public sealed record WorkOptions
 {
     /// <summary>What a quick look takes: few settings and short runs, some seconds in all.</summary>
-    public static WorkOptions Quick { get; } = new() { MostSettings = 3, LongestSeconds = 0.15, TimingSeconds = 0.02, FewestRuns = 1 };
+    public static WorkOptions Quick { get; } = new() { MaxSettings = 3, LongestSeconds = 0.15, TimingSeconds = 0.02, FewestRuns = 1 };
 
     /// <summary>At most so many settings a method and scene, from the coarsest on.</summary>
-    public int MostSettings { get; init; } = int.MaxValue;
+    public int MaxSettings { get; init; } = int.MaxValue;
 
     /// <summary>
     /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones; default 20.

@@ -9,7 +9,7 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// <summary>Speed against error: each method on each scene, its step swept, every point measured for its error and timed apart from that.</summary>
 public static class WorkSweep
 {
-    private const double MostSeconds = 1e6; // that a timer counts
+    private const double MaxSeconds = 1e6; // that a timer counts
     private const double Long = 1; // seconds: what takes longer is timed once, after the run that measured its error
 
     /// <summary>Runs some scenes by some methods.</summary>
@@ -74,7 +74,7 @@ public static class WorkSweep
         WorkScene scene, IWorkMethod method, WorkOptions options, List<string> leftOut, Action<double> progress, CancellationToken cancellation)
     {
         List<WorkPoint> points = [];
-        WorkSetting[] settings = [.. method.Settings(scene).Take(options.MostSettings)];
+        WorkSetting[] settings = [.. method.Settings(scene).Take(options.MaxSettings)];
         for (int n = 0; n < settings.Length; n++)
         {
             cancellation.ThrowIfCancellationRequested();
@@ -112,7 +112,7 @@ public static class WorkSweep
     private static IEnumerable<WorkPoint> Point(
         WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options, bool isFirst, CancellationTokenSource limit)
     {
-        TimeSpan longest = TimeSpan.FromSeconds(Math.Min(MostSeconds, options.BreakOffSeconds));
+        TimeSpan longest = TimeSpan.FromSeconds(Math.Min(MaxSeconds, options.BreakOffSeconds));
         limit.CancelAfter(longest);
         IReadOnlyList<double> errors;
         long events;

@@ -16,7 +16,7 @@ namespace LagSim.Harness.Experiments.Compare;
 public sealed class PlayerPlan
 {
     private const double SpeedSpread = 0.5;
-    private const int MostTries = 64;
+    private const int MaxTries = 64;
 
     private static readonly SimDuration Earliest = SimDuration.FromSeconds(1);
     private static readonly SimDuration Latest = SimDuration.FromSeconds(6);
@@ -138,7 +138,7 @@ public sealed class PlayerPlan
 
     private bool TryPlace(SimTime at, BodyId whose, double radius, out Vector3D place)
     {
-        for (int tries = 0; tries < MostTries; tries++)
+        for (int tries = 0; tries < MaxTries; tries++)
         {
             place = new(random.NextDouble(low.X, high.X), random.NextDouble(low.Y, high.Y), random.NextDouble(low.Z, high.Z));
             if (IsFree(at, whose, radius, place))

@@ -17,8 +17,8 @@ public static class HandMotionFile
     public const string Header = "time_s,x_m,y_m,z_m";
 
     private const double LongestGap = 0.1;
-    private const double LeastSeconds = 2;
-    private const double MostSeconds = 3600;
+    private const double MinSeconds = 2;
+    private const double MaxSeconds = 3600;
     private const double Furthest = 1000;
     private const int LongestLine = 1000;
 
@@ -83,9 +83,9 @@ public static class HandMotionFile
             (lastTime, last) = (numbers[0], at);
         }
 
-        return lastTime - start >= LeastSeconds
+        return lastTime - start >= MinSeconds
             ? new HandMotion(name, samples)
-            : throw Fault(name, line, FormattableString.Invariant($"the motion lasts {lastTime - start} s; it must last at least {LeastSeconds} s"));
+            : throw Fault(name, line, FormattableString.Invariant($"the motion lasts {lastTime - start} s; it must last at least {MinSeconds} s"));
     }
 
     private static void CheckTime(double time, double start, double last, string name, int line)
@@ -95,9 +95,9 @@ public static class HandMotionFile
             throw Fault(name, line, FormattableString.Invariant($"time_s is {time} after {last}; it must rise, by at most {LongestGap} s"));
         }
 
-        if (time - start > MostSeconds)
+        if (time - start > MaxSeconds)
         {
-            throw Fault(name, line, FormattableString.Invariant($"time_s is {time}, {time - start} s after the first; at most {MostSeconds} s are allowed"));
+            throw Fault(name, line, FormattableString.Invariant($"time_s is {time}, {time - start} s after the first; at most {MaxSeconds} s are allowed"));
         }
     }
 

@@ -20,7 +20,7 @@ public sealed class RealPeers : PeerGroup
     private const int PollMilliseconds = 1;
 
     /// <summary>Processor time over less than this is mostly chance, and what the runtime still compiles in the background.</summary>
-    private const double LeastQuietSeconds = 0.9;
+    private const double MinQuietSeconds = 0.9;
 
     private static readonly SimDuration ConnectDeadline = SimDuration.FromSeconds(15);
     private static readonly SimDuration AnswerDeadline = SimDuration.FromSeconds(5);
@@ -113,7 +113,7 @@ public sealed class RealPeers : PeerGroup
 
         // Only what rests may go unwatched: its picture shows afterwards what it showed all the time.
         double left = (end - threads[0].Session.SharedTime.Now).ToSeconds();
-        if (AllRest() && left >= LeastQuietSeconds)
+        if (AllRest() && left >= MinQuietSeconds)
         {
             MeasureAtRest(left);
         }

@@ -68,7 +68,7 @@ public sealed record SweepOutcome
     public string? Failure { get; init; }
 
     /// <summary>The least <see cref="ComparedShare"/> that a cell must show.</summary>
-    public const double LeastComparedShare = 0.9;
+    public const double MinComparedShare = 0.9;
 
     /// <summary>The load up to which no link may be too slow for a client.</summary>
     public const double LoadForAll = 0.8;
@@ -88,8 +88,8 @@ public sealed record SweepOutcome
             Add(Lost > 0, $"{Lost} of the accepted events did not reach a client; all must.");
             Add(Differed > 0, $"{Differed} of the committed states compared differed; none may.");
             Add(
-                Failure is null && !(ComparedShare >= LeastComparedShare),
-                $"A client compared only {PercentBelow(ComparedShare)} % of the host's committed states; at least {100 * LeastComparedShare:0} % must be compared.");
+                Failure is null && !(ComparedShare >= MinComparedShare),
+                $"A client compared only {PercentBelow(ComparedShare)} % of the host's committed states; at least {100 * MinComparedShare:0} % must be compared.");
             Add(
                 TooSlow > 0 && LoadShare <= LoadForAll,
                 $"The link was too slow for {TooSlow} of the clients at {100 * LoadShare:0} % load; up to {100 * LoadForAll:0} % it must not be.");

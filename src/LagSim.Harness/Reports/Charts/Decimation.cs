@@ -7,18 +7,18 @@ namespace LagSim.Harness.Reports.Charts;
 internal static class Decimation
 {
     /// <summary>About as many points as a plot of 900 pixels can show.</summary>
-    internal const int MostPoints = 2000;
+    internal const int MaxPoints = 2000;
 
     /// <summary>
-    /// The points to draw, in order; y is NaN where the line breaks. At most about <paramref name="mostPoints"/>; gaps add to it, but
+    /// The points to draw, in order; y is NaN where the line breaks. At most about <paramref name="maxPoints"/>; gaps add to it, but
     /// never more than three points a bucket.
     /// </summary>
-    internal static List<(double X, double Y)> Thin(double[] x, double[] y, int mostPoints = MostPoints)
+    internal static List<(double X, double Y)> Thin(double[] x, double[] y, int maxPoints = MaxPoints)
     {
         List<(double X, double Y)> points = [];
-        int buckets = Math.Max(1, mostPoints / 2);
+        int buckets = Math.Max(1, maxPoints / 2);
         long n = x.Length;
-        if (n <= mostPoints)
+        if (n <= maxPoints)
         {
             Copy(x, y, points);
             return points;

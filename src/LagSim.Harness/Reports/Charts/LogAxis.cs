@@ -11,7 +11,7 @@ namespace LagSim.Harness.Reports.Charts;
 internal sealed class LogAxis : Axis
 {
     /// <summary>More decades than a double has digits say nothing about the larger values.</summary>
-    private const int MostDecades = 18;
+    private const int MaxDecades = 18;
 
     private const double ZeroLine = 9.0; // above the frame, so that a curve of zeros does not hide in it
     private const double ZeroBand = 26.0; // from the frame to the lowest decade
@@ -29,13 +29,13 @@ internal sealed class LogAxis : Axis
         if (roundOut)
         {
             _high = Math.Ceiling(Math.Log10(high) - 1e-9);
-            _low = Math.Max(Math.Floor(Math.Log10(low) + 1e-9), _high - MostDecades);
+            _low = Math.Max(Math.Floor(Math.Log10(low) + 1e-9), _high - MaxDecades);
             _high = Math.Max(_high, _low + 1);
         }
         else
         {
             _high = Math.Log10(high);
-            _low = Math.Max(Math.Log10(low), _high - MostDecades);
+            _low = Math.Max(Math.Log10(low), _high - MaxDecades);
             double missing = Math.Max(0, 1 - (_high - _low)); // a decade has labels at 1, 2 or 5 at least twice
             (_low, _high) = (_low - (0.5 * missing), _high + (0.5 * missing));
         }

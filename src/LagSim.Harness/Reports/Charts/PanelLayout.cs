@@ -8,7 +8,7 @@ namespace LagSim.Harness.Reports.Charts;
 internal sealed class PanelLayout
 {
     private const double MarkerRowHeight = 15.0;
-    private const int MostMarkerRows = 4;
+    private const int MaxMarkerRows = 4;
     private const int ReferenceColumns = 24;
     private readonly List<MarkerLabel> _markerLabels = [];
     private readonly List<ReferenceLabel> _referenceLabels = [];
@@ -65,12 +65,12 @@ internal sealed class PanelLayout
         {
             (double from, double to) = left ? (x - width, x) : (x, x + width);
             int row = 0;
-            while (row < MostMarkerRows && taken.Any(t => t.Row == row && from < t.To && to > t.From))
+            while (row < MaxMarkerRows && taken.Any(t => t.Row == row && from < t.To && to > t.From))
             {
                 row++;
             }
 
-            if (row == MostMarkerRows)
+            if (row == MaxMarkerRows)
             {
                 continue; // too many at one place; the line's tooltip still names it
             }

@@ -102,7 +102,7 @@ public sealed class SceneRun
     /// <param name="isWarm">Whether the same has run for so long already that there need not be one that is not counted.</param>
     /// <param name="history">How much of its past each keeps; null for 1 s.</param>
     /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
-    public static double LeastSeconds(
+    public static double MinSeconds(
         Scene scene, SimDuration length, int times, Action<double>? progress = null, bool isWarm = false, SimDuration? history = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(scene);

@@ -32,7 +32,7 @@ internal sealed class BoxScene : CheckScene
     }
 
     /// <summary>Nothing is held in a periodic box.</summary>
-    internal override int MostHands => 0;
+    internal override int MaxHands => 0;
 
     internal override BodySpec DrawSpec() => new(
         random.Pick(0.2, 0.2, 0.25, 0.3), random.Pick(Masses), random.Pick(restitutions),

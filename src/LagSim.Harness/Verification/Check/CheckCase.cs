@@ -17,11 +17,11 @@ internal sealed class CheckCase
     internal const double Length = 10;
 
     private const int FewestActions = 27;
-    private const int MostSpawns = 6;
-    private const int MostRemovals = 3;
+    private const int MaxSpawns = 6;
+    private const int MaxRemovals = 3;
 
     private const int FewestKeyframes = 2;
-    private const int MostKeyframes = 10;
+    private const int MaxKeyframes = 10;
 
     /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
     private const double SlowMilliseconds = 500;
@@ -32,7 +32,7 @@ internal sealed class CheckCase
     private const double PitPercent = 27; // with the heaps on an open floor a third
 
     /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
-    private const int MostPeersOfHeap = 3;
+    private const int MaxPeersOfHeap = 3;
 
     private const double FullLinkPercent = 25;
 
@@ -58,7 +58,7 @@ internal sealed class CheckCase
     private const ulong IndexStream = 5;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
-    private const ulong MostAttempts = 20;
+    private const ulong MaxAttempts = 20;
 
     /// <summary>
     /// What a scene may cost, as events that it takes alone: persistent contact takes some thousand a second, and a few heaps would take all the time there is.
@@ -96,7 +96,7 @@ internal sealed class CheckCase
                 : new RoomScene(things);
             DrawActions(random.Fork(FirstRoom + (2 * attempt) + 1));
             DrawHands(random.Fork(FirstHands + attempt));
-            if (attempt == MostAttempts || IsWithin(room.MostEvents ?? budget, cancellation))
+            if (attempt == MaxAttempts || IsWithin(room.MaxEvents ?? budget, cancellation))
             {
                 break;
             }
@@ -166,7 +166,7 @@ internal sealed class CheckCase
     }
 
     private static double WorstMilliseconds(LinkLeg leg) =>
-        leg.DelayMilliseconds + (leg.Bottleneck?.QueueMilliseconds ?? 0) + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MostMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
+        leg.DelayMilliseconds + (leg.Bottleneck?.QueueMilliseconds ?? 0) + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MaxMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
 
     private static void Throw(IReadOnlyList<int> indices, int count, string what, ulong seed)
     {
@@ -182,7 +182,7 @@ internal sealed class CheckCase
 
     private void DrawPlayers(SeededRandom random, CheckOptions options)
     {
-        int most = isHeap ? Math.Clamp(MostPeersOfHeap, options.FromPeers, options.ToPeers) : options.ToPeers;
+        int most = isHeap ? Math.Clamp(MaxPeersOfHeap, options.FromPeers, options.ToPeers) : options.ToPeers;
         int peers = options.FromPeers + random.NextInt(most - options.FromPeers + 1);
         players.Add(Player(random, LinkProfiles.PureDelay(0), null, null, false));
         for (int peer = 1; peer < peers; peer++)
@@ -329,7 +329,7 @@ internal sealed class CheckCase
             EventKind kind = random.Pick(
                 EventKind.SetVelocity, EventKind.SetVelocity, EventKind.SetVelocity, EventKind.Impulse, EventKind.Impulse,
                 EventKind.Teleport, EventKind.Teleport, EventKind.Spawn, EventKind.Remove);
-            if ((kind == EventKind.Spawn && spawns.Count == MostSpawns) || (kind == EventKind.Remove && removals == MostRemovals))
+            if ((kind == EventKind.Spawn && spawns.Count == MaxSpawns) || (kind == EventKind.Remove && removals == MaxRemovals))
             {
                 kind = EventKind.SetVelocity;
             }
@@ -351,7 +351,7 @@ internal sealed class CheckCase
     {
         List<CheckAction> all = [.. actions];
         int[] spawns = [.. Enumerable.Range(0, actions.Count).Where(i => actions[i].Kind == EventKind.Spawn)];
-        int hands = room.FewestHands + random.NextInt(room.MostHands - room.FewestHands + 1);
+        int hands = room.FewestHands + random.NextInt(room.MaxHands - room.FewestHands + 1);
         CheckAction? before = null;
         for (int hand = 0; hand < hands; hand++)
         {
@@ -372,7 +372,7 @@ internal sealed class CheckCase
             all.Add(action);
             before = action;
             Vector3D position = room.DrawPosition();
-            for (int keyframes = FewestKeyframes + random.NextInt(MostKeyframes - FewestKeyframes + 1); keyframes > 0 && at < Length; keyframes--)
+            for (int keyframes = FewestKeyframes + random.NextInt(MaxKeyframes - FewestKeyframes + 1); keyframes > 0 && at < Length; keyframes--)
             {
                 // Some of the way to anywhere in the room, so it never leaves that.
                 double gap = random.Pick(0.02, 0.1, 0.1, 0.3);

@@ -22,7 +22,7 @@ internal sealed class CheckMember
         Number = number;
         if (player.IndexAbove is int bodies)
         {
-            session.Parts.World.ChangeOptions(options => options.WithMostPairs(bodies));
+            session.Parts.World.ChangeOptions(options => options.WithBruteForceLimit(bodies));
         }
 
         session.Begun += Watch;

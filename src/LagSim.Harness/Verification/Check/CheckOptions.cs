@@ -14,7 +14,7 @@ public sealed record CheckOptions
     public const int FewestPeers = 2;
 
     /// <summary>The most peers of a session, the host included.</summary>
-    public const int MostPeers = 8;
+    public const int MaxPeers = 8;
 
     /// <summary>How many sessions, at least 1; default 1,000.</summary>
     public int Sessions { get; init; } = 1000;
@@ -25,8 +25,8 @@ public sealed record CheckOptions
     /// <summary>How many peers a session begins with at least, <see cref="FewestPeers"/> to <see cref="ToPeers"/>; default 2.</summary>
     public int FromPeers { get; init; } = FewestPeers;
 
-    /// <summary>How many at most, up to <see cref="MostPeers"/>; default 8.</summary>
-    public int ToPeers { get; init; } = MostPeers;
+    /// <summary>How many at most, up to <see cref="MaxPeers"/>; default 8.</summary>
+    public int ToPeers { get; init; } = MaxPeers;
 
     /// <summary>The link of every client; null, the default: each has its own, drawn from all profiles and all pure delays of 0 to 2 s.</summary>
     public LinkProfile? Profile { get; init; }

@@ -18,13 +18,13 @@ internal abstract class CheckScene
     internal int BodyCount => bodies.Count;
 
     /// <summary>What the scene may cost, as events that it takes alone with all that is done in it; null: as much as any.</summary>
-    internal virtual long? MostEvents => null;
+    internal virtual long? MaxEvents => null;
 
     /// <summary>How often players' hands take a body, at least.</summary>
     internal virtual int FewestHands => 0;
 
     /// <summary>How often players' hands take a body, at most.</summary>
-    internal virtual int MostHands => 3;
+    internal virtual int MaxHands => 3;
 
     /// <summary>Within how many seconds of its start something is done.</summary>
     internal virtual double BusySeconds => CheckCase.Length;

@@ -49,7 +49,7 @@ internal sealed class HeapScene : CheckScene
         }
     }
 
-    internal override long? MostEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // else two heaps and forces would seldom be within it
+    internal override long? MaxEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // else two heaps and forces would seldom be within it
 
     internal override double BusySeconds => 4;
 

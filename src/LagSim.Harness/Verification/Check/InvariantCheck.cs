@@ -14,7 +14,7 @@ namespace LagSim.Harness.Verification.Check;
 public static class InvariantCheck
 {
     /// <summary>Of so many failing sessions the least that fails is looked for; the others are only named.</summary>
-    public const int MostShrunk = 3;
+    public const int MaxShrunk = 3;
 
     private static readonly TimeSpan ProgressEvery = TimeSpan.FromMilliseconds(100);
 
@@ -52,7 +52,7 @@ public static class InvariantCheck
         List<CheckFailure> failures = [];
         foreach (CheckOutcome failed in played.Where(o => o.Failure is not null))
         {
-            bool isShrunk = failures.Count < MostShrunk && options.ShrinkingPlays > 0 && !cancellation.IsCancellationRequested;
+            bool isShrunk = failures.Count < MaxShrunk && options.ShrinkingPlays > 0 && !cancellation.IsCancellationRequested;
             CheckOutcome least = isShrunk ? Shrinking.Shrink(failed, options, cancellation) : failed;
             failures.Add(new CheckFailure(failed, least, isShrunk, Command(least, options, isShrunk)));
         }
@@ -100,7 +100,7 @@ public static class InvariantCheck
     {
         bool isPart = isShrunk || (options.Bodies ?? options.Events) is not null;
         string part = isPart ? $" --bodies {string.Join(',', of.Bodies)} --events {List(of.Actions)}" : "";
-        string peers = options.FromPeers == CheckOptions.FewestPeers && options.ToPeers == CheckOptions.MostPeers ? ""
+        string peers = options.FromPeers == CheckOptions.FewestPeers && options.ToPeers == CheckOptions.MaxPeers ? ""
             : options.FromPeers == options.ToPeers ? $" --peers {options.FromPeers}"
             : $" --peers {options.FromPeers}-{options.ToPeers}";
         string profile = options.Profile is LinkProfile link ? $" --profile {link.Name}" : "";
@@ -114,10 +114,10 @@ public static class InvariantCheck
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(options.Sessions, 1);
         ArgumentOutOfRangeException.ThrowIfLessThan(options.Workers, 1);
-        if (options.FromPeers < CheckOptions.FewestPeers || options.ToPeers > CheckOptions.MostPeers || options.FromPeers > options.ToPeers)
+        if (options.FromPeers < CheckOptions.FewestPeers || options.ToPeers > CheckOptions.MaxPeers || options.FromPeers > options.ToPeers)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(options), $"{options.FromPeers}-{options.ToPeers}", $"A session has {CheckOptions.FewestPeers} to {CheckOptions.MostPeers} peers, the"
+                nameof(options), $"{options.FromPeers}-{options.ToPeers}", $"A session has {CheckOptions.FewestPeers} to {CheckOptions.MaxPeers} peers, the"
                     + " host included.");
         }
 

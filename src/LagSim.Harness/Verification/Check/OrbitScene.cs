@@ -46,7 +46,7 @@ internal sealed class OrbitScene : CheckScene
         }
     }
 
-    internal override long? MostEvents => 2_000;
+    internal override long? MaxEvents => 2_000;
 
     internal override BodySpec DrawSpec()
     {

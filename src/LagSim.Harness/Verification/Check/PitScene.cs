@@ -37,7 +37,7 @@ internal sealed class PitScene : CheckScene
         }
     }
 
-    internal override long? MostEvents => 2_500;
+    internal override long? MaxEvents => 2_500;
 
     internal override double BusySeconds => 4;
 

@@ -67,9 +67,9 @@ internal sealed class RoomScene : CheckScene
     }
 
     /// <summary>Where what falls comes to rest, less: with a little more going on there balls come to lie on each other, and when each event is done decides that.</summary>
-    internal override long? MostEvents => isCalm ? 400 : null;
+    internal override long? MaxEvents => isCalm ? 400 : null;
 
-    internal override int MostHands => isCalm ? 0 : base.MostHands;
+    internal override int MaxHands => isCalm ? 0 : base.MaxHands;
 
     protected override void AddSurroundings(SceneBuilder builder)
     {

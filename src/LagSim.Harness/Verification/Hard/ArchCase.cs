@@ -75,7 +75,7 @@ internal sealed class ArchCase : IHardCase
         foreach ((int side, double turn) in context.Sizes([(2, 20.0)], [(2, 20.0), (2, 30.0), (3, 20.0), (3, 25.0), (4, 15.0), (5, 14.0)]))
         {
             double[] slopes = [.. Enumerable.Range(0, side + 1).Select(n => (n + 0.5) * turn * Degree)];
-            double resistance = LeastResistance(slopes);
+            double resistance = MinResistance(slopes);
             string what = FormattableString.Invariant($"a round arch of {(2 * side) + 1}, {turn} degrees a link, resistance");
             yield return Stays(what, resistance, Arch(slopes, 0.6, part * resistance), (2 * side) + 2);
         }
@@ -141,7 +141,7 @@ internal sealed class ArchCase : IHardCase
     /// Moments are m - r S at all links, S being the sum of both T of each ball down to there, for one m that may be any. They are within
     /// c r N if any two links have |S - S'| at most c (N + N'). At one thrust the c of the worst two is least, on either side of it more.
     /// </remarks>
-    private static double LeastResistance(double[] slopes)
+    private static double MinResistance(double[] slopes)
     {
         double low = 1e-3, high = 1e3; // of the thrust, in weights of a ball
         for (int n = 0; n < 200; n++)

@@ -85,9 +85,9 @@ internal sealed class EventOrderCase : IHardCase
         }
     }
 
-    private static World Run(HardContext context, Scene scene, double seconds, int mostPairs, Action<double> report)
+    private static World Run(HardContext context, Scene scene, double seconds, int bruteForceLimit, Action<double> report)
     {
-        Simulation simulation = new(scene, new SimulationOptions(cancellation: context.Cancellation) { MostPairs = mostPairs });
+        Simulation simulation = new(scene, new SimulationOptions(cancellation: context.Cancellation).WithBruteForceLimit(bruteForceLimit));
         SimTime end = SimTime.FromSeconds(seconds);
         while (simulation.SimulatedTo < end)
         {

@@ -15,7 +15,7 @@ namespace LagSim.Harness.Verification.Hard;
 /// </summary>
 internal sealed class ScalesCase : IHardCase
 {
-    private const int MostEvents = 3000;
+    private const int MaxEvents = 3000;
 
     private static readonly MotionLaw[] Laws = [MotionLaw.Automatic, MotionLaw.RungeKutta4, MotionLaw.DormandPrince54, MotionLaw.ClosedForm];
 
@@ -179,7 +179,7 @@ internal sealed class ScalesCase : IHardCase
     private static long Play(HardContext context, Scene scene, double seconds)
     {
         Simulation simulation = context.Simulate(scene, SimDuration.MaxValue);
-        long events = MostEvents;
+        long events = MaxEvents;
         simulation.TryAdvanceTo(SimTime.FromSeconds(seconds), ref events);
         for (int n = 0; n < simulation.BodyCount; n++)
         {

@@ -16,8 +16,8 @@ public sealed class HarmCase
     /// <summary>For so long things are done, in seconds.</summary>
     public const double Seconds = 3;
 
-    private const int MostBodies = 64;
-    private const double MostSpeed = 999;
+    private const int MaxBodies = 64;
+    private const double MaxSpeed = 999;
     private const double KeyframeSeconds = 0.1;
 
     private static readonly double[] Restitutions = [0, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99, 1, 1];
@@ -118,7 +118,7 @@ public sealed class HarmCase
 
     private double RadiusOf(int body) => Scene.Bodies[body].Spec.Radius;
 
-    private double Fast() => random.IsLucky(60) ? MostSpeed : LogUniform(1, MostSpeed);
+    private double Fast() => random.IsLucky(60) ? MaxSpeed : LogUniform(1, MaxSpeed);
 
     private double LogUniform(double low, double high) => low * SeededRandom.Exp(random.NextDouble() * Math.Log(high / low));
 
@@ -181,7 +181,7 @@ public sealed class HarmCase
 
     private void DrawHeap(bool isShaken)
     {
-        int count = isShaken || random.IsLucky(70) ? MostBodies : 8 + random.NextInt(56);
+        int count = isShaken || random.IsLucky(70) ? MaxBodies : 8 + random.NextInt(56);
         double spread = random.Pick(0.001, 0.01, 0.2), at = random.NextDouble(0, 0.3), speed = random.Pick(0, 0, 1, 20, Fast());
         double side = Math.Max(1, Math.Floor(((2 * Width) - 0.01) / ((2 * radius) + spread)));
         int wide = (int)Math.Min(side, 2 + random.NextInt(4));

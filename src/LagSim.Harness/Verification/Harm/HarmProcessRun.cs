@@ -140,7 +140,7 @@ public sealed class HarmProcessRun : IDisposable
             }
         }
 
-        if (late > HarmRun.MostLate && (sentence.Length == 0 || late > HarmRun.MostSeconds))
+        if (late > HarmRun.MaxLate && (sentence.Length == 0 || late > HarmRun.MaxSeconds))
         {
             failures.Add(string.Create(CultureInfo.InvariantCulture, $"A world was {late:0.00} s late{(sentence.Length == 0 ? ", and the player stayed" : "")}."));
         }

@@ -17,10 +17,10 @@ namespace LagSim.Harness.Verification.Harm;
 internal sealed class HarmRun
 {
     /// <summary>A world so far behind real time is a harm.</summary>
-    internal const double MostLate = 0.25;
+    internal const double MaxLate = 0.25;
 
     /// <summary>So long a player may stay that does harm, in seconds; and so long it may take then until all is well.</summary>
-    internal const double MostSeconds = 2;
+    internal const double MaxSeconds = 2;
 
     /// <summary>A world that is no further behind than this is back.</summary>
     private const double Back = 0.05;
@@ -91,7 +91,7 @@ internal sealed class HarmRun
         double[] next = [.. others.Select(_ => random.NextDouble())];
         int done = 0;
         SimTime from = clock.Now;
-        for (double now = 0; now < HarmCase.Seconds + 1 || (isLate is not null && now < isLate + (2 * MostSeconds) + 1); now += LookSeconds)
+        for (double now = 0; now < HarmCase.Seconds + 1 || (isLate is not null && now < isLate + (2 * MaxSeconds) + 1); now += LookSeconds)
         {
             cancellation.ThrowIfCancellationRequested();
             for (; done < drawn.Actions.Count && drawn.Actions[done].AtSeconds <= now; done++)
@@ -116,7 +116,7 @@ internal sealed class HarmRun
 
             double worst = others.Max(Late);
             late = Math.Max(late, worst);
-            isLate ??= worst > MostLate ? now : null;
+            isLate ??= worst > MaxLate ? now : null;
             hasGone |= Host.Links.All(link => link.Peer != number);
             isOut ??= hasGone ? now : null;
             isBack = worst > Back ? null : isBack ?? now;
@@ -129,11 +129,11 @@ internal sealed class HarmRun
             failures.Add($"Peer {ended.Peer} is no longer there: {ended.EndReason}");
         }
 
-        if (isLate is not null && !(outAfter <= MostSeconds))
+        if (isLate is not null && !(outAfter <= MaxSeconds))
         {
             failures.Add(outAfter is null ? "The player stayed." : string.Create(CultureInfo.InvariantCulture, $"The player was out {outAfter:0.0} s after worlds were late."));
         }
-        else if (isLate is not null && !(backAfter <= MostSeconds))
+        else if (isLate is not null && !(backAfter <= MaxSeconds))
         {
             failures.Add(string.Create(CultureInfo.InvariantCulture, $"Worlds were still {others.Max(Late):0.00} s late after the player was out."));
         }
@@ -147,7 +147,7 @@ internal sealed class HarmRun
             BackSeconds = backAfter,
             IsExpelled = hasGone,
             Sentence = sentence,
-            HonestPart = Host.Costs.Where(c => honest.Contains(c.Player)).Select(c => c.MostAtOnce / (options.Budget?.WorkAtOnce ?? double.PositiveInfinity)).DefaultIfEmpty(0).Max(),
+            HonestPart = Host.Costs.Where(c => honest.Contains(c.Player)).Select(c => c.MaxAtOnce / (options.Budget?.WorkAtOnce ?? double.PositiveInfinity)).DefaultIfEmpty(0).Max(),
             Failures = failures,
         };
     }

@@ -11,11 +11,11 @@ namespace LagSim.Harness.Verification.Stalls;
 public sealed class StallCase
 {
     /// <summary>A peer stands still, or is gone, for 1 to 60 s.</summary>
-    private const double LeastSeconds = 1;
-    private const double MostSeconds = 60;
+    private const double MinSeconds = 1;
+    private const double MaxSeconds = 60;
 
     /// <summary>Between two stalls of one peer it plays at least so long.</summary>
-    private const double LeastPause = 2;
+    private const double MinPause = 2;
 
     /// <summary>What is drawn from: a host that is killed loses its world, so that is the rarest.</summary>
     private static readonly StallKind[] Kinds =
@@ -40,12 +40,12 @@ public sealed class StallCase
             int player = kind is StallKind.HostFrozen or StallKind.HostKilled ? 0 : 1 + random.NextInt(Clients);
             double seconds = kind == StallKind.PortChanges
                 ? random.NextDouble(2, 5) * Stall.ChangeSeconds
-                : LeastSeconds * Math.Pow(MostSeconds / LeastSeconds, random.NextDouble()); // as many of 1 to 8 s as of 8 to 60 s
+                : MinSeconds * Math.Pow(MaxSeconds / MinSeconds, random.NextDouble()); // as many of 1 to 8 s as of 8 to 60 s
             double at = random.NextDouble(3, 30);
             foreach (Stall before in stalls.Where(s => s.Player == player))
             {
                 bool isBoth = before.Kind != StallKind.PortChanges && kind != StallKind.PortChanges; // ports may change all the while
-                at = isBoth ? Math.Max(at, before.EndSeconds + LeastPause) : at;
+                at = isBoth ? Math.Max(at, before.EndSeconds + MinPause) : at;
             }
 
             stalls.Add(new Stall(kind, player, at, seconds));

@@ -16,7 +16,7 @@ namespace LagSim.Net.Sessions.Clients;
 internal sealed class ClientProtocol : ISessionProtocol
 {
     /// <summary>A clock estimate may be corrected by up to this much even on a bad link.</summary>
-    private static readonly SimDuration LeastJump = SimDuration.FromSeconds(1);
+    private static readonly SimDuration MinJump = SimDuration.FromSeconds(1);
 
     private readonly JoinAttempts attempts;
     private readonly JoinRequests requests;
@@ -243,7 +243,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         sharedTime.Adjust(clock.Estimate);
         SimDuration off = sharedTime.Remaining < SimDuration.Zero ? -sharedTime.Remaining : sharedTime.Remaining;
         // An exchange that waited long, in a stall, is imprecise.
-        if (off <= Connection.History || off <= LeastJump || off <= clock.Estimate.ErrorBound)
+        if (off <= Connection.History || off <= MinJump || off <= clock.Estimate.ErrorBound)
         {
             return true;
         }

@@ -12,7 +12,7 @@ internal sealed class DivergenceFinder(
     HostConnection connection, SharedWorld world, EventJournal journal, PlayerIdentity self, DatagramSender sender,
     SessionCounters counters, IClock clock, SimDuration timeout)
 {
-    private Inquiry? inquiry;
+    private DesyncQuery? inquiry;
     // The newest committed time at which the states still agreed.
     private SimTime agreed = SimTime.MinValue;
     private CommittedState differing;
@@ -67,7 +67,7 @@ internal sealed class DivergenceFinder(
             return;
         }
 
-        inquiry = new Inquiry(after, own.Time, clock.Now);
+        inquiry = new DesyncQuery(after, own.Time, clock.Now);
         divergence = Describe(after, DivergenceFinding.Asking);
     }
 
@@ -86,7 +86,7 @@ internal sealed class DivergenceFinder(
         else if (inquiry.Due <= now)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.DesyncQueryBytes];
-            SimDuration timeout = link.Trips.Timeout + UpdateLink.MostAckDelay;
+            SimDuration timeout = link.Trips.Timeout + UpdateLink.MaxAckDelay;
             sender.Send(bytes.Slice(0, inquiry.Ask(link.SessionId, self.Number, now, timeout).Encode(bytes)), link);
         }
     }

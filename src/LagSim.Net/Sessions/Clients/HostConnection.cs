@@ -76,7 +76,7 @@ internal sealed class HostConnection
     {
         Unconfirmed.Add(external);
         LastUrgent = SendWindow.IsMadeUpFor(external) ? LastUrgent : external.Sequence;
-        Link!.NoteLateEvent(UpdateDatagram.LengthOf(new UpdateEntry(Verdict.Pending, external)), now);
+        Link!.NoteNewEntry(UpdateDatagram.LengthOf(new UpdateEntry(Verdict.Pending, external)), now);
     }
 
     /// <summary>Takes the oldest own event, whose verdict has arrived.</summary>

@@ -14,13 +14,13 @@ internal sealed class HostLoss(
     JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters,
     IClock clock, ClientOptions options)
 {
-    private const int MostUseless = 3;
+    private const int MaxUseless = 3;
 
     /// <summary>
     /// A fresh snapshot that did not last this long was useless. The value spans four dips of a link that dips every 30 s.
     /// </summary>
     /// <remarks>
-    /// <see cref="MostUseless"/> useless ones in a row end the session; a single one does when the link is too slow, since the next
+    /// <see cref="MaxUseless"/> useless ones in a row end the session; a single one does when the link is too slow, since the next
     /// snapshot would come over the same link.
     /// </remarks>
     private static readonly SimDuration UsefulFor = SimDuration.FromSeconds(120);
@@ -84,7 +84,7 @@ internal sealed class HostLoss(
         {
             SessionEnd by = leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded
                 : leave.Reason == LeaveReason.Kicked ? SessionEnd.Kicked
-                : SessionEnd.Disconnect;
+                : SessionEnd.Disconnected;
             status.End(by, why);
         }
         else if (status.IsRejoining)
@@ -98,16 +98,16 @@ internal sealed class HostLoss(
         }
         else if (world.Live is not null)
         {
-            Rejoin(leave.Reason == LeaveReason.FellBehind ? SessionEnd.LinkTooSlow : SessionEnd.Disconnect, why, isLinkGood: false);
+            Rejoin(leave.Reason == LeaveReason.FellBehind ? SessionEnd.LinkTooSlow : SessionEnd.Disconnected, why, isLinkGood: false);
         }
         else if (leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true
             && now - attempts.Began <= LongestComing)
         {
-            AskAnew(now); // newer joiners pushed it out, or it stalled, or this is another host
+            AskAgain(now); // newer joiners pushed it out, or it stalled, or this is another host
         }
         else
         {
-            AskAgainOrEnd(now, SessionEnd.Disconnect, why);
+            AskAgainOrEnd(now, SessionEnd.Disconnected, why);
         }
     }
 
@@ -131,9 +131,9 @@ internal sealed class HostLoss(
         }
 
         // A client that stalled or was cut off has nothing to hold against its snapshot.
-        bool isSilence = by is SessionEnd.HostSilent or SessionEnd.Disconnect;
+        bool isSilence = by is SessionEnd.HostSilent or SessionEnd.Disconnected;
         useless = isSilence ? useless : renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
-        bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MostUseless);
+        bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MaxUseless);
         if (options.RejoinTime == SimDuration.Zero || isUseless)
         {
             connection.Farewell(); // otherwise its place stays taken until the timeout
@@ -198,11 +198,11 @@ internal sealed class HostLoss(
         }
         else if (connection.Link is not null)
         {
-            AskAnew(now); // the host that welcomed it is gone again
+            AskAgain(now); // the host that welcomed it is gone again
         }
     }
 
-    private void AskAnew(SimTime now)
+    private void AskAgain(SimTime now)
     {
         attempts.Restart(now);
         connection.Close();

@@ -14,7 +14,7 @@ internal sealed class JoinAttempt
     internal static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
 
     /// <summary>The longest interval between tries. It is short, since links lose several datagrams in a row, however far apart.</summary>
-    private static readonly SimDuration MostPace = SimDuration.FromMilliseconds(100);
+    private static readonly SimDuration MaxPace = SimDuration.FromMilliseconds(100);
 
     /// <summary>The age at which an unsuccessful cookie is stale, and another is requested.</summary>
     private static readonly SimDuration CookieAge = SimDuration.FromSeconds(20);
@@ -79,12 +79,12 @@ internal sealed class JoinAttempt
 
     /// <summary>
     /// Returns the cookie if it may still be good, null if another is needed, and schedules the next try; the interval doubles each time,
-    /// up to <see cref="MostPace"/>.
+    /// up to <see cref="MaxPace"/>.
     /// </summary>
     internal Token128? Ask(SimTime now)
     {
         Due = now + pace;
-        pace = pace * 2 < MostPace ? pace * 2 : MostPace;
+        pace = pace * 2 < MaxPace ? pace * 2 : MaxPace;
         return Cookie is Token128 cookie && now - Challenged <= CookieAge && ++tries % RequestAfresh != 0 ? cookie : null;
     }
 

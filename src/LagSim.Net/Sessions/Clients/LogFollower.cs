@@ -64,7 +64,7 @@ internal sealed class LogFollower(
         }
         else
         {
-            link.Flush(now + UpdateLink.MostAckDelay);
+            link.Flush(now + UpdateLink.MaxAckDelay);
         }
 
         return true;

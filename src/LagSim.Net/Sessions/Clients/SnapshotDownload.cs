@@ -17,7 +17,7 @@ internal sealed class SnapshotDownload
     private const uint FirstWindow = 4;
 
     /// <summary>The least time after which missing chunks are requested again.</summary>
-    private static readonly SimDuration LeastTimeout = SimDuration.FromMilliseconds(50);
+    private static readonly SimDuration MinTimeout = SimDuration.FromMilliseconds(50);
 
     private readonly byte[]?[] early = new byte[SnapshotRequestDatagram.MaxChunks][];
     private readonly int length;
@@ -89,7 +89,7 @@ internal sealed class SnapshotDownload
     internal SnapshotRequestDatagram Ask(ulong sessionId, byte peer, SimTime now, RoundTrips trips, SimDuration guessed)
     {
         SimDuration trip = trips.IsMeasured ? (trips.Timeout > trips.Newest ? trips.Timeout : trips.Newest) : guessed + (guessed / 2);
-        timeout = trip > LeastTimeout ? trip : LeastTimeout;
+        timeout = trip > MinTimeout ? trip : MinTimeout;
         bool again = asked > next && !isToGoOn;
         isToGoOn = false;
         hasQueue = trips.HasQueue;

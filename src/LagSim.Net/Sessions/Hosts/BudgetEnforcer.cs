@@ -13,7 +13,7 @@ internal sealed class BudgetEnforcer(
     WorkBudget budget, ForeignActs acts, ClientRoster roster, ShutOuts shutOuts, BodyRemoval removal,
     HostActions actions, SharedWorld world, Watermark watermark, SessionStatus status)
 {
-    private const int MostStops = 1024;
+    private const int MaxStops = 1024;
 
     /// <summary>Raised when a player is expelled, with the cost and what was removed.</summary>
     internal event Action<PlayerExpulsion>? Expelled;
@@ -49,11 +49,11 @@ internal sealed class BudgetEnforcer(
             shutOuts.ShutOutForAWhile(client.Link.Other.Machine, now);
         }
 
-        bool wasThere = roster.SendAway(j => j.Peer == player) > 0;
+        bool wasThere = roster.Kick(j => j.Peer == player) > 0;
         IReadOnlyList<BodyId> costly = budget.CostlyBodiesOf(player);
         int removed = removal.RemoveSpawned(player == WorkBudget.Departed ? costly.Where(body => body.Sequence > 0) : null, player, from);
         int stopped = Stop(player, costly, from);
-        budget.StartAnew(now);
+        budget.Restart(now);
         byte number = player == WorkBudget.Departed ? (byte)0 : player;
         Expelled?.Invoke(new PlayerExpulsion(number, wasThere, work, seconds, removed, stopped, from));
     }
@@ -68,7 +68,7 @@ internal sealed class BudgetEnforcer(
         {
             // Before the player's first action on it, and right after each one.
             SimTime[] times = [from, .. touched[body].Distinct().OrderBy(time => time).Select(time => time + SimDuration.OneTick)];
-            for (int n = 0; n < times.Length && stops < MostStops; n++, stops++)
+            for (int n = 0; n < times.Length && stops < MaxStops; n++, stops++)
             {
                 actions.Do(PlayerAction.SetVelocity(body, Vector3D.Zero), times[n]);
             }

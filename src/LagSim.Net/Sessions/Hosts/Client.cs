@@ -46,7 +46,7 @@ internal sealed class Client
     internal uint Doubted { get; set; }
 
     /// <summary>The number of chunks sent to it.</summary>
-    internal long PiecesGiven { get; set; }
+    internal long ChunksGiven { get; set; }
 
     /// <summary>Whether it has scene, state, clock and number, and so needs the log.</summary>
     internal bool IsReady => Peer > 0;

@@ -77,7 +77,7 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     }
 
     /// <summary>Sends away all matching clients; returns how many.</summary>
-    internal int SendAway(Predicate<Client> isIt)
+    internal int Kick(Predicate<Client> isIt)
     {
         List<Client> all = clients.FindAll(isIt);
         foreach (Client client in all)

@@ -31,7 +31,7 @@ internal sealed class CopyPaces
         if (!paces.TryGetValue(machine, out RateLimit? pace))
         {
             Forget(now);
-            paces[machine] = pace = new RateLimit(limits.PiecesPerSecond, limits.PiecesAtOnce, now);
+            paces[machine] = pace = new RateLimit(limits.ChunksPerSecond, limits.ChunkBurst, now);
         }
 
         return pace.TrySpend(now);

@@ -29,8 +29,8 @@ internal sealed class DoorLimits
     internal double SlowestCopy { get; set; } = 1_000;
 
     /// <summary>The rate at which one machine is sent chunks, for all its clients together: 2.3 MB/s.</summary>
-    internal double PiecesPerSecond { get; set; } = 2000;
+    internal double ChunksPerSecond { get; set; } = 2000;
 
     /// <summary>The burst of chunks after a pause: four windows.</summary>
-    internal int PiecesAtOnce { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;
+    internal int ChunkBurst { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;
 }

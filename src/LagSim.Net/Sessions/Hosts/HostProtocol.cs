@@ -266,7 +266,7 @@ internal sealed class HostProtocol : ISessionProtocol
         // second, and can wait.
         if (canWait)
         {
-            client.Link.Flush(now + UpdateLink.MostAckDelay);
+            client.Link.Flush(now + UpdateLink.MaxAckDelay);
         }
         else
         {

@@ -59,11 +59,11 @@ internal sealed class LogBroadcast
 
             if (lines.Count != log.LastUrgent && client.Peer == external.Peer)
             {
-                client.Link.Flush(now + UpdateLink.MostAckDelay); // its author has the event already
+                client.Link.Flush(now + UpdateLink.MaxAckDelay); // its author has the event already
             }
             else
             {
-                client.Link.NoteLateEvent(UpdateDatagram.LengthOf(view.EntryFor(client, lines.Count)), now);
+                client.Link.NoteNewEntry(UpdateDatagram.LengthOf(view.EntryFor(client, lines.Count)), now);
             }
         }
     }

@@ -12,8 +12,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="places">The numbers.</param>
 /// <param name="budget">Where a number with a new holder gets another account.</param>
 /// <param name="sender">Sends them their numbers.</param>
-/// <param name="mostOfOneMachine">The most clients that may be in from one machine.</param>
-internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int mostOfOneMachine)
+/// <param name="maxOfOneMachine">The most clients that may be in from one machine.</param>
+internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int maxOfOneMachine)
 {
     /// <summary>Raised for each client that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
@@ -34,7 +34,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         // with all of them.
         byte own = claimed?.Number ?? 0;
         int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && j.Link.Other != from && j.Link.Other.IsSameMachine(from));
-        return others >= mostOfOneMachine ? RefusalReason.TooManyFromOneAddress
+        return others >= maxOfOneMachine ? RefusalReason.TooManyFromOneAddress
             : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && j.Link.Other == from)
                 ? RefusalReason.Full
             : null;

@@ -12,7 +12,7 @@ internal sealed class SnapshotServer(
     IClock clock)
 {
     /// <summary>How often every chunk of a snapshot may be requested on average before no more are sent.</summary>
-    private const int MostRepeats = 8;
+    private const int MaxRepeats = 8;
 
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from)
     {
@@ -33,14 +33,14 @@ internal sealed class SnapshotServer(
         client.Fetches = request.Number;
         client.Link.NoteHeard(now);
         client.Link.CountReceived(WireFormat.SnapshotRequestBytes);
-        SendPieces(client, client.Copy.Bytes, request, now);
+        SendChunks(client, client.Copy.Bytes, request, now);
     }
 
     /// <summary>Sends the requested chunks, as far as the pace allows; the client requests missing ones again.</summary>
-    private void SendPieces(Client client, ReadOnlySpan<byte> copy, in SnapshotRequestDatagram request, SimTime now)
+    private void SendChunks(Client client, ReadOnlySpan<byte> copy, in SnapshotRequestDatagram request, SimTime now)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.MaxBytes];
-        long most = MostRepeats * ((copy.Length / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks);
+        long most = MaxRepeats * ((copy.Length / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks);
         for (int n = 0; n < SnapshotRequestDatagram.MaxChunks; n++)
         {
             long index = (long)request.First + n;
@@ -49,12 +49,12 @@ internal sealed class SnapshotServer(
                 continue;
             }
 
-            if (client.PiecesGiven >= most || !paces.TrySpend(client.Link.Other, now))
+            if (client.ChunksGiven >= most || !paces.TrySpend(client.Link.Other, now))
             {
                 return;
             }
 
-            client.PiecesGiven++;
+            client.ChunksGiven++;
             int at = (int)index * SnapshotChunkDatagram.MaxData;
             SnapshotChunkDatagram chunk = new(request.SessionId, (uint)index, copy.Slice(at, Math.Min(SnapshotChunkDatagram.MaxData, copy.Length - at)));
             sender.Send(bytes.Slice(0, chunk.Encode(bytes)), client.Link);

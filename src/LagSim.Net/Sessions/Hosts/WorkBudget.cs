@@ -167,7 +167,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     internal IReadOnlyList<BodyId> CostlyBodiesOf(byte player) => Ledger!.CostlyBodiesOf(player, Whole * WorthStopping);
 
     /// <summary>Refills every account: what others were charged meanwhile was, or may have been, caused by the expelled player.</summary>
-    internal void StartAnew(SimTime now)
+    internal void Restart(SimTime now)
     {
         for (int n = 0; n < purses.Length; n++)
         {

@@ -10,7 +10,7 @@ namespace LagSim.Net.Sessions.Links;
 internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDuration longestDelay)
 {
     /// <summary>The limit on how often the longest wait for an answer doubles.</summary>
-    private const int MostDoublings = 3;
+    private const int MaxDoublings = 3;
 
     /// <summary>The number of overdue answers in a row after which the link counts as a different one.</summary>
     private const int Silent = 3;
@@ -39,7 +39,7 @@ internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDurat
     /// <summary>Records an overdue answer; true at the moment when so many were overdue that the link counts as a different one.</summary>
     internal bool NoteOverdue()
     {
-        unanswered = Math.Min(unanswered + 1, MostDoublings + Silent);
+        unanswered = Math.Min(unanswered + 1, MaxDoublings + Silent);
         return unanswered == Silent;
     }
 
@@ -54,7 +54,7 @@ internal sealed class AnswerTimer(RoundTrips trips, SentDatagrams sent, SimDurat
     internal int Doublings(SimTime now)
     {
         int doublings = 0;
-        while (doublings < MostDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Timeout * (8L << doublings)))
+        while (doublings < MaxDoublings && doublings < unanswered && (trips.HasQueue || now - answered > Timeout * (8L << doublings)))
         {
             doublings++;
         }

@@ -26,7 +26,7 @@ internal class CongestionControl
     /// </summary>
     private const int InitialWindow = 50 * Full;
 
-    private const int LeastWindow = 2 * Full; // RFC 9002, 7.2
+    private const int MinWindow = 2 * Full; // RFC 9002, 7.2
 
     /// <summary>
     /// The number of full-sized datagrams in a window: a loss shows by three later arrivals (RFC 9002, 6.1), and a short queue drops two
@@ -38,7 +38,7 @@ internal class CongestionControl
     /// </remarks>
     private const int DatagramsPerWindow = 8;
 
-    private const int MostWindow = 400 * Full; // below what SentDatagrams remembers
+    private const int MaxWindow = 400 * Full; // below what SentDatagrams remembers
     private const double CutTo = 0.7;
 
     /// <summary>
@@ -88,7 +88,7 @@ internal class CongestionControl
         lossShare -= lossShare * LossMemory;
         if (isUsed)
         {
-            window = Math.Min(MostWindow, window + (hasQueue || window >= threshold ? (double)Full * bytes / window : bytes));
+            window = Math.Min(MaxWindow, window + (hasQueue || window >= threshold ? (double)Full * bytes / window : bytes));
         }
     }
 
@@ -103,7 +103,7 @@ internal class CongestionControl
             return false;
         }
 
-        window = threshold = Math.Max(LeastWindow, Math.Min(window, peak) * CutTo);
+        window = threshold = Math.Max(MinWindow, Math.Min(window, peak) * CutTo);
         peak = InFlight;
         cut = now;
         return true;
@@ -112,7 +112,7 @@ internal class CongestionControl
     /// <summary>Called when answers are overdue again and again: the link may be a different one (RFC 9002, 7.6).</summary>
     internal virtual void OnSilence(SimTime now)
     {
-        window = LeastWindow;
+        window = MinWindow;
         cut = now;
     }
 

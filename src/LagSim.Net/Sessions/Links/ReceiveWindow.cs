@@ -8,7 +8,7 @@ namespace LagSim.Net.Sessions.Links;
 /// <remarks>Early entries are buffered, up to <see cref="SendWindow.MaxEntries"/>; those further ahead have to be sent again.</remarks>
 internal sealed class ReceiveWindow
 {
-    private const int LeastSlots = 256; // a power of two, and more than a datagram's entries
+    private const int MinSlots = 256; // a power of two, and more than a datagram's entries
 
     private Slot[] slots = Array.Empty<Slot>();
 
@@ -98,7 +98,7 @@ internal sealed class ReceiveWindow
         }
 
         Slot[] former = slots;
-        int length = Math.Max(LeastSlots, former.Length);
+        int length = Math.Max(MinSlots, former.Length);
         while (length < ahead)
         {
             length *= 2;

@@ -23,7 +23,7 @@ internal sealed class RoundTrips
     /// <summary>
     /// The least delay that counts as a queue. A sleeping thread, or a radio that waits for its turn, adds less to every trip.
     /// </summary>
-    private static readonly SimDuration LeastQueue = SimDuration.FromMilliseconds(5);
+    private static readonly SimDuration MinQueue = SimDuration.FromMilliseconds(5);
 
     /// <summary>How many times the least spread of a minute jitter moves the mean from its minimum.</summary>
     /// <remarks>
@@ -39,8 +39,8 @@ internal sealed class RoundTrips
     private const int Few = 4;
 
     private WindowedMinimum least;
-    private WindowedMinimum leastMean;
-    private WindowedMinimum leastSpread;
+    private WindowedMinimum minMean;
+    private WindowedMinimum minSpread;
     private SimDuration spread; // the mean deviation, over more trips than the timeout uses
     private int counted; // the number of trips so far, up to Many
     private readonly SimDuration[] few = new SimDuration[Few]; // the newest
@@ -65,14 +65,14 @@ internal sealed class RoundTrips
     internal SimDuration Timeout => Mean + (Deviation * 4);
 
     /// <summary>How long a datagram sent now waits in a queue, there or back, as far as the round trips show.</summary>
-    internal SimDuration Queueing => Lesser(LeastOfFew - least.Value, Mean - leastMean.Value);
+    internal SimDuration Queueing => Lesser(LeastOfFew - least.Value, Mean - minMean.Value);
 
     /// <summary>Whether there is a queue on the path: more than a quarter of the shortest round trip, and more than jitter.</summary>
     /// <remarks>
     /// A link that holds back at that point stays well below twice the shortest round trip. Delay that doubles the shortest round trip is a
     /// queue whatever the jitter: a peer that joins while a queue rises and falls knows no other spread.
     /// </remarks>
-    internal bool HasQueue => Queueing > LeastQueue && Queueing > least.Value / 4 && Queueing > Lesser(leastSpread.Value * MostOfSpread, least.Value);
+    internal bool HasQueue => Queueing > MinQueue && Queueing > least.Value / 4 && Queueing > Lesser(minSpread.Value * MostOfSpread, least.Value);
 
     internal void Add(SimDuration sample, SimTime now)
     {
@@ -99,10 +99,10 @@ internal sealed class RoundTrips
         IsMeasured = true;
         Newest = sample;
         least.Add(sample, now, Memory);
-        leastMean.Add(Mean, now, Memory);
+        minMean.Add(Mean, now, Memory);
         if (counted == Many)
         {
-            leastSpread.Add(spread, now, Memory);
+            minSpread.Add(spread, now, Memory);
         }
 
         few[next] = sample;

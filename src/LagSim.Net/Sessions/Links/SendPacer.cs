@@ -6,16 +6,16 @@ namespace LagSim.Net.Sessions.Links;
 internal sealed class SendPacer
 {
     /// <summary>The least average distance between updates, however often the other end sends.</summary>
-    internal static readonly SimDuration LeastDistance = SimDuration.FromMilliseconds(1);
+    internal static readonly SimDuration MinDistance = SimDuration.FromMilliseconds(1);
 
     /// <summary>
     /// How many distances flushed updates may be ahead: after a pause three go out at once, so that one player's event need not wait
     /// because another's was just acknowledged.
     /// </summary>
-    private const int MostAhead = 2;
+    private const int MaxAhead = 2;
 
     private SimTime paced = SimTime.MinValue; // when the next update would be due if all kept their distance
-    private SimDuration distance = LeastDistance; // of the last update
+    private SimDuration distance = MinDistance; // of the last update
     private SimTime latest = SimTime.MinValue; // when the last update was sent
     private int atOnce; // how many were sent at that time
 
@@ -28,7 +28,7 @@ internal sealed class SendPacer
     /// Sends the next update no later than this, unless so many went out just now that the average distance would fall below the least.
     /// </summary>
     internal void Flush(SimTime by) =>
-        Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MostAhead)));
+        Due = SimTime.Min(Due, SimTime.Max(by, paced == SimTime.MinValue ? by : paced - (distance * MaxAhead)));
 
     /// <summary>Records that an update was sent; the next is due after a rest.</summary>
     /// <param name="now">When it was sent.</param>
@@ -37,16 +37,16 @@ internal sealed class SendPacer
     {
         distance = apart;
         // Updates of one instant count as one, where there is room.
-        paced = now == latest && apart == LeastDistance ? paced : SimTime.Max(paced, now) + apart;
+        paced = now == latest && apart == MinDistance ? paced : SimTime.Max(paced, now) + apart;
         atOnce = now == latest ? atOnce + 1 : 1;
         latest = now;
     }
 
     /// <summary>Called when nothing is left to send: the next update is due after a rest.</summary>
-    internal void Rest(SimTime now, SimDuration rest) => Due = now + (rest > LeastDistance ? rest : LeastDistance);
+    internal void Rest(SimTime now, SimDuration rest) => Due = now + (rest > MinDistance ? rest : MinDistance);
 
     /// <summary>Called when more is to be sent: the next update is due as soon as its distance allows.</summary>
-    internal void GoOn(SimTime now) => Due = distance > LeastDistance ? SimTime.Max(now, paced - (distance * MostAhead))
+    internal void GoOn(SimTime now) => Due = distance > MinDistance ? SimTime.Max(now, paced - (distance * MaxAhead))
         : atOnce < SendWindow.MaxDatagramsAtOnce ? now
-        : now + LeastDistance;
+        : now + MinDistance;
 }

@@ -15,7 +15,7 @@ namespace LagSim.Net.Sessions.Links;
 internal sealed class UpdateLink
 {
     /// <summary>How long an acknowledgement that is not urgent may wait for a datagram that goes out anyway.</summary>
-    internal static readonly SimDuration MostAckDelay = SimDuration.FromMilliseconds(100);
+    internal static readonly SimDuration MaxAckDelay = SimDuration.FromMilliseconds(100);
 
     /// <summary>The bytes of an update besides its entries: header, state hash, UDP and IP.</summary>
     private const int OwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
@@ -61,7 +61,7 @@ internal sealed class UpdateLink
         pacer = new SendPacer(now);
         spare = parts.Spare();
         SentDatagrams sent = new();
-        answers = new AnswerTimer(Trips, sent, MostAckDelay + interval);
+        answers = new AnswerTimer(Trips, sent, MaxAckDelay + interval);
         flight = new LinkFlight(parts.Window(acknowledged), sent, parts.Congestion(), Trips, spare, answers);
     }
 
@@ -110,7 +110,7 @@ internal sealed class UpdateLink
     {
         get
         {
-            SimDuration most = Trips.Queueing / 2 > MostAckDelay ? Trips.Queueing / 2 : MostAckDelay;
+            SimDuration most = Trips.Queueing / 2 > MaxAckDelay ? Trips.Queueing / 2 : MaxAckDelay;
             return Trips.Mean < most ? Trips.Mean : most;
         }
     }
@@ -163,10 +163,10 @@ internal sealed class UpdateLink
     internal void Flush(SimTime by) => pacer.Flush(by);
 
     /// <summary>Answers the other end: at once, or, where that is too much, soon, together with whatever else is to be sent.</summary>
-    internal void Answer(SimTime now) => Flush(MayHurry(now) ? now : now + MostAckDelay);
+    internal void Answer(SimTime now) => Flush(MayHurry(now) ? now : now + MaxAckDelay);
 
     /// <summary>Records a new entry for the other end, of that many bytes.</summary>
-    internal void NoteLateEvent(int bytes, SimTime now)
+    internal void NoteNewEntry(int bytes, SimTime now)
     {
         unsent.Note(bytes, now);
         if (flight.Congestion.HasRoom) // otherwise it is sent when something is next acknowledged or lost
@@ -242,7 +242,7 @@ internal sealed class UpdateLink
             unsent.Clear();
         }
 
-        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length) : SendPacer.LeastDistance);
+        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length) : SendPacer.MinDistance);
         if (hasNeeded && !isHeldBack)
         {
             pacer.GoOn(now);
@@ -283,7 +283,7 @@ internal sealed class UpdateLink
     {
         SimDuration even = SimDuration.FromSeconds(
             Trips.Mean.ToSeconds() * (length + CongestionControl.DatagramOverhead) / (PaceGain * flight.Congestion.Window));
-        return Trips.IsMeasured && even > SendPacer.LeastDistance ? even : SendPacer.LeastDistance;
+        return Trips.IsMeasured && even > SendPacer.MinDistance ? even : SendPacer.MinDistance;
     }
 
     /// <summary>Whether an update may be sent for little.</summary>

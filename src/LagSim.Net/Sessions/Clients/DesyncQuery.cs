@@ -7,12 +7,12 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>A client's query for the host's events in a span of time: what has arrived, and when to ask again.</summary>
 /// <remarks>Events are taken one at a time, and no more than a host keeps, so memory grows only with what was received.</remarks>
-internal sealed class Inquiry
+internal sealed class DesyncQuery
 {
     private readonly List<LogEntry> events = new();
     private uint asked;
 
-    internal Inquiry(SimTime after, SimTime upTo, SimTime now)
+    internal DesyncQuery(SimTime after, SimTime upTo, SimTime now)
     {
         After = after;
         UpTo = upTo;
