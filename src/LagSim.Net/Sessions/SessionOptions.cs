@@ -247,7 +247,10 @@ public abstract record SessionOptions
             throw new ArgumentOutOfRangeException(
                 name,
                 value.ToShortString(),
-                $"{name} must lie between {SimDuration.FromSeconds(least).ToShortString()} and {SimDuration.FromSeconds(most).ToShortString()}.");
+                $"{name} must lie between {Seconds(least)} and {Seconds(most)}.");
         }
     }
+
+    // To a tick, as the value beside it.
+    private static string Seconds(double seconds) => SimDuration.FromSeconds(seconds).ToShortString().TrimEnd('s') + " s";
 }
