@@ -60,7 +60,7 @@ internal sealed class SessionRunner : IDisposable
         }
 
         thread = new PeerThread(session, port, "LagSim session");
-        thread.HandlerFailed += failure =>
+        thread.Session.HandlerFailed += failure =>
             queue.Tell(() => printer.Problem($"Something that happened could not be told: {failure.Message}"));
         onStop = stop.Register(queue.Wake);
     }

@@ -1,7 +1,6 @@
 using System;
-using System.Threading.Tasks;
-using System.Threading.Tasks.Sources;
 using LagSim.Events;
+using LagSim.Net.Sessions.Core;
 
 namespace LagSim.Net.Sessions;
 
@@ -13,17 +12,19 @@ internal sealed class ActionRequests
 
     private readonly object gate = new();
     private readonly ActionRequest[] ring = new ActionRequest[Kept];
+    private readonly Action<PlayerAction, Exception> refused;
+    private readonly HandlerFailures failures;
     private int next;
 
-    private readonly Action<PlayerAction, Exception> refused;
-
     /// <param name="refused">Called for each refused action, on the session's thread, before its answer is set.</param>
-    internal ActionRequests(Action<PlayerAction, Exception> refused)
+    /// <param name="failures">Where what an awaiter's context throws goes.</param>
+    internal ActionRequests(Action<PlayerAction, Exception> refused, HandlerFailures failures)
     {
         this.refused = refused;
+        this.failures = failures;
         for (int n = 0; n < Kept; n++)
         {
-            ring[n] = new ActionRequest(refused);
+            ring[n] = new ActionRequest(refused, failures);
         }
     }
 
@@ -36,124 +37,11 @@ internal sealed class ActionRequests
             next = (at + 1) % Kept;
             if (!ring[at].TryBegin(action))
             {
-                ring[at] = new ActionRequest(refused);
+                ring[at] = new ActionRequest(refused, failures);
                 ring[at].TryBegin(action);
             }
 
             return ring[at];
-        }
-    }
-}
-
-/// <summary>One action for the session's thread to perform, and its answer.</summary>
-/// <param name="refused">Called if it is refused, on the session's thread, before the answer is set.</param>
-internal sealed class ActionRequest(Action<PlayerAction, Exception> refused) : IPeerRequest, IValueTaskSource<ExternalEvent>
-{
-    private readonly object gate = new(); // guards the fields that decide whether it can be reused
-    private ManualResetValueTaskSourceCore<ExternalEvent> core = new() { RunContinuationsAsynchronously = true };
-    private PlayerAction action;
-    private bool isAsked;
-    private bool isAwaited;
-
-    /// <summary>The caller's task; valid until the request is reused.</summary>
-    internal ValueTask<ExternalEvent> Task
-    {
-        get
-        {
-            lock (gate)
-            {
-                return new ValueTask<ExternalEvent>(this, core.Version);
-            }
-        }
-    }
-
-    /// <summary>Starts over with another action; false while the last one has no answer, or its answer is being awaited.</summary>
-    internal bool TryBegin(in PlayerAction next)
-    {
-        lock (gate)
-        {
-            if (isAsked || isAwaited)
-            {
-                return false;
-            }
-
-            core.Reset();
-            action = next;
-            isAsked = true;
-            return true;
-        }
-    }
-
-    public void Answer(Session session)
-    {
-        try
-        {
-            core.SetResult(session.Do(action));
-        }
-        catch (Exception failure)
-        {
-            try
-            {
-                refused(action, failure);
-            }
-            finally
-            {
-                core.SetException(failure); // the awaiting caller gets it, whatever a handler did
-            }
-        }
-        finally
-        {
-            Answered();
-        }
-    }
-
-    public void Cancel()
-    {
-        core.SetException(new TaskCanceledException());
-        Answered();
-    }
-
-    public ExternalEvent GetResult(short token)
-    {
-        lock (gate)
-        {
-            ExternalEvent done = default;
-            try
-            {
-                done = core.GetResult(token);
-            }
-            finally
-            {
-                isAwaited &= token != core.Version;
-            }
-
-            return done;
-        }
-    }
-
-    public ValueTaskSourceStatus GetStatus(short token)
-    {
-        lock (gate)
-        {
-            return core.GetStatus(token);
-        }
-    }
-
-    public void OnCompleted(Action<object?> continuation, object? state, short token, ValueTaskSourceOnCompletedFlags flags)
-    {
-        lock (gate)
-        {
-            isAwaited |= token == core.Version;
-        }
-
-        core.OnCompleted(continuation, state, token, flags);
-    }
-
-    private void Answered()
-    {
-        lock (gate)
-        {
-            isAsked = false;
         }
     }
 }

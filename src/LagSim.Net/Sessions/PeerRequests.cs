@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Concurrent;
+using System.Threading;
 
 namespace LagSim.Net.Sessions;
 
@@ -9,42 +10,51 @@ namespace LagSim.Net.Sessions;
 internal sealed class PeerRequests(Session session, Action wake)
 {
     private readonly ConcurrentQueue<IPeerRequest> waiting = new();
+    private Exception? fault; // set before isOver is
     private volatile bool isOver;
 
-    /// <summary>Whether requests are no longer answered.</summary>
+    /// <summary>Whether no request is answered any more.</summary>
     internal bool AreOver => isOver;
 
-    /// <summary>Adds a request and wakes the session's thread.</summary>
+    /// <summary>Adds a request and wakes the session's thread. From any thread.</summary>
     internal void Add(IPeerRequest request)
     {
         waiting.Enqueue(request);
         wake();
+        Interlocked.MemoryBarrier(); // either this sees that it is over, or Close sees the request
         if (isOver)
         {
-            AnswerAll(); // the thread has ended meanwhile
+            CancelAll();
         }
     }
 
-    /// <summary>Answers all requests, on the session's thread; cancels them once that has ended.</summary>
+    /// <summary>
+    /// Answers, on the session's thread, the requests that wait now. Those that a handler adds meanwhile wait for the next step, which the
+    /// wake-up has come for: else a handler that answers each event with another would keep the session from its next step for ever.
+    /// </summary>
     internal void AnswerAll()
+    {
+        for (int count = waiting.Count; count > 0 && waiting.TryDequeue(out IPeerRequest? request); count--)
+        {
+            request.Answer(session);
+        }
+    }
+
+    /// <summary>The thread has ended: requests that wait, and those that come later, get no answer.</summary>
+    /// <param name="ending">The exception that ended it; null if it was disposed or cancelled.</param>
+    internal void Close(Exception? ending)
+    {
+        fault = ending;
+        isOver = true;
+        Interlocked.MemoryBarrier();
+        CancelAll();
+    }
+
+    private void CancelAll()
     {
         while (waiting.TryDequeue(out IPeerRequest? request))
         {
-            if (isOver)
-            {
-                request.Cancel();
-            }
-            else
-            {
-                request.Answer(session);
-            }
+            request.Cancel(fault);
         }
-    }
-
-    /// <summary>Called when the thread has ended: pending and later requests are cancelled.</summary>
-    internal void Close()
-    {
-        isOver = true;
-        AnswerAll();
     }
 }

@@ -16,7 +16,7 @@ namespace LagSim.Net.Sessions;
 /// <remarks>
 /// Members are safe on any thread, with two exceptions: only the drawing thread may call <see cref="Latest"/>, and neither that nor
 /// <see cref="WaitUntilRunning"/> may be called on the session's own thread. An exception thrown by a handler of a session's event is
-/// reported by <see cref="HandlerFailed"/>, and ends nothing.
+/// reported by <see cref="Session.HandlerFailed"/>, and ends nothing.
 /// </remarks>
 /// <example>
 /// A host in one program and a client in another; each draws a frame and kicks the ball:
@@ -39,14 +39,15 @@ public sealed class PeerThread : IDisposable
     private readonly ActionRequests actions;
     private readonly IDatagramPort port;
     private readonly SessionOwner owner;
-    private readonly PeerFailures failures;
+    private readonly HandlerList<Action<PlayerAction, Exception>> refused;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // set once running or ended
+    private readonly object ending = new(); // held by whoever disposes it, while it leaves and closes
     private readonly bool ownsPort;
     private volatile bool isOwner; // from Start on
     private volatile bool isDisposed;
     private int hasEnded; // 1 once End has run
-    private int hasClosed; // 1 once the port is closed
+    private bool hasClosed; // the port; for the last thread that has it
     private Action<LateEventStrategy>? warmUp; // null once done; for the session's thread only
 
     /// <summary>Gives the session a thread, which is not started yet. The port is not disposed with it.</summary>
@@ -63,25 +64,11 @@ public sealed class PeerThread : IDisposable
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
         owner = session.Parts.Owner;
-        failures = new PeerFailures(owner);
-        actions = new ActionRequests(failures.TellRefused);
+        refused = new(owner);
+        actions = new ActionRequests(TellRefused, owner.Failures);
         thread = new WorldThread(name, Step, session.Interrupt, End);
         requests = new PeerRequests(session, thread.Wake);
         port.Arrived += thread.Wake;
-    }
-
-    /// <summary>
-    /// Raised on the session's thread with the exception that a handler of a session's event threw. The other handlers are still called,
-    /// and nothing ends.
-    /// </summary>
-    /// <remarks>
-    /// Without a handler the exception is written to <see cref="System.Diagnostics.Trace"/>, and so is one that a handler of this event
-    /// throws. While the thread ends, the event may be raised on the thread that disposes it.
-    /// </remarks>
-    public event Action<Exception>? HandlerFailed
-    {
-        add => failures.HandlerFailed += value;
-        remove => failures.HandlerFailed -= value;
     }
 
     /// <summary>
@@ -90,13 +77,13 @@ public sealed class PeerThread : IDisposable
     /// <see cref="Session.Logged"/>.
     /// </summary>
     /// <remarks>
-    /// What the end of the thread left unanswered is cancelled, not reported. Without a handler, refusals go to
+    /// What the end of the thread left unanswered is not reported here. Without a handler, refusals go to
     /// <see cref="System.Diagnostics.Trace"/>.
     /// </remarks>
     public event Action<PlayerAction, Exception>? Refused
     {
-        add => failures.Refused.Add(value);
-        remove => failures.Refused.Remove(value);
+        add => refused.Add(value);
+        remove => refused.Remove(value);
     }
 
     /// <summary>Opens a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
@@ -209,7 +196,7 @@ public sealed class PeerThread : IDisposable
     /// <exception cref="ObjectDisposedException">It has been disposed.</exception>
     public void Start()
     {
-        if (!owner.TryTake(failures.TellFailure))
+        if (!owner.TryTake())
         {
             throw new InvalidOperationException("The session has been started already, on this PeerThread or on another: it runs on one.");
         }
@@ -248,7 +235,7 @@ public sealed class PeerThread : IDisposable
     /// <returns>
     /// The stamped event, or the exception that <see cref="Session.Do"/> throws, which <see cref="Refused"/> reports too. The host's
     /// verdict on the event comes later, by <see cref="Session.Logged"/>. Await the task at once and once, or discard it: an answer that is
-    /// not awaited is forgotten some 60 calls later.
+    /// not awaited is forgotten some 60 calls later. A thread that ends first cancels it, or completes it with the exception that ended it.
     /// </returns>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
@@ -261,7 +248,10 @@ public sealed class PeerThread : IDisposable
         return answer;
     }
 
-    /// <summary>Runs a function on the session's thread, once it is started; cancelled if that is disposed first.</summary>
+    /// <summary>
+    /// Runs a function on the session's thread, once it is started. A thread that ends first cancels the task, or completes it with the
+    /// exception that ended it.
+    /// </summary>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
     public Task<T> Ask<T>(Func<Session, T> question)
@@ -278,6 +268,7 @@ public sealed class PeerThread : IDisposable
     /// </summary>
     /// <remarks>
     /// From any thread, and more than once. In a handler, on the session's own thread, it returns at once and takes effect after the step.
+    /// A handler that waits for the thread that disposes this, or for an answer of <see cref="Do"/> or <see cref="Ask"/>, waits for ever.
     /// </remarks>
     public void Dispose()
     {
@@ -286,7 +277,10 @@ public sealed class PeerThread : IDisposable
         if (!IsOwnThread)
         {
             End(thread.Fault); // for a thread never started; a started one has done it itself
-            ClosePort(); // a thread that failed has left it open
+            lock (ending)
+            {
+                LeaveAndClose(); // for one that failed or was cancelled
+            }
         }
     }
 
@@ -295,17 +289,18 @@ public sealed class PeerThread : IDisposable
     {
         _ = carrier ?? throw new ArgumentNullException(nameof(carrier));
 
+        PeerThread? peer = null;
         try
         {
             TSession session = make();
-            PeerThread peer = new(session, carrier, name, ownsPort: true, SessionWarmup.Once);
+            peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.Once);
             setUp?.Invoke(session);
             peer.Start();
             return peer;
         }
         catch
         {
-            carrier.Dispose();
+            ((IDisposable?)peer ?? carrier).Dispose();
             throw;
         }
     }
@@ -365,42 +360,52 @@ public sealed class PeerThread : IDisposable
             return;
         }
 
-        port.Arrived -= thread.Wake;
+        owner.Failures.Guard(() => port.Arrived -= thread.Wake);
         if (isOwner)
         {
             owner.Enter(); // if disposed before its first step, the thread has not entered yet
         }
 
-        if (fault is not (null or OperationCanceledException) || (ownsPort && isDisposed))
+        bool hasFailed = fault is not (null or OperationCanceledException);
+        if (hasFailed)
         {
-            try
-            {
-                Session.Leave();
-            }
-            catch (Exception failure) when (failure is not OutOfMemoryException)
-            {
-                failures.TellFailure(failure); // reported in addition to the exception that ended the thread
-            }
+            owner.Failures.Guard(Session.Leave);
         }
 
         if (isDisposed)
         {
-            ClosePort();
+            LeaveAndClose();
         }
 
         decided.Set();
-        requests.Close();
+        requests.Close(hasFailed ? fault : null);
         if (isOwner)
         {
             owner.Release();
         }
     }
 
-    private void ClosePort()
+    /// <summary>Says goodbye, and closes the port, if both are this thread's to end.</summary>
+    private void LeaveAndClose()
     {
-        if (ownsPort && Interlocked.Exchange(ref hasClosed, 1) == 0)
+        if (ownsPort)
         {
-            port.Dispose();
+            owner.Failures.Guard(Session.Leave); // once: a session that has ended does nothing
+            if (!hasClosed)
+            {
+                hasClosed = true;
+                owner.Failures.Guard(port.Dispose);
+            }
         }
+    }
+
+    private void TellRefused(PlayerAction action, Exception why)
+    {
+        if (refused.IsEmpty)
+        {
+            HandlerFailures.Write($"{action.Kind} was refused, and nothing listens to {nameof(PeerThread)}.{nameof(Refused)}: {why.Message}");
+        }
+
+        refused.Raise((Action: action, Why: why), static (handler, told) => handler(told.Action, told.Why));
     }
 }

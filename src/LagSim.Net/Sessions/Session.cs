@@ -24,7 +24,7 @@ namespace LagSim.Net.Sessions;
 /// and the reference <see cref="World"/>; of the world itself only its render snapshots, its counts of late steps, and its start.</para>
 /// <para>While a <see cref="PeerThread"/> runs the session, members for the session's thread throw an
 /// <see cref="InvalidOperationException"/> on any other. An exception from a handler then ends nothing, and
-/// <see cref="PeerThread.HandlerFailed"/> reports it; without such a thread it propagates to the caller of <see cref="Step"/>, or of
+/// <see cref="HandlerFailed"/> reports it; without such a thread it propagates to the caller of <see cref="Step"/>, or of
 /// whatever member raised the event.</para>
 /// </remarks>
 public abstract class Session
@@ -100,6 +100,20 @@ public abstract class Session
     {
         add => stateCommitted.Add(value);
         remove => stateCommitted.Remove(value);
+    }
+
+    /// <summary>
+    /// Raised on the session's thread with the exception that a handler of one of the session's events threw, while a
+    /// <see cref="PeerThread"/> runs it. The other handlers are still called, and nothing ends.
+    /// </summary>
+    /// <remarks>
+    /// Without a handler the exception is written to <see cref="System.Diagnostics.Trace"/>, and so is one that a handler of this event
+    /// throws. While the thread ends, the event may be raised on the thread that disposes it.
+    /// </remarks>
+    public event Action<Exception>? HandlerFailed
+    {
+        add => parts.Owner.Failures.Failed += value;
+        remove => parts.Owner.Failures.Failed -= value;
     }
 
     /// <summary>The scene that all peers share; null for a client that has not received it. From any thread.</summary>

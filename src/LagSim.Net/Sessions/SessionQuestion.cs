@@ -15,13 +15,23 @@ internal sealed class SessionQuestion<T>(Func<Session, T> question) : IPeerReque
     {
         try
         {
-            answer.SetResult(question(session));
+            answer.TrySetResult(question(session));
         }
         catch (Exception failure)
         {
-            answer.SetException(failure);
+            answer.TrySetException(failure);
         }
     }
 
-    public void Cancel() => answer.SetCanceled();
+    public void Cancel(Exception? fault)
+    {
+        if (fault is null)
+        {
+            answer.TrySetCanceled();
+        }
+        else
+        {
+            answer.TrySetException(fault);
+        }
+    }
 }

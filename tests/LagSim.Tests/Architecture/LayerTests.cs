@@ -23,6 +23,15 @@ public sealed partial class LayerTests
         Assert.True(broken.Length == 0, $"{broken.Length} arrows point up or to the side in Architecture/Layers.cs:\n{string.Join("\n", broken)}");
     }
 
+    /// <summary>Nothing of the source is left out: all projects but that which only lays out a package for Unity.</summary>
+    [Fact]
+    public void Assemblies_AreThoseOfAllProjects()
+    {
+        string[] projects = Directory.GetFiles(Source, "*.csproj", SearchOption.AllDirectories)
+            .Select(file => Path.GetFileNameWithoutExtension(file)).Where(name => name != "LagSim.Unity").Order(StringComparer.Ordinal).ToArray();
+        Assert.Equal(projects, SourceAssemblies.All.Select(assembly => assembly.GetName().Name!).Order(StringComparer.Ordinal));
+    }
+
     [Fact]
     public void Folders_WithTwoLayersExchanged_AreSeenToFail()
     {

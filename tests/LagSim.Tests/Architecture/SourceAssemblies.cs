@@ -1,6 +1,7 @@
 using System.Reflection;
 using LagSim.Cli.Output;
 using LagSim.Harness.Reports;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Testing;
 
@@ -16,8 +17,6 @@ internal static class SourceAssemblies
         typeof(SessionTest).Assembly,
         typeof(NumberText).Assembly,
         typeof(ExitCode).Assembly,
-#if WITH_LITENETLIB
-        typeof(LagSim.Net.Carriers.LiteNetLibPort).Assembly,
-#endif
+        typeof(LiteNetLibPort).Assembly,
     ];
 }

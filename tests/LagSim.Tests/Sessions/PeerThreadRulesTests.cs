@@ -42,84 +42,6 @@ public sealed class PeerThreadRulesTests
         Assert.Equal((true, true), (hosts.IsDisposed, clients.IsDisposed));
     }
 
-    /// <summary>In a handler, as a game's own end would: all is tidied up, once, after the step.</summary>
-    [Fact]
-    public async Task Dispose_InAHandler_LeavesAndClosesThePortAfterTheStep()
-    {
-        OwnedPort port = new();
-        PeerThread? host = null;
-        int ended = 0;
-        bool wasClosedInside = true;
-        host = PeerThread.Host(BuiltInScenes.Pair(), port, setUp: session =>
-        {
-            session.Ended += () => ended++;
-            session.Logged += _ =>
-            {
-                host!.Dispose();
-                host.Dispose();
-                wasClosedInside = port.IsDisposed;
-            };
-        });
-        Assert.True(host.WaitUntilRunning(Deadline));
-        await host.Do(Push);
-        host.Dispose(); // waits for its end
-
-        Assert.Equal((false, true, 1), (wasClosedInside, port.IsDisposed, ended));
-        Assert.Equal(1, port.Disposals);
-        Assert.Equal(SessionEnd.Left, host.Session.EndedBy);
-        Assert.Throws<ObjectDisposedException>(() => { _ = host.Do(Push); });
-    }
-
-    [Fact]
-    public void Dispose_ByTwoThreadsAtOnce_ReturnsToBothOnceItIsDone()
-    {
-        for (int round = 0; round < 20; round++)
-        {
-            OwnedPort port = new();
-            PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port);
-            bool[] isDone = new bool[2];
-            Parallel.For(0, 2, n =>
-            {
-                host.Dispose();
-                isDone[n] = host.Session.State == SessionState.Ended;
-            });
-            Assert.Equal([true, true], isDone);
-            Assert.Equal(1, port.Disposals);
-        }
-    }
-
-    [Fact]
-    public void Start_OfASecondOnOneSession_IsRefusedAndLeavesTheFirstAlone()
-    {
-        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
-        HostSession session = new(BuiltInScenes.Pair(), port, new StopwatchClock(), new HostOptions(), 7);
-        using PeerThread first = new(session, port, "first");
-        first.Start();
-        Assert.True(first.WaitUntilRunning(Deadline));
-        PeerThread second = new(session, port, "second");
-        Assert.Contains("on another", Assert.Throws<InvalidOperationException>(second.Start).Message, StringComparison.Ordinal);
-        second.Dispose();
-
-        Assert.Throws<InvalidOperationException>(() => session.Links); // the first still has it
-
-        first.Dispose();
-        using PeerThread third = new(session, port, "third"); // the control: once it is free another may
-        third.Start();
-    }
-
-    [Fact]
-    public void Fault_OnceItIsDecided_IsToldAndNotTakenForAnEnd()
-    {
-        OwnedPort port = new() { Breaks = true };
-        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port);
-        for (int look = 0; look < 2; look++)
-        {
-            InvalidOperationException told = Assert.Throws<InvalidOperationException>(() => { host.WaitUntilRunning(Deadline); });
-            Assert.IsType<FormatException>(told.InnerException);
-            Assert.IsType<FormatException>(Assert.Throws<InvalidOperationException>(() => { _ = host.Do(Push); }).InnerException);
-        }
-    }
-
     [Fact]
     public async Task RefusedAndHandlerFailed_WithoutAnybodyWhoListens_AreTraced()
     {
@@ -188,8 +110,8 @@ public sealed class PeerThreadRulesTests
         session.Logged += _ => heard++;
         using PeerThread host = new(session, port, "test");
         ConcurrentQueue<Exception> told = new();
-        host.HandlerFailed += told.Enqueue;
-        host.HandlerFailed += _ => throw new FormatException("and another");
+        host.Session.HandlerFailed += told.Enqueue;
+        host.Session.HandlerFailed += _ => throw new FormatException("and another");
         host.Start();
         Assert.True(host.WaitUntilRunning(Deadline));
 
@@ -330,7 +252,7 @@ public sealed class PeerThreadRulesTests
     {
         using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), bind: IPAddress.Loopback);
         int told = 0;
-        host.HandlerFailed += _ => told++;
+        host.Session.HandlerFailed += _ => told++;
         host.Refused += (_, _) => throw new FormatException("a handler that breaks its promise");
         Assert.True(host.WaitUntilRunning(Deadline));
 
@@ -375,36 +297,4 @@ public sealed class PeerThreadRulesTests
             [nameof(Session.LogLength)] = session => _ = session.LogLength,
             [nameof(Session.BegunFrom)] = session => _ = session.BegunFrom,
         };
-
-    /// <summary>A socket that tells whether it was disposed of.</summary>
-    private sealed class OwnedPort : IDatagramPort
-    {
-        private readonly UdpPort inner = new(new IPEndPoint(IPAddress.Loopback, 0));
-
-        public event Action? Arrived
-        {
-            add => inner.Arrived += value;
-            remove => inner.Arrived -= value;
-        }
-
-        /// <summary>Whether the next read throws.</summary>
-        public bool Breaks { get; init; }
-
-        public int Disposals { get; private set; }
-
-        public bool IsDisposed => Disposals > 0;
-
-        public PeerAddress LocalAddress => inner.LocalAddress;
-
-        public void Send(ReadOnlySpan<byte> datagram, PeerAddress to) => inner.Send(datagram, to);
-
-        public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from) =>
-            Breaks ? throw new FormatException("a carrier that breaks") : inner.TryReceive(buffer, out length, out from);
-
-        public void Dispose()
-        {
-            Disposals++;
-            inner.Dispose();
-        }
-    }
 }

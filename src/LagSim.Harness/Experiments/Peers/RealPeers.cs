@@ -62,7 +62,7 @@ public sealed class RealPeers : PeerGroup
                     : new ClientSession(scene, port, own, ClientOptions.From(session), ports[0].LocalAddress, number),
                 port,
                 $"LagSim peer {peer}");
-            threads[peer].HandlerFailed += failure => handlerFailure ??= failure;
+            threads[peer].Session.HandlerFailed += failure => handlerFailure ??= failure;
         }
     }
 

@@ -48,7 +48,7 @@ internal sealed class HandlerList<THandler>(SessionOwner owner)
             }
             catch (Exception failure) when (owner.IsTaken && failure is not OutOfMemoryException)
             {
-                owner.TellFailure(failure);
+                owner.Failures.Report(failure);
             }
         }
     }
