@@ -66,7 +66,7 @@ internal static class HeapHealTable
         ExternalEvent[] pushes = [.. Enumerable.Range(0, (int)(Players * EventsPerSecond * row.Seconds)).Select(n => ExternalEvent.Impulse(
             SimTime.FromSeconds(settled + (n / (Players * EventsPerSecond))), (byte)(1 + (n % Players)), (uint)n + 1, BodyId.OfScene(random.Next(row.Balls)),
             new Vector3D(random.NextDouble() - 0.5, random.NextDouble(), random.NextDouble() - 0.5) * (2 * Push)))];
-        WorkLedger work = new() { MaxAStep = double.PositiveInfinity };
+        WorkLedger work = new() { MaxWorkPerStep = double.PositiveInfinity };
         world.Engine.Meter.Observer = work;
         double began = ThreadClock.Microseconds;
         int next = 0;

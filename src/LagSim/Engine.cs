@@ -42,7 +42,7 @@ internal sealed class Engine
         Bodies = new BodyTable(expected);
         scheduler = new EventScheduler(expected);
         log = new EventLog(expected);
-        flights = new FreeFlights(scene.Gravity, scene.Resolution, scene.Box, expected, 0.5 * scene.ContactTolerance);
+        flights = new FreeFlights(scene.Gravity, scene.RestitutionThreshold, scene.Box, expected, 0.5 * scene.ContactTolerance);
         Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, parts.TimelineGrowth(start, options.History));
         Timelines.ForgetBefore(from);
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress);

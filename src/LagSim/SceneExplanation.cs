@@ -228,7 +228,7 @@ public sealed class SceneExplanation
             new FeatureExplanation(
                 "rest on planes", canLast,
                 canLast
-                    ? "Planes under gravity: bounces below the resolution end in sliding or rest, which cost nothing."
+                    ? "Planes under gravity: bounces below the restitution threshold end in sliding or rest, which cost nothing."
                     : "There is no plane, or no gravity to press on it."),
             islands,
             new FeatureExplanation("contact tolerance", islands.IsModelled, Tolerance(scene)),

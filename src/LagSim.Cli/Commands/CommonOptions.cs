@@ -23,7 +23,7 @@ internal sealed class CommonOptions
     internal const string Interpolating = "interpolation";
 
     /// <summary>Characters that words to choose from may take in the left column of help; longer lists stand in the description.</summary>
-    private const int MostOfWords = 30;
+    private const int MaxWordsLength = 30;
 
     private const string DisplayDelayName = "--display-delay-ms";
 
@@ -162,7 +162,7 @@ internal sealed class CommonOptions
     /// <summary>An option that takes one of some words.</summary>
     internal static Option<string> Word(string name, string description, string byDefault, params string[] words)
     {
-        bool areFew = words.Sum(word => word.Length + 1) <= MostOfWords;
+        bool areFew = words.Sum(word => word.Length + 1) <= MaxWordsLength;
         Option<string> option = new(name)
         {
             Description = areFew ? description : $"{description.TrimEnd('.')}: one of {string.Join(", ", words)}.",

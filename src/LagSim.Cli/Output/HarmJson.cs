@@ -75,7 +75,7 @@ internal static class HarmJson
                 json.WriteNumber("players", c.Players);
                 json.WriteNumber("events", c.Events);
                 json.WriteNumber("work_per_s", c.WorkPerSecond);
-                json.WriteNumber("most_at_once", c.MaxAtOnce);
+                json.WriteNumber("most_at_once", c.PeakWork);
                 json.WriteNumber("part_of_budget", c.Part);
                 json.WriteNumber("sent_away", c.Expelled);
                 json.WriteEndObject();

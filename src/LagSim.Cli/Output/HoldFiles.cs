@@ -132,7 +132,7 @@ internal static class HoldFiles
         {
             csv.WriteRow(
             [
-                error.HorizonMilliseconds, error.AdaptiveMetres, error.BestInHindsightMetres, error.LinearMetres, error.MinWorstMetres,
+                error.HorizonMilliseconds, error.AdaptiveMetres, error.BestInHindsightMetres, error.LinearMetres, error.LowerBoundMetres,
                 .. error.CandidateMetres.Select(metres => (object?)metres),
             ]);
         }

@@ -82,7 +82,7 @@ internal static class HoldJson
         json.WriteNumber("best_in_hindsight_m", error.BestInHindsightMetres);
         json.WriteString("best_in_hindsight", AdaptivePredictor.Candidates[error.BestCandidate]);
         json.WriteNumber("linear_bound_m", error.LinearMetres);
-        json.WriteNumber("least_worst_m", error.MinWorstMetres);
+        json.WriteNumber("least_worst_m", error.LowerBoundMetres);
         json.WriteNumber("samples", error.Samples);
         json.WriteEndObject();
     }

@@ -241,7 +241,7 @@ internal sealed class SessionPrinter
             document.WriteStartObject();
             document.WriteNumber("player", cost.Player);
             document.WriteNumber("work", cost.Work);
-            document.WriteNumber("most_at_once", cost.MaxAtOnce);
+            document.WriteNumber("most_at_once", cost.PeakWork);
             document.WriteEndObject();
         }
 

@@ -137,7 +137,7 @@ public static class BuiltInScenes
         ArgumentNullException.ThrowIfNull(scene);
         SceneBuilder builder = new SceneBuilder(scene.Name)
             .WithGravity(scene.Gravity)
-            .WithResolution(scene.Resolution)
+            .WithRestitutionThreshold(scene.RestitutionThreshold)
             .WithContactTolerance(scene.ContactTolerance)
             .WithSmallestRadius(scene.SmallestRadius)
             .WithSpawners(scene.Spawners)

@@ -106,7 +106,7 @@ internal ref partial struct SceneJsonReader
         foreach (string name in names)
         {
             int at = known.IndexOf(name);
-            set |= at is >= 0 and < ForceSet.Most ? ForceSet.Of(at) : ForceSet.None; // too many forces are the builder's to refuse
+            set |= at is >= 0 and < ForceSet.MaxForces ? ForceSet.Of(at) : ForceSet.None; // too many forces are the builder's to refuse
         }
 
         return set;

@@ -62,8 +62,8 @@ internal ref partial struct SceneJsonReader
                     Add(b => b.WithGravity(gravity));
                     break;
                 case "resolution_m":
-                    double resolution = cursor.Number();
-                    Add(b => b.WithResolution(resolution));
+                    double restitutionThreshold = cursor.Number();
+                    Add(b => b.WithRestitutionThreshold(restitutionThreshold));
                     break;
                 case "contact_tolerance_m":
                     double tolerance = cursor.Number();

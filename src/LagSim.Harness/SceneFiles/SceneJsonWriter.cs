@@ -28,7 +28,7 @@ internal static class SceneJsonWriter
         json.WriteString("format", SceneFile.Format);
         json.WriteString("name", scene.Name);
         Vector(json, "gravity_m_per_s2", scene.Gravity);
-        json.WriteNumber("resolution_m", scene.Resolution);
+        json.WriteNumber("resolution_m", scene.RestitutionThreshold);
         json.WriteNumber("contact_tolerance_m", scene.ContactTolerance);
 
         // Where it is what the bodies say anyway it stays open, so that someone who edits a radius need not think of it.

@@ -19,8 +19,8 @@ internal struct ClockExchange
         back = ownReceive;
         most = otherReceive - ownSend; // when it left, the other clock had not yet read what it read on arrival
         least = otherSend - ownReceive; // when it came back, the other clock had already read what it read on leaving
-        DriftFloor = double.NegativeInfinity;
-        DriftLimit = double.PositiveInfinity;
+        MinDriftSeen = double.NegativeInfinity;
+        MaxDriftSeen = double.PositiveInfinity;
     }
 
     /// <summary>The local time at which it came back.</summary>
@@ -30,10 +30,10 @@ internal struct ClockExchange
     internal readonly SimDuration Least => least;
 
     /// <summary>The least drift that this exchange and those before it allow, as a fraction.</summary>
-    internal double DriftFloor { get; private set; }
+    internal double MinDriftSeen { get; private set; }
 
     /// <summary>The most drift that this exchange and those before it allow, as a fraction.</summary>
-    internal double DriftLimit { get; private set; }
+    internal double MaxDriftSeen { get; private set; }
 
     /// <summary>The time from the request to the answer, in seconds of the local clock, including the wait at the other peer.</summary>
     internal readonly double Length => (back - left).ToSeconds();
@@ -42,10 +42,10 @@ internal struct ClockExchange
     internal readonly double Width(double drift) => (most - least).ToSeconds() + (drift * Length);
 
     /// <summary>The greatest possible offset at a local time, in seconds above a reference, for that drift.</summary>
-    internal readonly double MostAt(SimTime at, SimDuration reference, double drift) => (most - reference).ToSeconds() + (drift * (at - left).ToSeconds());
+    internal readonly double UpperBoundAt(SimTime at, SimDuration reference, double drift) => (most - reference).ToSeconds() + (drift * (at - left).ToSeconds());
 
     /// <summary>The least possible offset at a local time, in seconds above a reference, for that drift.</summary>
-    internal readonly double LeastAt(SimTime at, SimDuration reference, double drift) => (least - reference).ToSeconds() + (drift * (at - back).ToSeconds());
+    internal readonly double LowerBoundAt(SimTime at, SimDuration reference, double drift) => (least - reference).ToSeconds() + (drift * (at - back).ToSeconds());
 
     /// <summary>How long ago its midpoint was, in seconds.</summary>
     internal readonly double Age(SimTime at) => ((at - left).ToSeconds() + (at - back).ToSeconds()) / 2;
@@ -75,9 +75,9 @@ internal struct ClockExchange
     }
 
     /// <summary>Intersects with a narrower range of drift.</summary>
-    internal void Intersect(double driftFloor, double driftLimit)
+    internal void Intersect(double minDrift, double maxDrift)
     {
-        DriftFloor = driftFloor > DriftFloor ? driftFloor : DriftFloor;
-        DriftLimit = driftLimit < DriftLimit ? driftLimit : DriftLimit;
+        MinDriftSeen = minDrift > MinDriftSeen ? minDrift : MinDriftSeen;
+        MaxDriftSeen = maxDrift < MaxDriftSeen ? maxDrift : MaxDriftSeen;
     }
 }

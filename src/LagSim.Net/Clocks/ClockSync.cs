@@ -173,11 +173,11 @@ internal sealed class ClockSync
             if (exchange.Width(steepest) <= newest.Width(steepest))
             {
                 newest = exchange;
-                newest.Intersect(other.DriftFloor, other.DriftLimit);
+                newest.Intersect(other.MinDriftSeen, other.MaxDriftSeen);
             }
             else
             {
-                newest.Intersect(exchange.DriftFloor, exchange.DriftLimit);
+                newest.Intersect(exchange.MinDriftSeen, exchange.MaxDriftSeen);
             }
         }
         else
@@ -205,8 +205,8 @@ internal sealed class ClockSync
         double least = -MaxDrift, most = MaxDrift;
         for (int i = 0; i < count; i++)
         {
-            least = Math.Max(least, kept[i].DriftFloor - (Wander * Millionth));
-            most = Math.Min(most, kept[i].DriftLimit + (Wander * Millionth));
+            least = Math.Max(least, kept[i].MinDriftSeen - (Wander * Millionth));
+            most = Math.Min(most, kept[i].MaxDriftSeen + (Wander * Millionth));
         }
 
         (double low, double high) = Limits(at, reference, least, most, 0);
@@ -235,18 +235,18 @@ internal sealed class ClockSync
     /// </summary>
     /// <param name="at">The local time.</param>
     /// <param name="reference">The reference.</param>
-    /// <param name="driftFloor">The least drift, as a fraction.</param>
-    /// <param name="driftLimit">The most drift, as a fraction.</param>
+    /// <param name="minDrift">The least drift, as a fraction.</param>
+    /// <param name="maxDrift">The most drift, as a fraction.</param>
     /// <param name="widening">
     /// How much the range of an exchange widens with its age, equally to both sides, so that its midpoint stays.
     /// </param>
-    private (double Low, double High) Limits(SimTime at, SimDuration reference, double driftFloor, double driftLimit, double widening)
+    private (double Low, double High) Limits(SimTime at, SimDuration reference, double minDrift, double maxDrift, double widening)
     {
         double low = double.NegativeInfinity, high = double.PositiveInfinity;
         for (int i = 0; i < count; i++)
         {
-            low = Math.Max(low, kept[i].LeastAt(at, reference, driftFloor) - (widening * kept[i].Age(at)));
-            high = Math.Min(high, kept[i].MostAt(at, reference, driftLimit) + (widening * kept[i].Age(at)));
+            low = Math.Max(low, kept[i].LowerBoundAt(at, reference, minDrift) - (widening * kept[i].Age(at)));
+            high = Math.Min(high, kept[i].UpperBoundAt(at, reference, maxDrift) + (widening * kept[i].Age(at)));
         }
 
         return (low, high);

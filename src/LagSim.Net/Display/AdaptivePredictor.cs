@@ -18,7 +18,7 @@ namespace LagSim.Net.Display;
 /// to tune: a calm hand is followed, a shaken one is not.</para>
 /// <para>What to expect: on generated hand motion the rms error stays within 1.15 of that of the best candidate in hindsight. Nothing can
 /// promise an error below A L^2 / 2 for a hand that may accelerate by A (m/s^2) since its newest sample, L seconds ago: see
-/// <see cref="MinWorstError"/>.</para>
+/// <see cref="ErrorLowerBound"/>.</para>
 /// <para>It remembers 512 samples, so it can learn for spans up to what those cover. Memory is fixed; nothing is allocated after
 /// construction. A sample costs some ten microseconds, a prediction far less; when the span changes for good by a quarter or more, one
 /// prediction reprocesses all it remembers. Not thread-safe.</para>
@@ -82,7 +82,7 @@ public sealed class AdaptivePredictor
     /// prediction is wrong by half of that for one of them.
     /// </remarks>
     /// <exception cref="ArgumentOutOfRangeException">A value is negative or not finite.</exception>
-    public static double MinWorstError(double acceleration, SimDuration delay)
+    public static double ErrorLowerBound(double acceleration, SimDuration delay)
     {
         if (!(acceleration >= 0) || double.IsInfinity(acceleration))
         {

@@ -4,11 +4,11 @@ namespace LagSim.Net.Sessions;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct PlayerCost
 {
-    internal PlayerCost(byte player, double work, double maxAtOnce)
+    internal PlayerCost(byte player, double work, double peakWork)
     {
         Player = player;
         Work = work;
-        MaxAtOnce = maxAtOnce;
+        PeakWork = peakWork;
     }
 
     /// <summary>The player's number.</summary>
@@ -18,5 +18,5 @@ public readonly struct PlayerCost
     public double Work { get; }
 
     /// <summary>The most that was ever spent of <see cref="PlayerBudget.WorkAtOnce"/>; 0 without a budget.</summary>
-    public double MaxAtOnce { get; }
+    public double PeakWork { get; }
 }

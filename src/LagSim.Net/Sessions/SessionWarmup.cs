@@ -37,7 +37,7 @@ internal sealed class SessionWarmup
     private const int FramesToStart = 30;
 
     /// <summary>The number of bodies that the host lets one player spawn.</summary>
-    private const int SpawnLimit = 2;
+    private const int MaxSpawnedBodies = 2;
 
     /// <summary>How often each peer steps within a frame: for an event, its acknowledgement, and the reply to that.</summary>
     private const int TurnsAFrame = 3;
@@ -56,7 +56,7 @@ internal sealed class SessionWarmup
     private SessionWarmup(LateEventStrategy strategy, Scene scene)
     {
         (hostPort, clientPort) = WarmupPort.Pair();
-        host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, SpawnLimit), 1), hostPort, "warm-up host");
+        host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, MaxSpawnedBodies), 1), hostPort, "warm-up host");
         for (int n = 0; n < FramesToStart; n++)
         {
             clock.Now += Frame;
@@ -129,14 +129,14 @@ internal sealed class SessionWarmup
         return warmup;
     }
 
-    private static HostOptions Options(LateEventStrategy strategy, int spawnLimit) => new()
+    private static HostOptions Options(LateEventStrategy strategy, int maxSpawned) => new()
     {
         Strategy = strategy,
         Warmup = false,
         StartLead = SimDuration.Zero,
         CommitInterval = SimDuration.FromMilliseconds(100),
         Window = new LatencyCompensationWindow(SimDuration.FromMilliseconds(200)),
-        MaxSpawned = spawnLimit,
+        MaxSpawned = maxSpawned,
         Threads = 1,
     };
 
@@ -181,7 +181,7 @@ internal sealed class SessionWarmup
             PlayerAction action = Action(kind, body, spawned);
             ExternalEvent done = Do(player, action);
             spawned = kind == EventKind.Spawn ? done.Body : spawned;
-            for (int n = 0; n < SpawnLimit && kind == EventKind.Spawn && player == client; n++)
+            for (int n = 0; n < MaxSpawnedBodies && kind == EventKind.Spawn && player == client; n++)
             {
                 Do(player, action); // the last one exceeds the host's limit and is retracted
             }

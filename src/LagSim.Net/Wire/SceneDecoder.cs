@@ -59,7 +59,7 @@ internal ref struct SceneDecoder
 
         SceneBuilder builder = new(WireText.Read(ref reader));
         builder.WithGravity(reader.ReadVector());
-        builder.WithResolution(reader.ReadDouble());
+        builder.WithRestitutionThreshold(reader.ReadDouble());
         builder.WithContactTolerance(reader.ReadDouble());
         builder.WithSmallestRadius(reader.ReadDouble());
         builder.WithSpawners(PeerSet.FromMask(reader.ReadUInt16()));
@@ -79,7 +79,7 @@ internal ref struct SceneDecoder
 
     private void ReadForces(SceneBuilder builder)
     {
-        int count = Begin("force", ForceSet.Most, SceneFormat.ForceBytes);
+        int count = Begin("force", ForceSet.MaxForces, SceneFormat.ForceBytes);
         while (IsSound && number < count)
         {
             number++;

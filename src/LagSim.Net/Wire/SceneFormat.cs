@@ -26,7 +26,7 @@ internal static class SceneFormat
 
     /// <summary>The longest scene, in bytes.</summary>
     public const int MaxBytes = 1 + MaxTextBytes + HeadBytes
-        + (ForceSet.Most * (MaxTextBytes + ForceBytes))
+        + (ForceSet.MaxForces * (MaxTextBytes + ForceBytes))
         + (2 * MaxStaticParts * (MaxTextBytes + StaticPartBytes))
         + (MaxBodies * (MaxTextBytes + BodyBytes)) + EventFormat.VectorBytes;
 
@@ -34,7 +34,7 @@ internal static class SceneFormat
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24; // both kinds: a vector and three numbers
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
-    // Gravity, resolution, contact tolerance, smallest radius, spawners, four counts.
+    // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, four counts.
     private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (3 * 2);
 
     /// <summary>Encodes a scene. Cost: O(n) in its parts.</summary>
@@ -49,7 +49,7 @@ internal static class SceneFormat
         writer.WriteByte(WireFormat.Version);
         WireText.Write(ref writer, scene.Name);
         writer.WriteVector(scene.Gravity);
-        writer.WriteDouble(scene.Resolution);
+        writer.WriteDouble(scene.RestitutionThreshold);
         writer.WriteDouble(scene.ContactTolerance);
         writer.WriteDouble(scene.SmallestRadius);
         writer.WriteUInt16(scene.Spawners.Mask);

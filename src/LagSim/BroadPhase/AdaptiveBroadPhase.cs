@@ -16,7 +16,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
     private int outgrownAt; // number of bodies too wide or fast for the cells at which other cells are tried
 
     /// <summary>At about so many others a body looks, however many there are.</summary>
-    internal const int MaxLooks = 64;
+    internal const int UsualCandidates = 64;
 
     /// <summary>The broad phase in use; not to be called before <see cref="Begin"/>.</summary>
     internal IBroadPhase Current { get; private set; } = null!;
@@ -73,7 +73,7 @@ internal class AdaptiveBroadPhase(Scene scene, BodyTable bodies, TimelineStore t
 
     /// <summary>Makes the broad phase for many bodies; see <see cref="NeighbourLists"/>.</summary>
     private protected virtual NeighbourLists MakeLists(double cell, double speed, double tickLength) =>
-        new(timelines, cell, speed, scene.Resolution, tickLength, scene.Box, bodies.SlotCount);
+        new(timelines, cell, speed, scene.RestitutionThreshold, tickLength, scene.Box, bodies.SlotCount);
 
     private NeighbourLists NewLists()
     {

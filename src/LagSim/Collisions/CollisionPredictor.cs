@@ -25,7 +25,7 @@ internal sealed class CollisionPredictor(
 
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly PeriodicBox box = scene.Box;
-    private readonly double resolution = scene.Resolution;
+    private readonly double restitutionThreshold = scene.RestitutionThreshold;
     private readonly Paths paths = new(timelines);
 
     /// <summary>The next contact of a body's newest segment with a static surface: planes by index, static spheres after them.</summary>
@@ -259,7 +259,7 @@ internal sealed class CollisionPredictor(
     /// </summary>
     private SimDuration WaitFor(in Closing closing, bool holds, bool isElastic)
     {
-        double room = 2 * closing.Room(resolution);
+        double room = 2 * closing.Room(restitutionThreshold);
         room = !holds ? room : isElastic ? Math.Max(room, scale.LookDepth + (2 * Math.Min(0, closing.Gap))) : scale.LookDepth;
         double seconds = UntilDeep(room, closing.Speed, closing.Pressing);
         SimDuration wait = TickConversion.TryFromSeconds(seconds, out long ticks) ? SimDuration.FromTicks(ticks) : SimDuration.MaxValue;

@@ -99,8 +99,8 @@ internal sealed class EventQueue
     /// Whether nothing is pending up to and including the time of the least key but that, of one slot and of another that waits for the
     /// same.
     /// </summary>
-    internal bool IsMinAloneWith(int other, in EventKey least) =>
-        other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.IsMinAloneWith(other);
+    internal bool AreTheOnlyLeast(int other, in EventKey least) =>
+        other < nodes.Length && nodes[other].Where >= Near && nodes[other].Key == least && near.AreTheOnlyLeast(other);
 
     /// <summary>Makes this the slot's one pending event, in place of any other.</summary>
     internal void Set(int slot, in EventKey key)

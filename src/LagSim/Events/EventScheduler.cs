@@ -44,7 +44,7 @@ internal sealed class EventScheduler(int expected)
     /// Whether nothing is pending up to and including the time of the least key but that, of one body and of another that waits for the
     /// same.
     /// </summary>
-    internal bool IsMinAloneWith(int other, in EventKey least) => queue.IsMinAloneWith(other, least);
+    internal bool AreTheOnlyLeast(int other, in EventKey least) => queue.AreTheOnlyLeast(other, least);
 
     /// <summary>Makes this the body's one pending event, in place of any other.</summary>
     internal void Set(int slot, in EventKey key, in PendingContact contact)

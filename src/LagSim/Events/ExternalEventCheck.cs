@@ -95,7 +95,7 @@ public static class ExternalEventCheck
     private static void CheckPlace(in Vector3D position, double radius, Scene scene, Subject whose)
     {
         Limits.CheckPlaceInBox(position, scene.Box, whose);
-        double slack = scene.Resolution + (1e-15 * (position.Length + radius));
+        double slack = scene.RestitutionThreshold + (1e-15 * (position.Length + radius));
         foreach (StaticPlane plane in scene.PlaneArray)
         {
             double gap = plane.Gap(position, radius);

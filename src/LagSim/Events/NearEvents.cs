@@ -20,7 +20,7 @@ internal sealed class NearEvents
     internal int MinSlot => items[0].Slot;
 
     /// <summary>Whether all others but one slot's come at a later time than the least.</summary>
-    internal bool IsMinAloneWith(int other)
+    internal bool AreTheOnlyLeast(int other)
     {
         long ticks = items[0].Ticks;
         int at = 0;

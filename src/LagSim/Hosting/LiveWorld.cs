@@ -128,7 +128,7 @@ public sealed class LiveWorld
     /// </summary>
     internal long Effort { get; set; } = DefaultEffort;
 
-    private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.MaxLooks) + 8));
+    private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.UsualCandidates) + 8));
 
     /// <summary>
     /// Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to

@@ -29,10 +29,10 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>The account of no player: the scene's own, before any action.</summary>
     public const byte Nobody = byte.MaxValue;
 
-    private const double DefaultMaxAStep = 20_000;
+    private const double DefaultMaxWorkPerStep = 20_000;
 
     /// <summary>One event never takes longer: this thread was not at work meanwhile.</summary>
-    private static readonly SimDuration MaxAnEvent = SimDuration.FromMilliseconds(20);
+    private static readonly SimDuration MaxTimePerEvent = SimDuration.FromMilliseconds(20);
 
     private static readonly SimDuration TouchedFor = SimDuration.FromSeconds(30);
     private static readonly SimDuration StruckFor = SimDuration.FromSeconds(2);
@@ -64,7 +64,7 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>
     /// The largest cost of a step before it continues in the next, in units of about a microsecond; above zero, default 20,000.
     /// </summary>
-    public double MaxAStep { get; set; } = DefaultMaxAStep;
+    public double MaxWorkPerStep { get; set; } = DefaultMaxWorkPerStep;
 
     /// <summary>The amount charged to a player's account so far, in units of about a microsecond.</summary>
     public double ChargedTo(byte player) => accounts[player].Charged;
@@ -184,7 +184,7 @@ public sealed class WorkLedger : IWorkObserver
         SimTime now = clock.Now;
         SimDuration took = now - measured;
         measured = now;
-        return Math.Max(0, (took > MaxAnEvent ? MaxAnEvent : took).ToSeconds() * 1e6);
+        return Math.Max(0, (took > MaxTimePerEvent ? MaxTimePerEvent : took).ToSeconds() * 1e6);
     }
 
     /// <inheritdoc/>
@@ -244,7 +244,7 @@ public sealed class WorkLedger : IWorkObserver
             Note(bodies, owner, key.Time, mine / bodies.Length);
         }
 
-        return thisStep >= MaxAStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
+        return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
     }
 
     private void Note(Span<int> bodies, byte struckBy, SimTime at, double each)

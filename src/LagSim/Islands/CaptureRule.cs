@@ -62,14 +62,14 @@ internal sealed class CaptureRule(
         Vector3D velocity = graph.Velocities[c.First] - (isPair ? graph.Velocities[c.Second] : Vector3D.Zero);
         Vector3D acceleration = graph.Accelerations[c.First] - (isPair ? graph.Accelerations[c.Second] : Vector3D.Zero);
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - CollisionPredictor.FallingAway(c.Normal, velocity, graph.ReachOf(c));
-        double rises = restitution < 1 ? scale.Length : scene.Resolution;
+        double rises = restitution < 1 ? scale.Length : scene.RestitutionThreshold;
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * scale.Step.ToSeconds());
     }
 
     private double PullOn(int body, SimTime time) => members.PullOn(graph.Slots[body], time, graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
 
     /// <summary>
-    /// Whether the bounces of a contact are followed down to the scene's resolution, and a closed form carries its body then: alone on
+    /// Whether the bounces of a contact are followed down to the scene's restitution threshold, and a closed form carries its body then: alone on
     /// planes, of which one rubs at most if it is the only one.
     /// </summary>
     private bool IsCarriedByClosedForm(in ContactPoint c)

@@ -117,7 +117,7 @@ internal class CollapseRule(
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.Resolution
+        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.RestitutionThreshold
             && TakesIn(strikes.On(last, surface, time));
     }
 
@@ -127,7 +127,7 @@ internal class CollapseRule(
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
         return timelines.Segment(piece).IsPresent && !(paths.IsHeld(last) && paths.IsHeld(piece))
-            && Gap(slot, last, other, piece, time) <= scene.Resolution
+            && Gap(slot, last, other, piece, time) <= scene.RestitutionThreshold
             && TakesIn(strikes.Between(last, piece, time));
     }
 

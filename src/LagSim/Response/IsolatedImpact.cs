@@ -68,9 +68,9 @@ internal class IsolatedImpact(
             && !scheduler.Contact(slot).IsTied && flights.IsFree(slot);
         int other = scheduler.Contact(slot).Partner;
         return isPlain && (other == PendingContact.NoPartner
-            ? scheduler.IsMinAloneWith(slot, key)
+            ? scheduler.AreTheOnlyLeast(slot, key)
             : scheduler.Contact(other).Partner == slot && !scheduler.Contact(other).IsTied && flights.IsFree(other)
-                && scheduler.IsMinAloneWith(other, key) && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
+                && scheduler.AreTheOnlyLeast(other, key) && TouchesNoSurface(slot, key.Time) && TouchesNoSurface(other, key.Time));
     }
 
     private bool TouchesNoSurface(int slot, SimTime time)

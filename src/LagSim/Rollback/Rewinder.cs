@@ -19,7 +19,7 @@ internal class Rewinder : IOpeningObserver
     /// The causal cones of so many late events, each in a place of its own, may take up an eighth of all bodies each; more share that half,
     /// where a cone is about as dear as a full rollback.
     /// </summary>
-    private const int MaxConesApart = 4;
+    private const int MaxSeparateCones = 4;
 
     private readonly BodyTable bodies;
     private readonly TimelineStore timelines;
@@ -240,7 +240,7 @@ internal class Rewinder : IOpeningObserver
     /// Whether simulating all bodies again costs less than finding out at every step which bodies are ahead, and what they did there.
     /// </summary>
     private bool IsNearlyFull() =>
-        rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MaxConesApart));
+        rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MaxSeparateCones));
 
     /// <summary>Cuts every timeline at the key and has all bodies predicted again.</summary>
     private void RewindAll(in EventKey key)

@@ -71,6 +71,6 @@ internal static class FlightLaws
     }
 
     /// <summary>The fastest rate, in 1/s, that a body's fixed steps follow.</summary>
-    internal static double MaxRateFollowed(in BodySpec spec) =>
+    internal static double MaxStableRate(in BodySpec spec) =>
         (spec.Flight == MotionLaw.RungeKutta4 ? RateTimesStepOfRungeKutta4 : RateTimesStepOfDormandPrince54) / ShortestStep(spec).ToSeconds();
 }

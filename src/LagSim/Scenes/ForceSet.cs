@@ -11,7 +11,7 @@ namespace LagSim.Scenes;
 public readonly struct ForceSet : IEquatable<ForceSet>
 {
     /// <summary>The most forces a scene has.</summary>
-    public const int Most = 32;
+    public const int MaxForces = 32;
 
     private ForceSet(uint mask) => Mask = mask;
 
@@ -25,17 +25,17 @@ public readonly struct ForceSet : IEquatable<ForceSet>
     public bool IsEmpty => Mask == 0;
 
     /// <summary>The set of the scene's n-th force alone, counted from 0.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">Below 0, or not below <see cref="Most"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">Below 0, or not below <see cref="MaxForces"/>.</exception>
     public static ForceSet Of(int number) =>
-        number is >= 0 and < Most
+        number is >= 0 and < MaxForces
             ? new ForceSet(1U << number)
-            : throw new ArgumentOutOfRangeException(nameof(number), number, $"A scene's forces are numbered 0 to {Most - 1}.");
+            : throw new ArgumentOutOfRangeException(nameof(number), number, $"A scene's forces are numbered 0 to {MaxForces - 1}.");
 
     /// <summary>The set of those bits.</summary>
     public static ForceSet FromMask(uint mask) => new(mask);
 
     /// <summary>Whether the scene's n-th force, counted from 0, is one of them.</summary>
-    public bool Contains(int number) => number is >= 0 and < Most && (Mask & (1U << number)) != 0;
+    public bool Contains(int number) => number is >= 0 and < MaxForces && (Mask & (1U << number)) != 0;
 
     /// <summary>The forces of both.</summary>
     public static ForceSet operator |(ForceSet a, ForceSet b) => new(a.Mask | b.Mask);
@@ -59,7 +59,7 @@ public readonly struct ForceSet : IEquatable<ForceSet>
     public override string ToString()
     {
         StringBuilder text = new("{");
-        for (int n = 0; n < Most; n++)
+        for (int n = 0; n < MaxForces; n++)
         {
             if (Contains(n))
             {

@@ -147,9 +147,9 @@ internal static class Limits
             sum += force.Kind == ForceKind.QuadraticDrag ? 0 : rate; // which is not that where the body starts
         }
 
-        if (FlightLaws.HasFixedSteps(spec) && sum > FlightLaws.MaxRateFollowed(spec))
+        if (FlightLaws.HasFixedSteps(spec) && sum > FlightLaws.MaxStableRate(spec))
         {
-            double most = FlightLaws.MaxRateFollowed(spec);
+            double most = FlightLaws.MaxStableRate(spec);
             throw new SceneException(
                 $"On {whose}, of {Text(spec.Mass)} kg, the forces {spec.Forces.NamesAmong(forces)} act together at a rate of {Above(sum, most)} 1/s; at most"
                 + $" {Short(most)} 1/s is allowed under {spec.Flight} with fixed steps, which are halved to {Short(FlightLaws.ShortestStep(spec).ToSeconds())} s. Make"

@@ -19,7 +19,7 @@ public sealed class Scene
     internal Scene(
         string name,
         Vector3D gravity,
-        double resolution,
+        double restitutionThreshold,
         double contactTolerance,
         StaticPlane[] planes,
         StaticSphere[] spheres,
@@ -31,7 +31,7 @@ public sealed class Scene
     {
         Name = name;
         Gravity = gravity;
-        Resolution = resolution;
+        RestitutionThreshold = restitutionThreshold;
         ContactTolerance = contactTolerance;
         PlaneArray = planes;
         SphereArray = spheres;
@@ -53,7 +53,7 @@ public sealed class Scene
     /// <summary>
     /// The restitution threshold: the length in metres below which bounces on a plane are not followed one by one; default 1 nm.
     /// </summary>
-    public double Resolution { get; }
+    public double RestitutionThreshold { get; }
 
     /// <summary>
     /// How far, in metres, bodies in persistent contact may be from where an exact calculation has them: the one trade-off between speed
@@ -140,7 +140,7 @@ public sealed class Scene
 
     /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
-        new(Name, Gravity, Resolution, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
+        new(Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
 
     private static void ThrowIfNull(string name)
     {
@@ -168,7 +168,7 @@ public sealed class Scene
     {
         StableHash hash = default;
         hash.Add(Gravity);
-        hash.Add(Resolution);
+        hash.Add(RestitutionThreshold);
         hash.Add(SmallestRadius);
         hash.Add((ulong)PlaneArray.Length);
         foreach (StaticPlane plane in PlaneArray)

@@ -10,8 +10,8 @@ public sealed class SceneBuilder
     /// <summary>Gravity where a scene sets none: 9.81 m/s^2 downwards.</summary>
     public static readonly Vector3D DefaultGravity = new(0, -9.81, 0);
 
-    /// <summary>The resolution where a scene sets none: 1 nm.</summary>
-    public const double DefaultResolution = 1e-9;
+    /// <summary>The restitution threshold where a scene sets none: 1 nm.</summary>
+    public const double DefaultRestitutionThreshold = 1e-9;
 
     /// <summary>The largest contact tolerance where a scene sets none: 1 mm.</summary>
     public const double MaxDefaultContactTolerance = 1e-3;
@@ -36,7 +36,7 @@ public sealed class SceneBuilder
     private Vector3D gravity = DefaultGravity;
     private PeerSet spawners;
     private PeriodicBox box;
-    private double resolution = DefaultResolution;
+    private double restitutionThreshold = DefaultRestitutionThreshold;
     private double? contactTolerance;
     private double? smallestSpawn;
     private int? threads;
@@ -62,9 +62,9 @@ public sealed class SceneBuilder
     /// On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts
     /// is in contact.
     /// </remarks>
-    public SceneBuilder WithResolution(double metres)
+    public SceneBuilder WithRestitutionThreshold(double metres)
     {
-        resolution = metres;
+        restitutionThreshold = metres;
         return this;
     }
 
@@ -189,12 +189,12 @@ public sealed class SceneBuilder
     /// <param name="itself">The set of this force alone, for a <see cref="BodySpec"/>.</param>
     public SceneBuilder AddForce(Force force, out ForceSet itself)
     {
-        itself = forces.Count < ForceSet.Most ? ForceSet.Of(forces.Count) : ForceSet.None; // there it ends with an error on Build
+        itself = forces.Count < ForceSet.MaxForces ? ForceSet.Of(forces.Count) : ForceSet.None; // there it ends with an error on Build
         return AddForce(force);
     }
 
     /// <summary>Adds a force; the n-th added, counted from 0, is <see cref="ForceSet.Of"/> n. It acts on the bodies that have it in
-    /// <see cref="BodySpec.Forces"/>, at most <see cref="ForceSet.Most"/> there are.</summary>
+    /// <see cref="BodySpec.Forces"/>, at most <see cref="ForceSet.MaxForces"/> there are.</summary>
     /// <exception cref="ArgumentNullException">There is no force.</exception>
     public SceneBuilder AddForce(Force force)
     {
@@ -233,14 +233,14 @@ public sealed class SceneBuilder
             }
         });
         Scene? scene = null;
-        TwoAtOnce.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, resolution, Math.Max(1, used - 1)));
+        TwoAtOnce.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, restitutionThreshold, Math.Max(1, used - 1)));
         return scene!;
 
         void NameAndHash()
         {
             CheckNames();
             scene = new Scene(
-                name, gravity.WithoutNegativeZero(), resolution, contactTolerance ?? DefaultContactTolerance(smallest), planes.ToArray(), spheres.ToArray(),
+                name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest), planes.ToArray(), spheres.ToArray(),
                 bodyArray, forceArray, smallest, spawners, box);
         }
     }
@@ -287,7 +287,7 @@ public sealed class SceneBuilder
         }
 
         Limits.Components(gravity, 1e6, $"scene '{name}'", "gravity", "m/s^2");
-        Limits.InRange(resolution, 1e-15, 1e-3, $"scene '{name}'", "resolution", "m");
+        Limits.InRange(restitutionThreshold, 1e-15, 1e-3, $"scene '{name}'", "restitution threshold", "m");
         Limits.InRange(contactTolerance ?? MinContactTolerance, MinContactTolerance, MaxContactTolerance, $"scene '{name}'", "contact tolerance", "m");
         if (smallestSpawn is double least)
         {
@@ -304,9 +304,9 @@ public sealed class SceneBuilder
             throw new SceneException($"Scene '{name}' has {bodies.Count} bodies; at most {MaxBodies} are allowed.");
         }
 
-        if (forces.Count > ForceSet.Most)
+        if (forces.Count > ForceSet.MaxForces)
         {
-            throw new SceneException($"Scene '{name}' has {forces.Count} forces besides gravity; at most {ForceSet.Most} are allowed.");
+            throw new SceneException($"Scene '{name}' has {forces.Count} forces besides gravity; at most {ForceSet.MaxForces} are allowed.");
         }
 
         foreach (Force force in forces)

@@ -45,7 +45,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         string rates = RatesOn(slot, x, v, spin);
         if (tooStiff > 0)
         {
-            double most = FlightLaws.MaxRateFollowed(spec);
+            double most = FlightLaws.MaxStableRate(spec);
             string what = ActTooFast(forces.FixedStepRateAt(spec, x, v, spin), tooStiff, most);
             return new SimulationException(
                 $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to "

@@ -15,7 +15,7 @@ namespace LagSim.Trajectories;
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
 {
     /// <summary>The number of times that a body released inside static geometry is moved out of one surface after the other.</summary>
-    private const int MaxPuttingOut = 16;
+    private const int MaxPushOuts = 16;
 
     private readonly Paths paths = new(timelines);
 
@@ -59,7 +59,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
     {
-        if ((position - target).Length < scene.Resolution && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < scene.Resolution)
+        if ((position - target).Length < scene.RestitutionThreshold && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < scene.RestitutionThreshold)
         {
             Follow(slot, key, position, velocity, hold);
             return;
@@ -76,7 +76,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     private void Follow(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Hold hold)
     {
         // Slower than this it would not get as far as the scene resolves: what rounding leaves of a convergence on a hand that keeps still.
-        bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < scene.Resolution;
+        bool isStill = velocity.Length * HandPath.Stops.ToSeconds() < scene.RestitutionThreshold;
         MotionSegment path = isStill || key.Time >= hold.KeyframeTime + HandPath.Stops
             ? HandPath.Still(key.Time, hold.KeyframeTime, position)
             : HandPath.Brake(key.Time, hold.KeyframeTime, position, velocity);
@@ -124,7 +124,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         double radius = bodies.Spec(slot).Radius;
         Vector3D at = position;
         bool isInside = true;
-        for (int n = 0; n < MaxPuttingOut && isInside; n++)
+        for (int n = 0; n < MaxPushOuts && isInside; n++)
         {
             isInside = false;
             foreach (ref readonly StaticPlane plane in scene.PlaneArray.AsSpan())
@@ -132,7 +132,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
                 double gap = plane.Gap(at, radius);
                 if (gap < 0)
                 {
-                    isInside |= gap < -scene.Resolution;
+                    isInside |= gap < -scene.RestitutionThreshold;
                     at -= plane.Normal * gap;
                 }
             }
@@ -142,7 +142,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
                 double gap = (at - sphere.Centre).Length - sphere.Radius - radius;
                 if (gap < 0)
                 {
-                    isInside |= gap < -scene.Resolution;
+                    isInside |= gap < -scene.RestitutionThreshold;
                     at = sphere.Centre + ((at - sphere.Centre).Direction * (sphere.Radius + radius));
                 }
             }

@@ -199,13 +199,13 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
 
     /// <summary>
     /// By how much, in radians, the direction of something so fast may turn in a segment. A segment is off by its speed times the cube of
-    /// that; so what is slower than a hundred times what it gets within the scene's resolution, some 14 mm/s, may turn more, as the inverse
+    /// that; so what is slower than a hundred times what it gets within the scene's restitution threshold, some 14 mm/s, may turn more, as the inverse
     /// of the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
     /// thousands of segments, and what hops again and again would each time.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {
-        double slow = 100 * Math.Sqrt(2 * scene.Resolution * pull.Length);
+        double slow = 100 * Math.Sqrt(2 * scene.RestitutionThreshold * pull.Length);
         return speed < slow ? Math.Min(0.5, MaxTurn * Math.Sqrt(Math.Sqrt(slow / speed))) : MaxTurn;
     }
 

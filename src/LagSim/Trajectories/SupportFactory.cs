@@ -15,7 +15,7 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
 
     /// <summary>
     /// Rest or sliding, if after the impact no bounce is left that the scene resolves. The bounces that remain rise at most w^2 / 2a and
-    /// last 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's resolution they are left out, the body
+    /// last 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's restitution threshold they are left out, the body
     /// is put on the plane, and it rests from the end of that time on. Tangential motion continues unchanged: frictionless bounces do not
     /// affect it.
     /// </summary>
@@ -79,7 +79,7 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
     private double UnresolvedSpeed(int plane)
     {
         double pressing = -Vector3D.Dot(surfaces.Plane(plane).Normal, scene.Gravity);
-        return Math.Sqrt(2 * scene.Resolution * (pressing > 0 ? pressing : scene.Gravity.Length));
+        return Math.Sqrt(2 * scene.RestitutionThreshold * (pressing > 0 ? pressing : scene.Gravity.Length));
     }
 
     /// <summary>How long the bounces that are left out would have lasted; zero for what never loses speed, or has none.</summary>
@@ -102,7 +102,7 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
     }
 
     /// <summary>
-    /// The limit of the bounces lies on the plane; only what a bounce below the resolution leaves is taken away, never a real overlap.
+    /// The limit of the bounces lies on the plane; only what a bounce below the restitution threshold leaves is taken away, never a real overlap.
     /// </summary>
     private Vector3D OntoSupports(int slot, SupportSet supports, in Vector3D position)
     {
@@ -111,7 +111,7 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
         {
             ref readonly StaticPlane plane = ref surfaces.Plane(supports[k]);
             double gap = plane.Gap(onto, bodies.Spec(slot).Radius);
-            if (Math.Abs(gap) <= scene.Resolution)
+            if (Math.Abs(gap) <= scene.RestitutionThreshold)
             {
                 onto -= plane.Normal * gap;
             }

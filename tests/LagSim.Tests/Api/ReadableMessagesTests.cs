@@ -37,7 +37,7 @@ public sealed class ReadableMessagesTests
         ["live history"] = (() => _ = new LiveWorld(Drop(1, 1), new SimulationOptions(history: Span(0.01)), Span(0.1)), "0.01s"),
         ["committed"] = (() => Commit(0.7, 0.3), "0.3s"),
         ["span of display"] = (() => _ = new DisplayOptions(fastest: Span(0.3), slowest: Span(0.2)), "0.2s"),
-        ["delay of a hand"] = (() => AdaptivePredictor.MinWorstError(1, Span(-0.1)), "-0.1s"),
+        ["delay of a hand"] = (() => AdaptivePredictor.ErrorLowerBound(1, Span(-0.1)), "-0.1s"),
         ["option of a session"] = (() => new HostOptions { CommitInterval = Span(0.01) }.Check(), "0.01s"),
         ["knot"] = (() => Sample(0.7, 0.3), "0.3s"),
         ["longest without a knot"] = (() => _ = new HandSender(First, new HandSenderOptions { Longest = Span(7.1) }), "7.1s"),

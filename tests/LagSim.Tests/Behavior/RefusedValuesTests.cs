@@ -67,7 +67,7 @@ public sealed class RefusedValuesTests
         ["scene of two lines"] = (_ => new SceneBuilder("a\nb"), ["'a\uFFFDb' is no name for a scene", "the control character U+000A"]),
         ["scene of half a pair"] = (_ => new SceneBuilder("x\udc00"), ["'x\uFFFD' is no name for a scene", "half of a surrogate pair"]),
         ["gravity"] = (b => b.WithGravity(V(0, double.NaN)), ["gravity", "NaN"]),
-        ["resolution"] = (b => b.WithResolution(0), ["resolution", "0"]),
+        ["resolution"] = (b => b.WithRestitutionThreshold(0), ["restitution threshold", "0"]),
         ["contact tolerance"] = (b => b.WithContactTolerance(0.2), ["contact tolerance", "0.2", "1E-09", "0.1 m"]),
         ["nan contact tolerance"] = (b => b.WithContactTolerance(double.NaN), ["contact tolerance", "NaN"]),
         ["smallest radius"] = (b => b.WithSmallestRadius(-1), ["smallest radius", "-1"]),

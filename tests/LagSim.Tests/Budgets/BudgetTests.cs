@@ -51,7 +51,7 @@ public sealed class BudgetTests
         PlayerCost cost = group.Host.Costs.Single(c => c.Player == peer);
         Assert.True(cost.Work - before > 1000, $"{cost.Work - before}"); // it woke and moved
         Assert.Equal((true, 2), (late < 0.25, group.Host.ClientCount));
-        Assert.InRange(cost.MaxAtOnce, 1000, 0.9 * PlayerBudget.Default.WorkAtOnce);
+        Assert.InRange(cost.PeakWork, 1000, 0.9 * PlayerBudget.Default.WorkAtOnce);
     }
 
     /// <summary>The control: on a machine that is far too slow for it a heap does freeze the world.</summary>
@@ -200,7 +200,7 @@ public sealed class BudgetTests
     [Fact]
     public void Work_OfAWorldThatIsWatched_ChangesNoBit()
     {
-        LiveWorld watched = new(Room(), new SimulationOptions()) { Work = new WorkLedger { MaxAStep = 50 } };
+        LiveWorld watched = new(Room(), new SimulationOptions()) { Work = new WorkLedger { MaxWorkPerStep = 50 } };
         Simulation alone = new(Room());
         for (uint n = 1; n <= 20; n++)
         {

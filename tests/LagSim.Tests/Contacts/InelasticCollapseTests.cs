@@ -121,7 +121,7 @@ public sealed class InelasticCollapseTests
 
     /// <summary>
     /// Two heavy balls close slowly on a light one that touches both. If each touch could wait, it would go to and fro without end, by a
-    /// thousandth of the resolution and a millionth less fast each time. It is one collapse, after which they go on together.
+    /// thousandth of the restitution threshold and a millionth less fast each time. It is one collapse, after which they go on together.
     /// </summary>
     [Theory]
     [InlineData(1e-6, 8.7e-7, 0)]

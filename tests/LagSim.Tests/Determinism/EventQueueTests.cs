@@ -103,7 +103,7 @@ public sealed class EventQueueTests
     }
 
     [Fact]
-    public void IsLeastAloneWith_AnyQueue_AgreesWithALookAtAll()
+    public void AreTheOnlyLeast_AnyQueue_AgreesWithALookAtAll()
     {
         Random random = new(1);
         int alone = 0, crowded = 0;
@@ -121,10 +121,10 @@ public sealed class EventQueueTests
 
             int least = queue.MinSlot;
             bool expected = ticks.Count(t => t == 7) == 2;
-            Assert.Equal(expected, queue.IsMinAloneWith(1 - least, shared));
+            Assert.Equal(expected, queue.AreTheOnlyLeast(1 - least, shared));
             alone += expected ? 1 : 0;
             crowded += expected ? 0 : 1;
-            Assert.False(queue.IsMinAloneWith(count - 1 == 1 - least ? count : count - 1, shared), "who waits for something else, or for nothing");
+            Assert.False(queue.AreTheOnlyLeast(count - 1 == 1 - least ? count : count - 1, shared), "who waits for something else, or for nothing");
         }
 
         Assert.True(alone > 300 && crowded > 300, $"{alone} alone, {crowded} not");

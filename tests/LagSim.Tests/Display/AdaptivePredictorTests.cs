@@ -111,19 +111,19 @@ public sealed class AdaptivePredictorTests
     }
 
     [Fact]
-    public void MinWorstError_TwoHandsThatPart_NobodyDoesBetterForBothAndHoldingAttainsIt()
+    public void ErrorLowerBound_TwoHandsThatPart_NoPredictorDoesBetterForBothAndHoldingAttainsIt()
     {
         // Until 2 s the hand rests; then it may go either way with 10 m/s^2. Nobody can tell which 100 ms after the last sample.
-        double least = AdaptivePredictor.MinWorstError(10, SimDuration.FromSeconds(0.1));
+        double least = AdaptivePredictor.ErrorLowerBound(10, SimDuration.FromSeconds(0.1));
         Assert.Equal(0.05, least, 1e-12);
         AdaptivePredictor predictor = Heard(_ => V(0), V(0), 2);
         predictor.TryPredict(At(2.1), out Vector3D told);
         double worst = Math.Max((told - V(least)).Length, (told - V(-least)).Length);
         Assert.InRange(worst, least, 1.0001 * least);
         Assert.True((told - V(least)).Length < 2 * least); // A L^2, the control, would be too much to claim
-        Assert.Throws<ArgumentOutOfRangeException>(() => AdaptivePredictor.MinWorstError(-1, SimDuration.Zero));
-        Assert.Throws<ArgumentOutOfRangeException>(() => AdaptivePredictor.MinWorstError(double.PositiveInfinity, SimDuration.Zero));
-        Assert.Throws<ArgumentOutOfRangeException>(() => AdaptivePredictor.MinWorstError(1, -SimDuration.OneTick));
+        Assert.Throws<ArgumentOutOfRangeException>(() => AdaptivePredictor.ErrorLowerBound(-1, SimDuration.Zero));
+        Assert.Throws<ArgumentOutOfRangeException>(() => AdaptivePredictor.ErrorLowerBound(double.PositiveInfinity, SimDuration.Zero));
+        Assert.Throws<ArgumentOutOfRangeException>(() => AdaptivePredictor.ErrorLowerBound(1, -SimDuration.OneTick));
     }
 
     [Fact]

@@ -25,7 +25,7 @@ internal sealed class FaultyBroadPhase(
     private protected override BruteForce MakeBruteForce() => new Pairs(this);
 
     private protected override NeighbourLists MakeLists(double cell, double speed, double tickLength) =>
-        new Lists(this, cell, speed, scene.Resolution, tickLength, scene.Box);
+        new Lists(this, cell, speed, scene.RestitutionThreshold, tickLength, scene.Box);
 
     private Span<int> Without(Span<int> candidates)
     {

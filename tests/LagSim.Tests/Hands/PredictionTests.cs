@@ -124,7 +124,7 @@ public sealed class PredictionTests(ITestOutputHelper output)
     public void Run_HorizonZero_NobodyErrs()
     {
         PredictionError error = PredictionTest.Run(HandMotions.Generate(HandMotions.Slow, 1), 0);
-        Assert.All(error.CandidateMetres.Append(error.AdaptiveMetres).Append(error.LinearMetres).Append(error.MinWorstMetres), metres => Assert.Equal(0, metres));
+        Assert.All(error.CandidateMetres.Append(error.AdaptiveMetres).Append(error.LinearMetres).Append(error.LowerBoundMetres), metres => Assert.Equal(0, metres));
         Assert.True(double.IsNaN(error.RatioToBest));
     }
 

@@ -57,7 +57,7 @@ public sealed class LiveWorldTests
     [Fact]
     public void Step_WithALateEventBeforeEach_StillGetsOn()
     {
-        LiveWorld world = new(RandomScene, Kept) { Work = new WorkLedger { MaxAStep = 1e-3 } };
+        LiveWorld world = new(RandomScene, Kept) { Work = new WorkLedger { MaxWorkPerStep = 1e-3 } };
         world.Step(At(0.5));
         SimTime before = world.Simulation.SimulatedTo;
         for (uint n = 1; n <= 20; n++)

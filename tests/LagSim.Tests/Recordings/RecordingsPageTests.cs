@@ -185,7 +185,7 @@ public sealed class RecordingsPageTests
             ["wire version"] = (int)WireFormat.Version,
             ["name"] = scene.Name,
             ["gravity"] = scene.Gravity,
-            ["resolution"] = scene.Resolution,
+            ["restitution threshold"] = scene.RestitutionThreshold,
             ["contact tolerance"] = scene.ContactTolerance,
             ["smallest radius"] = scene.SmallestRadius,
             ["spawners"] = scene.Spawners.Mask,

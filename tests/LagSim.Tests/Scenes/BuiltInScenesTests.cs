@@ -103,7 +103,7 @@ public sealed class BuiltInScenesTests
     public void WithMotion_SlopeOfOddBits_KeepsEveryOtherBit()
     {
         Scene was = new SceneBuilder("slope")
-            .WithGravity(new Vector3D(0.1, -1, 0)).WithResolution(1e-7).WithContactTolerance(2e-5)
+            .WithGravity(new Vector3D(0.1, -1, 0)).WithRestitutionThreshold(1e-7).WithContactTolerance(2e-5)
             .WithSmallestRadius(0.01).WithSpawners(PeerSet.Of(1))
             .AddPlane("slope", new Vector3D(0.77492974874327403, 0.7115880677996147, 0.16164369655849575), new Vector3D(0.1, -3, 0.7), 0.3)
             .AddStaticSphere("rock", new Vector3D(9, 0, 0), 1, 0.4)

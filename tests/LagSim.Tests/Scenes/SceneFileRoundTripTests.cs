@@ -91,7 +91,7 @@ public sealed class SceneFileRoundTripTests
 
         Scene expected = new SceneBuilder("other name")
             .WithGravity(new Vector3D(0, -9.81, 0))
-            .WithResolution(1e-9)
+            .WithRestitutionThreshold(1e-9)
             .WithContactTolerance(1e-3)
             .AddPlane("floor", Vector3D.Up, Vector3D.Zero, 1)
             .AddStaticSphere("rock", new Vector3D(5, 0, 0), 2, 1)

@@ -39,7 +39,7 @@ internal static class SceneGen
     internal static readonly Gen<Scene> Any =
         from name in Prefix
         from gravity in Within(1e5)
-        from resolution in Log(-14, -4)
+        from restitutionThreshold in Log(-14, -4)
         from tolerance in Gen.OneOf(Gen.Constant(0.0), Log(-9, -1))
         from smallest in Gen.OneOf(Gen.Constant(0.0), Log(-8, 8))
         from planes in Gen.Choose(0, 3)
@@ -49,7 +49,7 @@ internal static class SceneGen
         from spawners in Peers
         from bodies in Gen.ArrayOf(Body)
         select Build(
-            name, gravity, resolution, tolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.Most).ToArray(), spawners, bodies);
+            name, gravity, restitutionThreshold, tolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.MaxForces).ToArray(), spawners, bodies);
 
     private static Gen<(BodySpec Spec, Vector3D Velocity, PeerSet Players)> Body =>
         from radius in Log(-8, 8)
@@ -92,7 +92,7 @@ internal static class SceneGen
     private static Scene Build(
         string name,
         Vector3D gravity,
-        double resolution,
+        double restitutionThreshold,
         double tolerance,
         double smallest,
         (Vector3D Normal, Vector3D Point)[] planes,
@@ -101,7 +101,7 @@ internal static class SceneGen
         PeerSet spawners,
         (BodySpec Spec, Vector3D Velocity, PeerSet Players)[] bodies)
     {
-        SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithResolution(resolution).WithSpawners(spawners);
+        SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithRestitutionThreshold(restitutionThreshold).WithSpawners(spawners);
         double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
         if (tolerance > 0)
         {

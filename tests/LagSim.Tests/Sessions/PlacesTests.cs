@@ -128,7 +128,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [InlineData(1e6, 4)] // the limit taken away
     public void CopiesOfHalfOpenJoins_TakeBoundedMemory(double room, int copies)
     {
-        DoorLimits door = new() { CopiesAtLeast = 1 };
+        DoorLimits door = new() { MinCopies = 1 };
         (SessionGroup group, NatPort nat) = Host(1, door: door);
         group.Run(3); // so that all copies have a world in them, and are of one length
         HashSet<ulong> hashes = [];
@@ -148,7 +148,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [Fact]
     public void CopiesOfHalfOpenJoins_AreNotGivenForLong()
     {
-        DoorLimits door = new() { CopiesAtLeast = 1 };
+        DoorLimits door = new() { MinCopies = 1 };
         (SessionGroup group, NatPort nat) = Host(1, door: door);
         group.Run(3);
         List<ulong> hashes = [];

@@ -19,7 +19,7 @@ public sealed class SceneFormatTests
 
     // Where things stand in the scene that One gives: name "s", one plane "p", one static sphere "q", one body "b".
     private const int GravityAt = 3;
-    private const int ResolutionAt = 27;
+    private const int RestitutionThresholdAt = 27;
     private const int ToleranceOfContactAt = 35;
     private const int SmallestAt = 43;
     private const int SpawnersAt = 51;
@@ -64,7 +64,7 @@ public sealed class SceneFormatTests
         byte[] bytes = SceneFormat.Encode(One());
         int[] places =
         [
-            GravityAt, ResolutionAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt,
+            GravityAt, RestitutionThresholdAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt,
             PlayersAt + 1,
         ];
         foreach (int at in places)
@@ -166,7 +166,7 @@ public sealed class SceneFormatTests
     public void TryDecode_OutOfRange_IsRefusedWithTheBuildersSentence()
     {
         Refused(With(RestitutionAt, 1.5), "The restitution of body 'b' is 1.5; it must lie between 0 and 1");
-        Refused(With(ResolutionAt, 1), "The resolution of scene 's' is 1;");
+        Refused(With(RestitutionThresholdAt, 1), "The restitution threshold of scene 's' is 1;");
         Refused(With(ToleranceOfContactAt, 0.5), "The contact tolerance of scene 's' is 0.5;");
         Refused(With(ToleranceOfContactAt, 0), "The contact tolerance of scene 's' is 0;");
         Refused(With(GravityAt, 1e7), "The gravity of scene 's' is");
@@ -207,7 +207,7 @@ public sealed class SceneFormatTests
     [InlineData(double.NegativeInfinity)]
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
-        foreach (int at in new[] { GravityAt, ResolutionAt, ToleranceOfContactAt, SmallestAt })
+        foreach (int at in new[] { GravityAt, RestitutionThresholdAt, ToleranceOfContactAt, SmallestAt })
         {
             Refused(With(at, value), "In the scene's head a number is not finite");
         }

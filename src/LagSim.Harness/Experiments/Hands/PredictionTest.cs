@@ -61,7 +61,7 @@ public static class PredictionTest
         LinearFit linear = LinearFit.Of(motion, steps);
         return new PredictionError(
             horizonMilliseconds, count, Math.Sqrt(adaptive / count), candidates.Select(sum => Math.Sqrt(sum / count)).ToArray(),
-            linear.CrossValidatedMetres, linear.InSampleMetres, AdaptivePredictor.MinWorstError(motion.LargestAcceleration(), horizon));
+            linear.CrossValidatedMetres, linear.InSampleMetres, AdaptivePredictor.ErrorLowerBound(motion.LargestAcceleration(), horizon));
     }
 
     private static int StepsOf(double horizonMilliseconds) => (int)Math.Round(horizonMilliseconds * HandMotion.RateHertz / 1000);

@@ -44,8 +44,8 @@ internal static class ImpactPartner
     /// <returns>The surface's name; empty if it touches none.</returns>
     internal static string Surface(Scene scene, double radius, BodyState before, BodyState after)
     {
-        // Touching is within the scene's resolution, what the body moves in a tick, and the rounding of where it is.
-        double slack = scene.Resolution + (SimDuration.OneTick.ToSeconds() * (before.Velocity.Length + after.Velocity.Length));
+        // Touching is within the scene's restitution threshold, what the body moves in a tick, and the rounding of where it is.
+        double slack = scene.RestitutionThreshold + (SimDuration.OneTick.ToSeconds() * (before.Velocity.Length + after.Velocity.Length));
         Vector3D position = after.Position;
         return scene.Planes
             .Select(plane => (plane.Name, plane.Normal, Gap: plane.Gap(position, radius), Scale: position.Length))

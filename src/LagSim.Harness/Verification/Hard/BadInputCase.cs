@@ -41,7 +41,7 @@ internal sealed class BadInputCase : IHardCase
         ("tolerance at rest", t => Pulled(MotionLaw.DormandPrince54, t, Force.Supplied(new SuppliedForce(Force.Spring("spring", default, 1)))).WithGravity(default), _ => 0),
         ("step under a spring", h => Stepped(SimDuration.FromSeconds(h)), StepsOf),
         ("gravity", g => Ball(new BodySpec(0.5, 1, 0.5), floor: -1e7).WithGravity(V(0, g)), g => g / 2),
-        ("resolution", r => Ball(new BodySpec(0.5, 1, 0.5)).WithResolution(r), _ => -Gravity / 2),
+        ("restitution threshold", r => Ball(new BodySpec(0.5, 1, 0.5)).WithRestitutionThreshold(r), _ => -Gravity / 2),
         ("contact tolerance", d => Ball(new BodySpec(0.5, 1, 0.5)).WithContactTolerance(d), _ => -Gravity / 2),
         ("smallest radius", r => Ball(new BodySpec(0.5, 1, 0.5)).WithSmallestRadius(r), _ => -Gravity / 2),
         ("offset of a plane", d => new SceneBuilder("bad").AddPlane("floor", Vector3D.Up, d - Apart - 0.5).AddBody("ball", new BodySpec(0.5, 1, 0), V(0, d)),

@@ -97,9 +97,9 @@ internal sealed class RestCase : IHardCase
         double way = 0.5 * Gravity * 0.5 * 9;
         Vector3D expected = (V(0.5, Math.Sqrt(0.75)) * 0.5) + (V(Math.Sqrt(0.75), -0.5) * way);
         return new HardRow(
-            Name, "down a slope of 30 degrees for 3 s", (seen.Position - expected).Length, "position_m", SceneBuilder.DefaultResolution
+            Name, "down a slope of 30 degrees for 3 s", (seen.Position - expected).Length, "position_m", SceneBuilder.DefaultRestitutionThreshold
                 + (32 * Rounding.Unit * way),
-            "the scene's resolution, below which a contact is taken to last, and 32 roundings", "g sin(a) t^2/2 along the slope");
+            "the scene's restitution threshold, below which a contact is taken to last, and 32 roundings", "g sin(a) t^2/2 along the slope");
     }
 
     private static Scene Stack() => new SceneBuilder("stack").WithContactTolerance(Tolerance)

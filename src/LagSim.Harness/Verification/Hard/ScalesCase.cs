@@ -123,7 +123,7 @@ internal sealed class ScalesCase : IHardCase
     {
         double length = Power(random, -9, 9), time = Power(random, -9, 9), mass = Power(random, -9, 9), speed = length / time;
         SceneBuilder builder = new SceneBuilder("forced").WithGravity(IsLucky(random) ? V(0, -Math.Min(1e6, speed / time)) : Vector3D.Zero)
-            .WithResolution(Math.Clamp(1e-9 * length, 1e-15, 1e-3))
+            .WithRestitutionThreshold(Math.Clamp(1e-9 * length, 1e-15, 1e-3))
             .AddPlane("floor", Vector3D.Up, -3 * length, Part(random)).AddPlane("west", V(1), -3 * length).AddPlane("east", V(-1), -3 * length, Part(random));
         if (IsLucky(random))
         {

@@ -25,7 +25,7 @@ public static class HonestPlay
     private const int Players = 4;
     private const double DelayMilliseconds = 100;
     private const double ActionsASecond = 4;
-    private const int SpawnLimit = 6;
+    private const int MaxSpawnedBodies = 6;
     private const double KeyframeSeconds = 0.05;
 
     private const string Heap = "heap";
@@ -90,7 +90,7 @@ public static class HonestPlay
         }
 
         PlayerCost[] costs = [.. host.Costs.Where(c => c.Player > 0)];
-        double most = costs.Select(c => c.MaxAtOnce).DefaultIfEmpty(0).Max();
+        double most = costs.Select(c => c.PeakWork).DefaultIfEmpty(0).Max();
         return new HonestCost(
             scene, Players, costs.Select(c => c.Work).DefaultIfEmpty(0).Max() / seconds, most, most / budget.WorkAtOnce, host.Counters.EventsAccepted + host.Counters.EventsRefused, expelled);
     }
@@ -130,7 +130,7 @@ public static class HonestPlay
             switch (random.NextInt(10))
             {
                 case 0 or 1:
-                    while (mine.Count >= SpawnLimit)
+                    while (mine.Count >= MaxSpawnedBodies)
                     {
                         Try(PlayerAction.Remove(mine.Dequeue()));
                     }

@@ -14,13 +14,13 @@ internal sealed class HostLoss(
     JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters,
     IClock clock, ClientOptions options)
 {
-    private const int MaxUseless = 3;
+    private const int MaxFailedAttempts = 3;
 
     /// <summary>
     /// A fresh snapshot that did not last this long was useless. The value spans four dips of a link that dips every 30 s.
     /// </summary>
     /// <remarks>
-    /// <see cref="MaxUseless"/> useless ones in a row end the session; a single one does when the link is too slow, since the next
+    /// <see cref="MaxFailedAttempts"/> useless ones in a row end the session; a single one does when the link is too slow, since the next
     /// snapshot would come over the same link.
     /// </remarks>
     private static readonly SimDuration UsefulFor = SimDuration.FromSeconds(120);
@@ -133,7 +133,7 @@ internal sealed class HostLoss(
         // A client that stalled or was cut off has nothing to hold against its snapshot.
         bool isSilence = by is SessionEnd.HostSilent or SessionEnd.Disconnected;
         useless = isSilence ? useless : renewed != SimTime.MinValue && now - renewed < UsefulFor ? useless + 1 : 0;
-        bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MaxUseless);
+        bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MaxFailedAttempts);
         if (options.RejoinTime == SimDuration.Zero || isUseless)
         {
             connection.Farewell(); // otherwise its place stays taken until the timeout

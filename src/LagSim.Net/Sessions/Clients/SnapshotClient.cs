@@ -14,7 +14,7 @@ internal sealed class SnapshotClient(
     SessionCounters counters, IClock clock, IReadOnlyList<IAcceleration>? accelerations)
 {
     /// <summary>The longest round trip to assume before one is measured.</summary>
-    private static readonly SimDuration MaxGuessed = SimDuration.FromMilliseconds(400);
+    private static readonly SimDuration MaxTripGuess = SimDuration.FromMilliseconds(400);
 
     /// <summary>When to request the next chunks.</summary>
     internal SimTime Due => attempts.Current?.Download?.Due ?? SimTime.MaxValue;
@@ -28,7 +28,7 @@ internal sealed class SnapshotClient(
         }
 
         UpdateLink link = connection.Link!;
-        SimDuration guessed = attempt.Took < MaxGuessed ? attempt.Took : MaxGuessed;
+        SimDuration guessed = attempt.Took < MaxTripGuess ? attempt.Took : MaxTripGuess;
         Span<byte> bytes = stackalloc byte[WireFormat.SnapshotRequestBytes];
         sender.Send(bytes.Slice(0, download.Ask(link.SessionId, link.Self, now, link.Trips, guessed).Encode(bytes)), link);
     }

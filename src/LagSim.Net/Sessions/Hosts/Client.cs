@@ -34,7 +34,7 @@ internal sealed class Client
     internal JoinCopy? Copy { get; set; }
 
     /// <summary>The last chunk request that was answered.</summary>
-    internal uint Fetches { get; set; }
+    internal uint LastRequest { get; set; }
 
     /// <summary>The last sequence number of the former holders of its number.</summary>
     internal uint FirstSequence { get; private set; }
@@ -43,7 +43,7 @@ internal sealed class Client
     internal RateLimit DesyncQueries { get; }
 
     /// <summary>The last desync query that was answered.</summary>
-    internal uint Doubted { get; set; }
+    internal uint LastQuery { get; set; }
 
     /// <summary>The number of chunks sent to it.</summary>
     internal long ChunksGiven { get; set; }

@@ -19,15 +19,15 @@ internal sealed class DesyncReporter(
     {
         Client? client = roster.Of(query.SessionId);
         SimTime now = clock.Now;
-        bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer && query.Number > client.Doubted;
+        bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer && query.Number > client.LastQuery;
         if (!isItsTurn || world.Live is null || query.UpTo >= watermark.Now || !client!.DesyncQueries.TrySpend(now))
         {
             counters.DatagramsIgnored++; // uncommitted history may still change
             return;
         }
 
-        bool isFirst = client.Doubted == 0;
-        client.Doubted = query.Number;
+        bool isFirst = client.LastQuery == 0;
+        client.LastQuery = query.Number;
         client.Link.CountReceived(WireFormat.DesyncQueryBytes);
         Answer(client, query);
         if (isFirst)

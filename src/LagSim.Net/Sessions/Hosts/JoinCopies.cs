@@ -48,7 +48,7 @@ internal sealed class JoinCopies
         some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);
 
     /// <summary>The memory that snapshots of that size may take, in bytes; see <see cref="DoorLimits.CopyBytes"/>.</summary>
-    internal long RoomForCopiesLike(JoinCopy copy) => Math.Max(door.CopyBytes, (long)copy.Bytes.Length * door.CopiesAtLeast);
+    internal long RoomForCopiesLike(JoinCopy copy) => Math.Max(door.CopyBytes, (long)copy.Bytes.Length * door.MinCopies);
 
     /// <summary>
     /// Returns the snapshot for a client that joins now: the scene, and the committed state once that lies past the start. Null while the

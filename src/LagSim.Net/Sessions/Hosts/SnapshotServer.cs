@@ -17,7 +17,7 @@ internal sealed class SnapshotServer(
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from)
     {
         Client? client = roster.Of(request.SessionId);
-        if (client is null || client.Link.Other != from || client.Copy is null || request.Number <= client.Fetches)
+        if (client is null || client.Link.Other != from || client.Copy is null || request.Number <= client.LastRequest)
         {
             counters.DatagramsIgnored++;
             if (client is not null && client.Link.Other != from)
@@ -30,7 +30,7 @@ internal sealed class SnapshotServer(
         }
 
         SimTime now = clock.Now;
-        client.Fetches = request.Number;
+        client.LastRequest = request.Number;
         client.Link.NoteHeard(now);
         client.Link.CountReceived(WireFormat.SnapshotRequestBytes);
         SendChunks(client, client.Copy.Bytes, request, now);

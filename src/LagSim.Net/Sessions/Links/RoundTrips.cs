@@ -30,7 +30,7 @@ internal sealed class RoundTrips
     /// A mean smoothed by an eighth has 0.26 of the jitter's standard deviation; in a minute it moves over six of its own, 1.5; and the
     /// spread of sixteen trips is at its least some 0.4. A larger value detects a new queue later.
     /// </remarks>
-    private const int MostOfSpread = 4;
+    private const int SpreadFactor = 4;
 
     /// <summary>The number of trips over which the spread is measured; with fewer, it is unknown.</summary>
     private const int Many = 16;
@@ -72,7 +72,7 @@ internal sealed class RoundTrips
     /// A link that holds back at that point stays well below twice the shortest round trip. Delay that doubles the shortest round trip is a
     /// queue whatever the jitter: a peer that joins while a queue rises and falls knows no other spread.
     /// </remarks>
-    internal bool HasQueue => Queueing > MinQueue && Queueing > least.Value / 4 && Queueing > Lesser(minSpread.Value * MostOfSpread, least.Value);
+    internal bool HasQueue => Queueing > MinQueue && Queueing > least.Value / 4 && Queueing > Lesser(minSpread.Value * SpreadFactor, least.Value);
 
     internal void Add(SimDuration sample, SimTime now)
     {

@@ -18,7 +18,7 @@ namespace LagSim.Harness.Experiments.Accuracy.Engines;
 /// <param name="isDirect">Whether it steps by <c>dWorldStep</c>.</param>
 internal sealed class OdeMethod(bool isDirect = false) : SteppedEngine
 {
-    private const int MaxDirect = 64;
+    private const int MaxContactsOfDirectSolver = 64;
 
     public override string Name => isDirect ? "ODE dWorldStep" : "ODE";
 
@@ -30,7 +30,7 @@ internal sealed class OdeMethod(bool isDirect = false) : SteppedEngine
         !isDirect ? null
         : scene is not ContactWork ? "where impacts are few the other stepper is as good, and this one complains of internal errors"
         : scene is RandomHeapWork ? "heap and pyramid tell enough of it, and it is slow"
-        : scene.Scene.Bodies.Count > MaxDirect ? "its cost grows with the cube of the contacts" : null;
+        : scene.Scene.Bodies.Count > MaxContactsOfDirectSolver ? "its cost grows with the cube of the contacts" : null;
 
     protected override Run Begin(WorkScene scene, double step) => new OdeRun(scene, step, isDirect);
 
