@@ -4,7 +4,9 @@ using System.Threading;
 
 namespace LagSim.Cli;
 
-/// <summary>Ctrl-C and a request to terminate: the work is asked to stop, so that files end with a whole row and the cursor comes back.</summary>
+/// <summary>
+/// Ctrl-C and a request to terminate: the work is asked to stop, so that files end with a whole row and the cursor comes back.
+/// </summary>
 internal sealed class Interruption : IDisposable
 {
     /// <summary>How long the work has to stop by itself.</summary>

@@ -113,7 +113,9 @@ internal static class Program
         }
     }
 
-    /// <summary>What is wrong with a command line, a sentence each: of a word that is no command only that, and not that there is none.</summary>
+    /// <summary>
+    /// What is wrong with a command line, a sentence each: of a word that is no command only that, and not that there is none.
+    /// </summary>
     private static string[] Problems(ParseResult parsed, bool isOfRoot)
     {
         string[] all = [.. parsed.Errors.Select(problem => problem.Message)];
@@ -122,7 +124,10 @@ internal static class Program
         return [.. problems, .. parsed.UnmatchedTokens.Select(word => OtherName(parsed, word)).OfType<string>()];
     }
 
-    /// <summary>How long a command goes on has another name where there is a session; whoever takes one for the other is told. Null if it is not that.</summary>
+    /// <summary>
+    /// How long a command goes on has another name where there is a session; whoever takes one for the other is told. Null if it is not
+    /// that.
+    /// </summary>
     private static string? OtherName(ParseResult parsed, string word)
     {
         string? other = word == "--for-s" ? "--until-s" : word == "--until-s" ? "--for-s" : null;

@@ -112,7 +112,9 @@ internal static class CompareCommand
         return ExitCodeOf(runs);
     }
 
-    /// <summary>Something small with each strategy first, so that what is compiled when it first runs is not in the time that heals take.</summary>
+    /// <summary>
+    /// Something small with each strategy first, so that what is compiled when it first runs is not in the time that heals take.
+    /// </summary>
     private static void WarmUp(CompareOptions[] options, Action<double> progress)
     {
         Scene small = BuiltInScenes.Pair();

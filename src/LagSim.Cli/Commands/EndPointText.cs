@@ -37,7 +37,8 @@ internal static class EndPointText
     /// <param name="purpose">What the host is for, as a verb.</param>
     /// <param name="stop">Ends the asking.</param>
     /// <exception cref="UsageException">The text has not the form.</exception>
-    /// <exception cref="InputException">Nobody knows the name, or it is the address of no machine, at which nobody could answer.</exception>
+    /// <exception cref="InputException">Nobody knows the name, or it is the address of no machine, at which nobody could
+    /// answer.</exception>
     /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
     internal static IPEndPoint Resolve(string text, string purpose, CancellationToken stop)
     {

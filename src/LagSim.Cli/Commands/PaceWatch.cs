@@ -2,7 +2,10 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>Finds out, once, that a machine cannot simulate a world as fast as time passes. One that has come late, or has slept, and catches up, is not that.</summary>
+/// <summary>
+/// Finds out, once, that a machine cannot simulate a world as fast as time passes. One that has come late, or has slept, and catches up, is
+/// not that.
+/// </summary>
 internal sealed class PaceWatch
 {
     /// <summary>How far a world may be behind, and for how long it may then come no nearer.</summary>
@@ -13,7 +16,10 @@ internal sealed class PaceWatch
     private SimTime since;
     private SimDuration least;
 
-    /// <summary>Looks; true the first time that the world has been behind by more than two seconds, and has not caught up by anything, for two seconds.</summary>
+    /// <summary>
+    /// Looks; true the first time that the world has been behind by more than two seconds, and has not caught up by anything, for two
+    /// seconds.
+    /// </summary>
     internal bool Finds(SimTime now, SimDuration behind)
     {
         bool wasBehind = isBehind;

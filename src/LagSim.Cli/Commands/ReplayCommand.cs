@@ -41,7 +41,9 @@ internal static class ReplayCommand
         return command;
     }
 
-    /// <summary>Of a file that is no recording, or none up to its scene, only what is wrong with it: that it cannot be run needs no sentence more.</summary>
+    /// <summary>
+    /// Of a file that is no recording, or none up to its scene, only what is wrong with it: that it cannot be run needs no sentence more.
+    /// </summary>
     private static string WhyNot(Recording recording, RecordingReplay found) =>
         recording is not { Scene: null, Damage: RecordingDamage damage } ? found.Message
         : damage.Offset == 0 ? damage.Reason

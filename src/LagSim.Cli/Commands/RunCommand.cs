@@ -124,7 +124,8 @@ internal static class RunCommand
             Directory.CreateDirectory(folder); // the tables are written as the run goes
         }
 
-        // The run that is written, those that are timed with a warm-up before them where the first was too short for one, and one for the picture.
+        // The run that is written, those that are timed with a warm-up before them where the first was too short for one, and one for the
+        // picture.
         double once = length.ToSeconds();
         double timing = request.Timed == 0 ? 0 : once * (request.Timed + 1);
         double picture = request.Folder is null ? 0 : once;

@@ -12,7 +12,9 @@ using LagSim.Harness.Verification.Stalls;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim stalls</c>: drawn sessions in which peers stand still, are killed and started again, and change their addresses.</summary>
+/// <summary>
+/// <c>lagsim stalls</c>: drawn sessions in which peers stand still, are killed and started again, and change their addresses.
+/// </summary>
 internal static class StallsCommand
 {
     /// <summary>Each has up to seven processes, which rest most of the time.</summary>
@@ -98,7 +100,9 @@ internal static class StallsCommand
             : ExitCode.CheckFailed;
     }
 
-    /// <summary>How long all of them take together, in seconds, when so many are played at a time and each worker takes the next as it is done.</summary>
+    /// <summary>
+    /// How long all of them take together, in seconds, when so many are played at a time and each worker takes the next as it is done.
+    /// </summary>
     internal static double SecondsOfAll(IEnumerable<double> each, int workers)
     {
         double[] busyUntil = new double[workers];

@@ -3,7 +3,10 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>How a method is drawn, the same in every chart: a colour and a shape of its own. LagSim's are cool and filled, all others warm or grey and open.</summary>
+/// <summary>
+/// How a method is drawn, the same in every chart: a colour and a shape of its own. LagSim's are cool and filled, all others warm or grey
+/// and open.
+/// </summary>
 /// <param name="Colour">The palette slot.</param>
 /// <param name="Shape">What marks its points.</param>
 /// <param name="IsOwn">Whether it is LagSim's, and so drawn through and strong.</param>

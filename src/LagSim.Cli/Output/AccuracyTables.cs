@@ -43,7 +43,10 @@ internal static class AccuracyTables
         }
     }
 
-    /// <summary>A table of which only the methods' names are broken into lines; in a window each stands once, and in a narrow one time stands only as speed.</summary>
+    /// <summary>
+    /// A table of which only the methods' names are broken into lines; in a window each stands once, and in a narrow one time stands only
+    /// as speed.
+    /// </summary>
     private static Table AsTable(ToolConsole console, AccuracyReport report, WorkScene scene)
     {
         string[] headings = Headings(scene);

@@ -27,7 +27,7 @@ internal static class CheckText
                     + " plays the first");
         }
 
-        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, heard late {Count(report.LateEvents, "time")};"
+        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, late {Count(report.LateEvents, "time")};"
             + $" {Count(report.Events, "event")} in all worlds"));
         double changed = report.Heals == 0 ? 0 : 100.0 * report.HealsThatChangedAnImpact / report.Heals;
         output.WriteLine(string.Create(culture, $"{Count(report.Heals, "heal")}, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an"

@@ -36,7 +36,9 @@ internal sealed class CompareFindings
             others.Where(other => healed.Any(healing => healing.Options.Link.Name == other.Options.Link.Name && isSo(other, healing)));
     }
 
-    /// <summary>The links on which interpolation has the smaller largest error as seen while an event is on its way, by 1 % or more.</summary>
+    /// <summary>
+    /// The links on which interpolation has the smaller largest error as seen while an event is on its way, by 1 % or more.
+    /// </summary>
     internal IReadOnlyList<string> BetterDuring { get; }
 
     /// <summary>The links on which the largest jump that interpolation shows is smaller, by 1 % or more.</summary>

@@ -82,7 +82,10 @@ internal static class DropChart
         };
     }
 
-    /// <summary>A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be hidden.</summary>
+    /// <summary>
+    /// A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be
+    /// hidden.
+    /// </summary>
     /// <param name="runs">A run a strategy.</param>
     /// <param name="shown">The runs of the charts above. All times here are moved so that the ball is lifted when it is there.</param>
     internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> shown)

@@ -46,7 +46,9 @@ internal static class DropTables
         }
     }
 
-    /// <summary>The heights of all peers over one another, and below them their distance, which is blank where it is exactly zero.</summary>
+    /// <summary>
+    /// The heights of all peers over one another, and below them their distance, which is blank where it is exactly zero.
+    /// </summary>
     private static void WritePicture(ToolConsole console, DropRun run)
     {
         int columns = Math.Clamp(console.Rich.Profile.Width - 13, 40, 120);

@@ -8,7 +8,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The pictures of a hand: what another peer saw of the held ball and of the throw, the errors by delay, how well the hand can be predicted, and its motion.</summary>
+/// <summary>
+/// The pictures of a hand: what another peer saw of the held ball and of the throw, the errors by delay, how well the hand can be
+/// predicted, and its motion.
+/// </summary>
 internal static class HoldChart
 {
     private const double ErrorFloor = 1e-4;
@@ -17,7 +20,9 @@ internal static class HoldChart
     private const string TimeLabel = "shared time since the start of the scene (s)";
     private const int Hand = 6, Simulated = 0, Predicted = 1, Own = 2, Best = 3, Last = 4;
 
-    /// <summary>Some seconds from the middle of every hold, a panel a link: the hand, and the ball as another peer saw it (Fig 4, 5).</summary>
+    /// <summary>
+    /// Some seconds from the middle of every hold, a panel a link: the hand, and the ball as another peer saw it (Fig 4, 5).
+    /// </summary>
     internal static LineChart OfViews(HandMotion motion, IReadOnlyList<HoldRun> runs)
     {
         Func<Vector3D, double> axis = Axis(runs[0], out string name);

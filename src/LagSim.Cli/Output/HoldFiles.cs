@@ -11,7 +11,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A hand that holds and throws a ball as files: a row a link, samples and two pictures of each link, what delay does, the prediction, and a page that shows them.</summary>
+/// <summary>
+/// A hand that holds and throws a ball as files: a row a link, samples and two pictures of each link, what delay does, the prediction, and
+/// a page that shows them.
+/// </summary>
 internal static class HoldFiles
 {
     /// <summary>What came out, in one sentence.</summary>
@@ -93,7 +96,9 @@ internal static class HoldFiles
         }
     }
 
-    /// <summary>Where the hand was, where each peer showed the ball, and where the predictor would have drawn it for those who look on.</summary>
+    /// <summary>
+    /// Where the hand was, where each peer showed the ball, and where the predictor would have drawn it for those who look on.
+    /// </summary>
     private static void Samples(string path, HoldRun run)
     {
         HoldTrace trace = run.Trace;

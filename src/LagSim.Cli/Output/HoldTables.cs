@@ -46,7 +46,7 @@ internal static class HoldTables
 
     internal const string SessionTitle = "the sessions: error between the peers as seen, m; bytes/s of the holder";
 
-    internal const string PredictionTitle = "the hand told from all of its samples, by delay in ms: rms error in mm";
+    internal const string PredictionTitle = "the hand predicted from all of its samples, by delay in ms: rms error in mm";
 
     internal const string PredictionFootnote = "best: of what the adaptive one mixes, in hindsight; linear: 20 taps, fitted to the other nine tenths of this"
         + " very motion";

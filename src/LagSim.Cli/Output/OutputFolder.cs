@@ -3,7 +3,10 @@ using System.IO;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The folder that <c>--out</c> names: whether it can be written is known before a long run, and yet it is made only when there is something to put in.</summary>
+/// <summary>
+/// The folder that <c>--out</c> names: whether it can be written is known before a long run, and yet it is made only when there is
+/// something to put in.
+/// </summary>
 internal static class OutputFolder
 {
     /// <summary>Tries it out, and leaves everything as it was.</summary>
@@ -33,7 +36,9 @@ internal static class OutputFolder
         }
     }
 
-    /// <summary>Removes a folder and those it lies in up to one that was there before; one in which somebody has put something stays.</summary>
+    /// <summary>
+    /// Removes a folder and those it lies in up to one that was there before; one in which somebody has put something stays.
+    /// </summary>
     private static void RemoveEmpty(string? path, string? upTo)
     {
         try

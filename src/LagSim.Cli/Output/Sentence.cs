@@ -11,7 +11,9 @@ internal static class Sentence
     internal static string Of(Exception failure) =>
         failure is ArgumentException { ParamName: string name } ? failure.Message.Replace($" (Parameter '{name}')", "", StringComparison.Ordinal) : failure.Message;
 
-    /// <summary>The same text, in which control characters, that what was read may have brought along, are spelled out; lines stay lines.</summary>
+    /// <summary>
+    /// The same text, in which control characters, that what was read may have brought along, are spelled out; lines stay lines.
+    /// </summary>
     internal static string Printable(string text)
     {
         StringBuilder printable = new(text.Length);

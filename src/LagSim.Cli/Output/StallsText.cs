@@ -15,7 +15,9 @@ internal static class StallsText
     internal static string Replay(StallCase drawn, bool hasProcesses = false) =>
         string.Create(CultureInfo.InvariantCulture, $"lagsim stalls --sessions 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
 
-    /// <summary>How many events hosts refused, and why, where it is the link's doing: else "0 of 0 lost" of a slow link would have no reason.</summary>
+    /// <summary>
+    /// How many events hosts refused, and why, where it is the link's doing: else "0 of 0 lost" of a slow link would have no reason.
+    /// </summary>
     private static string Refused(IReadOnlyList<StallOutcome> outcomes)
     {
         long refused = outcomes.Sum(o => o.Refused), late = outcomes.Sum(o => o.RefusedTooLate);

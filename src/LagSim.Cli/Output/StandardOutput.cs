@@ -5,7 +5,9 @@ using Microsoft.Win32.SafeHandles;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Standard output as results go to it: in blocks where it is no terminal, and with an error where the reader of a pipe has gone.</summary>
+/// <summary>
+/// Standard output as results go to it: in blocks where it is no terminal, and with an error where the reader of a pipe has gone.
+/// </summary>
 internal static class StandardOutput
 {
     private const int BrokenPipe = 32; // EPIPE
@@ -13,10 +15,14 @@ internal static class StandardOutput
     internal static TextWriter Open() =>
         Console.IsOutputRedirected ? Writer(Pipe(1) ?? Console.OpenStandardOutput()) : Console.Out;
 
-    /// <summary>Whether writing failed because nobody reads any more, which is no mistake of anybody: <c>lagsim ... | head -1</c>.</summary>
+    /// <summary>
+    /// Whether writing failed because nobody reads any more, which is no mistake of anybody: <c>lagsim ... | head -1</c>.
+    /// </summary>
     internal static bool IsClosedPipe(IOException failure) => failure.HResult == BrokenPipe;
 
-    /// <summary>The pipe with that descriptor; null if it is something else. <see cref="Console"/>'s own stream hides that a pipe is closed.</summary>
+    /// <summary>
+    /// The pipe with that descriptor; null if it is something else. <see cref="Console"/>'s own stream hides that a pipe is closed.
+    /// </summary>
     internal static Stream? Pipe(nint descriptor)
     {
         if (OperatingSystem.IsWindows())

@@ -10,7 +10,8 @@ namespace LagSim.Cli.Output;
 internal static class SweepReader
 {
     /// <summary>The cells of a sweep's JSON document, as far as a chart needs them.</summary>
-    /// <exception cref="InputException">The file cannot be read, or is none of <c>lagsim sweep --json</c>; the sentence says which.</exception>
+    /// <exception cref="InputException">The file cannot be read, or is none of <c>lagsim sweep --json</c>; the sentence says
+    /// which.</exception>
     internal static IReadOnlyList<SweepOutcome> Read(string path)
     {
         try

@@ -49,8 +49,9 @@ internal static class SweepTables
     }
 
     /// <summary>
-    /// Which columns stand in which table. Where all of them are wider than the window, there are several tables one below the other, each beginning with the columns
-    /// that say which cell it is, so that no heading is cut. On a terminal of less than 80 columns the rows are lists anyway.
+    /// Which columns stand in which table. Where all of them are wider than the window, there are several tables one below the other, each
+    /// beginning with the columns that say which cell it is, so that no heading is cut. On a terminal of less than 80 columns the rows are
+    /// lists anyway.
     /// </summary>
     private static List<int[]> Parts(ToolConsole console, string[][] rows)
     {

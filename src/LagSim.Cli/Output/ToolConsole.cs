@@ -57,7 +57,10 @@ internal sealed class ToolConsole
     /// <summary>Results, as tables.</summary>
     internal IAnsiConsole Rich { get; }
 
-    /// <summary>Writes a table; on a terminal of less than 80 columns that has no room for it each row as a list, so that no cell is broken into pieces.</summary>
+    /// <summary>
+    /// Writes a table; on a terminal of less than 80 columns that has no room for it each row as a list, so that no cell is broken into
+    /// pieces.
+    /// </summary>
     internal void Write(Table table)
     {
         bool isTooWide = Rich.Profile.Width < UsualWidth
@@ -84,7 +87,10 @@ internal sealed class ToolConsole
         return new Rows(parts);
     }
 
-    /// <summary>Runs something long, with a bar on the error stream where that is a terminal, else a line at the start and one for each part that it names.</summary>
+    /// <summary>
+    /// Runs something long, with a bar on the error stream where that is a terminal, else a line at the start and one for each part that it
+    /// names.
+    /// </summary>
     /// <param name="title">What runs.</param>
     /// <param name="length">How much there is to do, in simulated seconds.</param>
     /// <param name="work">Does it, and says from time to time how much is done.</param>
@@ -128,7 +134,9 @@ internal sealed class ToolConsole
         }
     }
 
-    /// <summary>Between two pieces of work: stops if asked to, and hands on what has been written, so that a reader that has gone is noticed.</summary>
+    /// <summary>
+    /// Between two pieces of work: stops if asked to, and hands on what has been written, so that a reader that has gone is noticed.
+    /// </summary>
     private void Pause()
     {
         Stop.ThrowIfCancellationRequested();

@@ -7,12 +7,15 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>A port that makes a fast link look like a slow one in real time: what comes in by another port is held, lost or doubled first.</summary>
+/// <summary>
+/// A port that makes a fast link look like a slow one in real time: what comes in by another port is held, lost or doubled first.
+/// </summary>
 /// <remarks>
 /// <para>Only what comes in is touched, so a link that is slow both ways has one of these at each end. Each sender has its own
 /// <see cref="LinkModel"/>.</para>
 /// <para>A thread of its own waits, without spinning, for the next datagram that falls due and raises <see cref="Arrived"/>, late by the
-/// operating system's timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. <see cref="TryReceive"/> goes by the clock alone.</para>
+/// operating system's timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. <see cref="TryReceive"/> goes by the clock
+/// alone.</para>
 /// <para>The inner port is called from that thread and the session's, but never at once. <see cref="Arrived"/> is raised outside all
 /// locks. Which luck a datagram meets depends on the seed and the order of arrival; when it is due also on the clock.</para>
 /// </remarks>
@@ -36,7 +39,9 @@ public sealed class DelayedPort : IDatagramPort
     {
     }
 
-    /// <summary>Holds what comes in by <paramref name="inner"/>, from each sender by the link that <paramref name="linkFrom"/> makes for it.</summary>
+    /// <summary>
+    /// Holds what comes in by <paramref name="inner"/>, from each sender by the link that <paramref name="linkFrom"/> makes for it.
+    /// </summary>
     /// <param name="inner">The port to slow down; it is owned, and disposed with this one.</param>
     /// <param name="clock">Real time, read from two threads.</param>
     /// <param name="linkFrom">Called once for each sender.</param>

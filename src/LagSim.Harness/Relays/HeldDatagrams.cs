@@ -6,7 +6,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>Datagrams on the last part of their way: taken from a port, not yet due. Each sender has its own link. Not thread-safe.</summary>
+/// <summary>
+/// Datagrams on the last part of their way: taken from a port, not yet due. Each sender has its own link. Not thread-safe.
+/// </summary>
 /// <remarks>At most <see cref="MaxHeld"/> are held; what comes beyond that is lost, as in any queue that is full.</remarks>
 internal sealed class HeldDatagrams
 {

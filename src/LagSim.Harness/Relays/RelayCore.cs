@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>A relay without threads or a clock of its own: who goes where, and when. Not thread-safe, but for <see cref="Traffic"/>.</summary>
+/// <summary>
+/// A relay without threads or a clock of its own: who goes where, and when. Not thread-safe, but for <see cref="Traffic"/>.
+/// </summary>
 internal sealed class RelayCore : IDisposable
 {
     private readonly IDatagramPort front;
@@ -34,7 +36,8 @@ internal sealed class RelayCore : IDisposable
     /// <param name="profile">What each client's link does.</param>
     /// <param name="seed">The luck of all links; clients get theirs in the order in which they are first heard of.</param>
     /// <param name="maxClients">How many there can be.</param>
-    /// <param name="openPort">Opens the port by which the host knows one client, owned from then on; null if there is none to be had.</param>
+    /// <param name="openPort">Opens the port by which the host knows one client, owned from then on; null if there is none to be
+    /// had.</param>
     /// <param name="change">After how long the host sees each client at another port, again and again; null for never.</param>
     internal RelayCore(
         IDatagramPort front,
@@ -136,8 +139,8 @@ internal sealed class RelayCore : IDisposable
     }
 
     /// <summary>
-    /// Closes the port by which the host knows a client, when it is time, and opens another one: what the host still sends to the former is lost, as with a
-    /// translator of addresses that forgets.
+    /// Closes the port by which the host knows a client, when it is time, and opens another one: what the host still sends to the former is
+    /// lost, as with a translator of addresses that forgets.
     /// </summary>
     private void ChangePort(Client client, bool isAsked, SimTime now)
     {

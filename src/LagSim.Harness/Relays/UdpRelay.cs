@@ -10,22 +10,25 @@ using LagSim.Time;
 namespace LagSim.Harness.Relays;
 
 /// <summary>
-/// A link profile between real processes: clients send to this relay as if it were the host, and it passes their datagrams on to the host, and the
-/// host's answers back, as late and with as many losses as the profile says.
+/// A link profile between real processes: clients send to this relay as if it were the host, and it passes their datagrams on to the host,
+/// and the host's answers back, as late and with as many losses as the profile says.
 /// </summary>
 /// <remarks>
-/// <para>Each client has a socket of its own towards the host, so that the host tells them apart as it would without a relay, and a link of its
-/// own: its luck depends on the seed and on how many clients were heard of before it. What the profile has in periods befalls both
+/// <para>Each client has a socket of its own towards the host, so that the host tells them apart as it would without a relay, and a link of
+/// its own: its luck depends on the seed and on how many clients were heard of before it. What the profile has in periods befalls both
 /// directions of a client's link at once. Datagrams are handed on as they are, whatever is in them.</para>
-/// <para>A thread of its own waits, without spinning, for the next datagram that comes in or falls due; it is late by the operating system's
-/// timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. Which luck a datagram meets depends on the seed and the order of arrival;
-/// when it is due also on the clock. The profile's <see cref="LinkProfile.ReceiverClockOffset"/> is no matter of a relay. A bulk transfer of
-/// the profile's is simulated beside what is real, from a client's first datagram on, for each client on a link of its own.</para>
+/// <para>A thread of its own waits, without spinning, for the next datagram that comes in or falls due; it is late by the operating
+/// system's timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. Which luck a datagram meets depends on the seed and the order of
+/// arrival; when it is due also on the clock. The profile's <see cref="LinkProfile.ReceiverClockOffset"/> is no matter of a relay. A bulk
+/// transfer of the profile's is simulated beside what is real, from a client's first datagram on, for each client on a link of its
+/// own.</para>
 /// <para>Safe on any thread.</para>
 /// </remarks>
 public sealed class UdpRelay : IDisposable
 {
-    /// <summary>The most clients there can be, ever: one that has left keeps its place. Datagrams of others are refused and counted.</summary>
+    /// <summary>
+    /// The most clients there can be, ever: one that has left keeps its place. Datagrams of others are refused and counted.
+    /// </summary>
     public const int MaxClients = 64;
 
     private readonly IClock clock;
@@ -39,9 +42,12 @@ public sealed class UdpRelay : IDisposable
     /// <param name="profile">What each client's link does.</param>
     /// <param name="seed">The luck of all links.</param>
     /// <param name="clock">Real time, read from the relay's thread.</param>
-    /// <param name="change">After how long the host sees each client at another port, again and again; null, the default, for never.</param>
-    /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on, or is the relay's own.</exception>
-    /// <exception cref="IOException">The system does not give <paramref name="listen"/>, for instance because its port is in use.</exception>
+    /// <param name="change">After how long the host sees each client at another port, again and again; null, the default, for
+    /// never.</param>
+    /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on, or is the
+    /// relay's own.</exception>
+    /// <exception cref="IOException">The system does not give <paramref name="listen"/>, for instance because its port is in
+    /// use.</exception>
     public UdpRelay(IPEndPoint listen, IPEndPoint host, LinkProfile profile, ulong seed, IClock clock, SimDuration? change = null)
     {
         ArgumentNullException.ThrowIfNull(listen);
@@ -84,7 +90,9 @@ public sealed class UdpRelay : IDisposable
         }
     }
 
-    /// <summary>Has the host see every client at another port from now on; what it still sends to the former is lost. From any thread.</summary>
+    /// <summary>
+    /// Has the host see every client at another port from now on; what it still sends to the former is lost. From any thread.
+    /// </summary>
     public void ChangePorts()
     {
         core.ChangePorts();
@@ -98,7 +106,9 @@ public sealed class UdpRelay : IDisposable
         core.Dispose();
     }
 
-    /// <summary>Whether what is sent to an address of the right port comes to who listens at one: at that very address, or at any of this machine.</summary>
+    /// <summary>
+    /// Whether what is sent to an address of the right port comes to who listens at one: at that very address, or at any of this machine.
+    /// </summary>
     private static bool IsReachedAt(IPAddress listening, IPAddress to)
     {
         bool listensOnAll = listening.Equals(IPAddress.Any) || listening.Equals(IPAddress.IPv6Any);

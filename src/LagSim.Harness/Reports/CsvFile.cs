@@ -5,7 +5,9 @@ using System.IO;
 
 namespace LagSim.Harness.Reports;
 
-/// <summary>Writes comma-separated values as RFC 4180 has them: a header, rows that end in CR LF, quotes only where a value needs them.</summary>
+/// <summary>
+/// Writes comma-separated values as RFC 4180 has them: a header, rows that end in CR LF, quotes only where a value needs them.
+/// </summary>
 /// <remarks>
 /// Streams: a row is with the <see cref="TextWriter"/> once <see cref="WriteRow"/> returns. The writer stays the caller's to flush and
 /// close. Invariant culture; floating-point numbers read back as the very same number. Not thread-safe.

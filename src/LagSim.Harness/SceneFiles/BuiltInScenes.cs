@@ -86,13 +86,17 @@ public static class BuiltInScenes
             .AddBody("heavy", new BodySpec(0.4, 3, 0.8, law), new Vector3D(3, 4.3, 0.2), new Vector3D(-3, 2, 0))
             .Build();
 
-    /// <summary>Newton's cradle without strings: a ball of radius 0.5 m and 1 kg runs at 2 m/s into four that stand on a frictionless floor and touch;
-    /// a wall beyond either end sends the one that leaves back, so that after 4 s all is as it was.</summary>
+    /// <summary>
+    /// Newton's cradle without strings: a ball of radius 0.5 m and 1 kg runs at 2 m/s into four that stand on a frictionless floor and
+    /// touch; a wall beyond either end sends the one that leaves back, so that after 4 s all is as it was.
+    /// </summary>
     /// <param name="restitution">That of the balls, 0 to 1; default 1, and it goes on for ever.</param>
     /// <exception cref="SceneException"><paramref name="restitution"/> is out of range.</exception>
     public static Scene Cradle(double restitution = 1) => CradleScene.Build(restitution);
 
-    /// <summary>The break at pool: a cue ball at 8 m/s, a rack of fifteen that touch, a table of 2.54 m by 1.27 m with four cushions.</summary>
+    /// <summary>
+    /// The break at pool: a cue ball at 8 m/s, a rack of fifteen that touch, a table of 2.54 m by 1.27 m with four cushions.
+    /// </summary>
     /// <remarks>Balls slide without friction and do not spin, so they never stop; restitution alone slows them down.</remarks>
     /// <param name="ballRestitution">That of ball on ball, 0 to 1.</param>
     /// <param name="cushionRestitution">That of the cushions, 0 to 1; the lesser of the two counts.</param>
@@ -109,10 +113,13 @@ public static class BuiltInScenes
             ? CrowdScene.Build(CrowdScene.NameOf(bodies), bodies)
             : throw new ArgumentOutOfRangeException(nameof(bodies), bodies, $"A crowd has 1 to {MaxCrowd} balls.");
 
-    /// <summary>Equal elastic balls of 0.05 m in a periodic box, at a mean speed of 0.17 m/s: what is measured in it does not depend on walls.</summary>
+    /// <summary>
+    /// Equal elastic balls of 0.05 m in a periodic box, at a mean speed of 0.17 m/s: what is measured in it does not depend on walls.
+    /// </summary>
     /// <remarks>The same for the same numbers, always. Cost: O(n log n).</remarks>
     /// <param name="bodies">How many, 65 to <see cref="MaxCrowd"/>; fewer do not fill a box that is wide enough for them.</param>
-    /// <param name="fraction">Which part of the box they fill, above 0 and at most 0.5, where only a cube of a whole number, from 125 on, fits the lattice they start on.</param>
+    /// <param name="fraction">Which part of the box they fill, above 0 and at most 0.5, where only a cube of a whole number, from 125 on,
+    /// fits the lattice they start on.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
     /// <exception cref="SceneException">The box would be too small for its bodies, or the lattice too narrow.</exception>
     public static Scene Gas(int bodies, double fraction = 0.2)

@@ -7,8 +7,8 @@ namespace LagSim.Harness.SceneFiles;
 
 /// <summary>Many balls of many sizes in a box with elastic walls, in flight for ever.</summary>
 /// <remarks>
-/// There is no gravity: it would make a crowd of any other number another thing, taller, faster and denser at the bottom. So every ball meets as many
-/// others a second whatever their number, and what grows with it is what the engine adds.
+/// There is no gravity: it would make a crowd of any other number another thing, taller, faster and denser at the bottom. So every ball
+/// meets as many others a second whatever their number, and what grows with it is what the engine adds.
 /// </remarks>
 internal static class CrowdScene
 {

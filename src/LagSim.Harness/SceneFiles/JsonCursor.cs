@@ -5,7 +5,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Walks a JSON document once, knows where in it it is, and turns whatever is wrong into a <see cref="SceneFileException"/>.</summary>
+/// <summary>
+/// Walks a JSON document once, knows where in it it is, and turns whatever is wrong into a <see cref="SceneFileException"/>.
+/// </summary>
 internal ref struct JsonCursor
 {
     /// <summary>Deeper than any scene; what nests deeper is refused before it can cost anything.</summary>

@@ -8,7 +8,9 @@ using LagSim.Scenes;
 namespace LagSim.Harness.SceneFiles;
 
 /// <summary>Scenes as JSON files; docs/SCENES.md says what stands in one.</summary>
-/// <remarks>Strict: what is unknown, missing, given twice, of the wrong type or out of range is refused, with its place. Safe on any thread.</remarks>
+/// <remarks>
+/// Strict: what is unknown, missing, given twice, of the wrong type or out of range is refused, with its place. Safe on any thread.
+/// </remarks>
 public static class SceneFile
 {
     /// <summary>What the key <c>format</c> must say.</summary>

@@ -2,7 +2,9 @@ using System;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>A scene file cannot be read or written. The message names the file, the place in it, what is wrong and what is allowed.</summary>
+/// <summary>
+/// A scene file cannot be read or written. The message names the file, the place in it, what is wrong and what is allowed.
+/// </summary>
 public sealed class SceneFileException : Exception
 {
     /// <summary>No message; prefer the one with a sentence.</summary>

@@ -5,7 +5,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>The grammar of a scene file: which keys there are, what they mean to a <see cref="SceneBuilder"/>, and which may be left out.</summary>
+/// <summary>
+/// The grammar of a scene file: which keys there are, what they mean to a <see cref="SceneBuilder"/>, and which may be left out.
+/// </summary>
 internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
@@ -26,9 +28,9 @@ internal ref partial struct SceneJsonReader
 
     /// <param name="json">The document, known to be UTF-8.</param>
     /// <param name="file">What errors call it.</param>
-    /// <param name="locate">
-    /// The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported at its place. The limits stand in the builder alone, and
-    /// it names a part but cannot know where in the file that is; so a document that does not build is read once more like this.
+    /// <param name="locate"> The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported
+    /// at its place. The limits stand in the builder alone, and it names a part but cannot know where in the file that is; so a document
+    /// that does not build is read once more like this.
     /// </param>
     internal SceneJsonReader(ReadOnlySpan<byte> json, string file, string? locate)
     {

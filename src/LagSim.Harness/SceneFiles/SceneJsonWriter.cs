@@ -81,7 +81,9 @@ internal static class SceneJsonWriter
         json.WriteEndArray();
     }
 
-    /// <summary>The fewest digits that read back as the same number of ticks: 0.005, where the span itself is a sum of powers of two.</summary>
+    /// <summary>
+    /// The fewest digits that read back as the same number of ticks: 0.005, where the span itself is a sum of powers of two.
+    /// </summary>
     internal static double Seconds(SimDuration span)
     {
         double exact = span.ToSeconds();

@@ -8,9 +8,9 @@ namespace LagSim.Harness.Experiments.Accuracy;
 
 /// <summary>The break at pool: where the balls are soon after it, against LagSim's closed-form flight.</summary>
 /// <remarks>
-/// Every impact of balls magnifies an error, so the time is short. Closed-form flight is its own reference; what it is off by is told by the same scene whose
-/// cue ball starts a unit in the last place further on. Of balls that touch at once in the rack the engines make something else each, since rules for that
-/// differ; that is in the figures too.
+/// Every impact of balls magnifies an error, so the time is short. Closed-form flight is its own reference; what it is off by is told by
+/// the same scene whose cue ball starts a unit in the last place further on. Of balls that touch at once in the rack the engines make
+/// something else each, since rules for that differ; that is in the figures too.
 /// </remarks>
 internal sealed class BilliardsWork : WorkScene
 {

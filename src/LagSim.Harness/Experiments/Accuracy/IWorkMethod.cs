@@ -6,7 +6,8 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Experiments.Accuracy;
 
 /// <summary>
-/// A way to simulate a scene: a law of LagSim, another engine, an integrator. A new one is one file and one line in <see cref="WorkMethods"/>.
+/// A way to simulate a scene: a law of LagSim, another engine, an integrator. A new one is one file and one line in
+/// <see cref="WorkMethods"/>.
 /// </summary>
 public interface IWorkMethod
 {
@@ -28,7 +29,8 @@ public interface IWorkMethod
     /// <summary>Builds a world of the scene at time zero.</summary>
     /// <param name="scene">The scene.</param>
     /// <param name="setting">One of <see cref="Settings"/>.</param>
-    /// <param name="cancellation">Ends <see cref="IWorkRun.AdvanceTo"/> between two steps or instants, by an <see cref="OperationCanceledException"/>.</param>
+    /// <param name="cancellation">Ends <see cref="IWorkRun.AdvanceTo"/> between two steps or instants, by an
+    /// <see cref="OperationCanceledException"/>.</param>
     IWorkRun Start(WorkScene scene, WorkSetting setting, CancellationToken cancellation);
 }
 

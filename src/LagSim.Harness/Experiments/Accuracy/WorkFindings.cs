@@ -31,9 +31,9 @@ public static class WorkFindings
     /// one sentence together.
     /// </summary>
     /// <remarks>
-    /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the diagram, at errors
-    /// above a setting's that setting's own. Only the kind of error that diagrams show counts; of dense contact each other kind has a
-    /// sentence a scene.
+    /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the
+    /// diagram, at errors above a setting's that setting's own. Only the kind of error that diagrams show counts; of dense contact each
+    /// other kind has a sentence a scene.
     /// </remarks>
     public static IReadOnlyList<string> Sentences(IReadOnlyList<WorkPoint> points)
     {

@@ -12,7 +12,8 @@ public sealed record WorkOptions
     public int MaxSettings { get; init; } = int.MaxValue;
 
     /// <summary>
-    /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones; default 20.
+    /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones;
+    /// default 20.
     /// </summary>
     public double LongestSeconds { get; init; } = 20;
 

@@ -6,11 +6,12 @@ using MathNet.Numerics;
 namespace LagSim.Harness.Experiments.Accuracy;
 
 /// <summary>
-/// A method's measured order on a scene: the slope of error against step, both logarithmic, by least squares over the asymptotic part. Immutable.
+/// A method's measured order on a scene: the slope of error against step, both logarithmic, by least squares over the asymptotic part.
+/// Immutable.
 /// </summary>
 /// <remarks>
-/// The asymptotic part is chosen by a rule that knows no result: of the points whose error is at least a hundred times the scene's rounding and at most a tenth
-/// of its size, the finest four, at least three. There is no order where fewer are left.
+/// The asymptotic part is chosen by a rule that knows no result: of the points whose error is at least a hundred times the scene's rounding
+/// and at most a tenth of its size, the finest four, at least three. There is no order where fewer are left.
 /// </remarks>
 /// <param name="Scene">The scene.</param>
 /// <param name="Method">The method.</param>
@@ -23,7 +24,9 @@ public sealed record WorkOrder(string Scene, string Method, double Slope, int Po
 
     private const int Fewest = 3;
 
-    /// <summary>The order of a method on a scene, from its points of one kind of error; null if too few of them are in the asymptotic part.</summary>
+    /// <summary>
+    /// The order of a method on a scene, from its points of one kind of error; null if too few of them are in the asymptotic part.
+    /// </summary>
     internal static WorkOrder? Of(WorkScene scene, IEnumerable<WorkPoint> points)
     {
         WorkPoint[] part =

@@ -8,6 +8,8 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// <param name="LeftOut">What was left out and why, a sentence each; missing engines among them.</param>
 public sealed record WorkReport(IReadOnlyList<WorkPoint> Points, IReadOnlyList<WorkOrder> Orders, IReadOnlyList<string> LeftOut)
 {
-    /// <summary>Where it was stopped before all was done, a scene and a method, which is left out with all after it; null if it went through.</summary>
+    /// <summary>
+    /// Where it was stopped before all was done, a scene and a method, which is left out with all after it; null if it went through.
+    /// </summary>
     public string? StoppedAt { get; init; }
 }

@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>A scene of the work-precision diagrams, and how far off a run of it is. A new one is one file and one line in <see cref="WorkScenes"/>.</summary>
+/// <summary>
+/// A scene of the work-precision diagrams, and how far off a run of it is. A new one is one file and one line in <see cref="WorkScenes"/>.
+/// </summary>
 public abstract partial class WorkScene
 {
     /// <summary>How often it is looked at; a method with steps is looked at on its own steps.</summary>

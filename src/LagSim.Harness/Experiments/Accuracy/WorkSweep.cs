@@ -6,7 +6,9 @@ using LagSim.Harness.Experiments.Metrics;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>Speed against error: each method on each scene, its step swept, every point measured for its error and timed apart from that.</summary>
+/// <summary>
+/// Speed against error: each method on each scene, its step swept, every point measured for its error and timed apart from that.
+/// </summary>
 public static class WorkSweep
 {
     private const double MaxSeconds = 1e6; // that a timer counts
@@ -17,7 +19,8 @@ public static class WorkSweep
     /// <param name="methods">The methods; those that are missing or do not suit a scene are left out with a sentence.</param>
     /// <param name="options">How thoroughly.</param>
     /// <param name="progress">Is told which part of all points is done, 0 to 1.</param>
-    /// <param name="cancellation">Ends it between two steps or instants of a run, with the points of the methods that were done by then.</param>
+    /// <param name="cancellation">Ends it between two steps or instants of a run, with the points of the methods that were done by
+    /// then.</param>
     /// <param name="begin">Is told a scene and a method before they run, as words.</param>
     public static WorkReport Run(
         IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null,
@@ -135,7 +138,10 @@ public static class WorkSweep
             scene.Name, method.Name, setting.Text, setting.StepSeconds, error, scene.ErrorKinds[kind], cpu, runs, scene.Seconds, events));
     }
 
-    /// <summary>The least of several runs, making the world of the scene included, and neither the scene nor what is freed afterwards; nothing is read.</summary>
+    /// <summary>
+    /// The least of several runs, making the world of the scene included, and neither the scene nor what is freed afterwards; nothing is
+    /// read.
+    /// </summary>
     private static (double Seconds, int Runs) Time(WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options,
         CancellationToken cancellation)
     {

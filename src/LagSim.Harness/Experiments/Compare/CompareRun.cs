@@ -9,7 +9,8 @@ namespace LagSim.Harness.Experiments.Compare;
 /// <param name="Options">With what.</param>
 /// <param name="Seen">Errors as seen among the peers, at the same shared time. After means: no event is on its way to anybody.</param>
 /// <param name="SeenTrueTime">Errors as seen among the peers, at the same true instant.</param>
-/// <param name="SeenFromTruth">How far what the peers showed was from the world that had every accepted event on time, at the same shared time.</param>
+/// <param name="SeenFromTruth">How far what the peers showed was from the world that had every accepted event on time, at the same shared
+/// time.</param>
 /// <param name="Settled">Errors among the peers of what the timelines say once every event has arrived.</param>
 /// <param name="StateHashes">Each peer's state at the last sample, the host first.</param>
 /// <param name="EventHashes">Each peer's hash of all events up to then.</param>
@@ -20,14 +21,15 @@ namespace LagSim.Harness.Experiments.Compare;
 /// <param name="Heals">How often peers rewrote their past for another's event; 0 with a strategy that rewrites none.</param>
 /// <param name="BytesSentPerSecond">Each peer's datagrams, UDP and IP headers included.</param>
 /// <param name="Lateness">By how many milliseconds other peers' events came after their stamp.</param>
-/// <param name="Divergence">For each event the milliseconds from its stamp until the last peer showed it: while the peers' pictures may differ because of it.</param>
-/// <param name="TimeToHeal">
-/// Milliseconds of wall clock, not of virtual time, in which late events were healed: those of the step of a peer that took it in, from its first datagram to the published
-/// picture. The only figures that depend on the machine.
+/// <param name="Divergence">For each event the milliseconds from its stamp until the last peer showed it: while the peers' pictures may
+/// differ because of it.</param>
+/// <param name="TimeToHeal"> Milliseconds of wall clock, not of virtual time, in which late events were healed: those of the step of a peer
+/// that took it in, from its first datagram to the published picture. The only figures that depend on the machine.
 /// </param>
 /// <param name="EventsRerun">For each heal how many events were run again, the late one included.</param>
 /// <param name="ConeBodies">For each heal how many bodies were predicted anew.</param>
-/// <param name="Corrections">How far, in metres, bodies jumped that were drawn elsewhere than a moment before, at the same instant, because a late event had come.</param>
+/// <param name="Corrections">How far, in metres, bodies jumped that were drawn elsewhere than a moment before, at the same instant, because
+/// a late event had come.</param>
 /// <param name="CorrectionsSeen">How many such jumps there were.</param>
 /// <param name="InputLatency">Milliseconds from a player's action until its own picture showed it, to the next sample.</param>
 /// <param name="Trace">What there is to draw.</param>
@@ -55,7 +57,9 @@ public sealed record CompareRun(
     Percentiles InputLatency,
     CompareTrace Trace) : IPeerRun
 {
-    /// <summary>Where a peer first settled on another state of a body than the world that had every event on time; null if none did.</summary>
+    /// <summary>
+    /// Where a peer first settled on another state of a body than the world that had every event on time; null if none did.
+    /// </summary>
     public SettledDifference? FirstDifference { get; init; }
 
     /// <summary>Whether all peers settled on the same, and on what a world has that had every event on time, bit for bit.</summary>

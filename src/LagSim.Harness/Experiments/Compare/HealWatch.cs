@@ -10,8 +10,8 @@ using LagSim.Time;
 namespace LagSim.Harness.Experiments.Compare;
 
 /// <summary>
-/// Looks at every step of every peer that applies late events: how long it took, what was run again, and how far what is drawn jumps, the old render snapshot against the new
-/// one at the same instant. What a peer does itself is not late for it and is left out.
+/// Looks at every step of every peer that applies late events: how long it took, what was run again, and how far what is drawn jumps, the
+/// old render snapshot against the new one at the same instant. What a peer does itself is not late for it and is left out.
 /// </summary>
 internal sealed class HealWatch
 {

@@ -63,7 +63,10 @@ public sealed record DropOptions
     /// <summary>The luck of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
 
-    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In real time whoever is told of progress ends it, by an exception.</summary>
+    /// <summary>
+    /// Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In
+    /// real time whoever is told of progress ends it, by an exception.
+    /// </summary>
     public CancellationToken Cancellation { get; init; }
 
     /// <summary>Whether heights and restitution are the thesis's, so that its figures compare.</summary>

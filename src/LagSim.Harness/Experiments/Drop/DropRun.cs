@@ -12,11 +12,13 @@ namespace LagSim.Harness.Experiments.Drop;
 /// <param name="SeenTrueTime">Errors as seen, at the same true instant.</param>
 /// <param name="Settled">Errors of what the timelines say once every event has arrived.</param>
 /// <param name="StateHashes">Each peer's state at the case's last sample, the host first.</param>
-/// <param name="EventHashes">Each peer's hash of all events up to then: the state at the end of a case is rest, this is how it got there.</param>
+/// <param name="EventHashes">Each peer's hash of all events up to then: the state at the end of a case is rest, this is how it got
+/// there.</param>
 /// <param name="SceneHash">The scene's.</param>
 /// <param name="ClockErrorMilliseconds">The largest error of a shared clock.</param>
 /// <param name="Events">How many events the host's world went through in this case.</param>
-/// <param name="Heals">How often peers rewrote their timelines back to another's event that came late; 0 with a strategy that rewrites no past.</param>
+/// <param name="Heals">How often peers rewrote their timelines back to another's event that came late; 0 with a strategy that rewrites no
+/// past.</param>
 /// <param name="BytesSentPerSecond">Each peer's datagrams, UDP and IP headers included; what a carrier adds of its own is not.</param>
 /// <param name="Lateness">By how many milliseconds other peers' events came after their stamp.</param>
 /// <param name="CpuCoresAtRest">Processor use of the whole process while all rests; null where not measured.</param>
@@ -40,7 +42,9 @@ public sealed record DropRun(
     bool BallRested,
     DropTrace Trace) : IPeerRun
 {
-    /// <summary>Whether all peers' timelines and hashes agree to the bit, before and after the event and at the time of it, and nothing was missed.</summary>
+    /// <summary>
+    /// Whether all peers' timelines and hashes agree to the bit, before and after the event and at the time of it, and nothing was missed.
+    /// </summary>
     public bool Agrees =>
         Differing(Settled.Before) + Differing(Settled.During) + Differing(Settled.After) == 0 && StateHashes.Distinct().Count() == 1
         && EventHashes.Distinct().Count() == 1;

@@ -94,7 +94,9 @@ public static class DropTest
             PeerComparison.Errors(samples, peers.Grid, peers.Bodies.Length, first, end, stamp, dealt);
     }
 
-    /// <summary>The number of the first instant that the lift may have changed: the case before it ends there, and its own begins.</summary>
+    /// <summary>
+    /// The number of the first instant that the lift may have changed: the case before it ends there, and its own begins.
+    /// </summary>
     private static int BeforeLift(PeerGroup peers, DropOptions options, in ExternalEvent lifted) =>
         Math.Min(peers.Grid.FirstAfter(peers.Start + options.Window(DropCase.SameStart).Last), peers.Grid.FirstAfter(lifted.Time - SimDuration.OneTick));
 

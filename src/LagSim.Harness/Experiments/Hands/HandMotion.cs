@@ -4,7 +4,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>Where a hand was, 120 times a second: what a headset's tracker gives, and the truth that a prediction is held against.</summary>
+/// <summary>
+/// Where a hand was, 120 times a second: what a headset's tracker gives, and the truth that a prediction is held against.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class HandMotion
 {
@@ -49,7 +51,9 @@ public sealed class HandMotion
     /// <summary>Where the hand was at sample <paramref name="n"/>, in metres.</summary>
     public Vector3D PositionAt(int n) => positions[n];
 
-    /// <summary>How fast it seemed to move at sample <paramref name="n"/> to who knows nothing later: the way since the sample before; m/s.</summary>
+    /// <summary>
+    /// How fast it seemed to move at sample <paramref name="n"/> to who knows nothing later: the way since the sample before; m/s.
+    /// </summary>
     public Vector3D VelocityAt(int n) => n == 0 ? Vector3D.Zero : (positions[n] - positions[n - 1]) * RateHertz;
 
     /// <summary>The largest acceleration, m/s^2, from second differences; 0 with fewer than three samples.</summary>

@@ -8,8 +8,8 @@ namespace LagSim.Harness.Experiments.Hands;
 
 /// <summary>A recorded hand motion: CSV with the header <c>time_s,x_m,y_m,z_m</c>, a row a sample.</summary>
 /// <remarks>
-/// Times in seconds, rising, at most 0.1 s apart, 2 s to an hour in all, from any origin; metres within +-1,000. Brought to 120 samples a second along straight
-/// lines between the recorded ones, so what is slower than that looks smoother than the hand was. Invariant culture.
+/// Times in seconds, rising, at most 0.1 s apart, 2 s to an hour in all, from any origin; metres within +-1,000. Brought to 120 samples a
+/// second along straight lines between the recorded ones, so what is slower than that looks smoother than the hand was. Invariant culture.
 /// </remarks>
 public static class HandMotionFile
 {

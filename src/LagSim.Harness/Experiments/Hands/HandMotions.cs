@@ -5,12 +5,14 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>The generated motions of a hand: 60 s each, by a seed. Their parameters were set before any predictor was tried on them.</summary>
+/// <summary>
+/// The generated motions of a hand: 60 s each, by a seed. Their parameters were set before any predictor was tried on them.
+/// </summary>
 /// <remarks>
 /// <para><c>slow</c>: reaches to places in a box of 0.6 x 0.4 x 0.4 m, each in 0.8 to 1.6 s, after every other a pause of up to 0.5 s: at
 /// most about 1.3 m/s and 8 m/s^2.</para>
-/// <para><c>random</c>: of all that it does half are series of quick reaches, which may begin before the last has ended, three tenths are shaking at 2.3 to 5 Hz, two
-/// tenths are stillness: at most about 3 m/s and 50 m/s^2. Nothing tells beforehand what comes next.</para>
+/// <para><c>random</c>: of all that it does half are series of quick reaches, which may begin before the last has ended, three tenths are
+/// shaking at 2.3 to 5 Hz, two tenths are stillness: at most about 3 m/s and 50 m/s^2. Nothing tells beforehand what comes next.</para>
 /// <para>Both tremble by 0.3 mm. The same seed gives the same bits everywhere.</para>
 /// </remarks>
 public static class HandMotions

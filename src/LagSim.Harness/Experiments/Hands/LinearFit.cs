@@ -7,10 +7,11 @@ namespace LagSim.Harness.Experiments.Hands;
 
 /// <summary>The best that a linear predictor of 20 taps can do on a motion, by least squares with the motion itself at hand.</summary>
 /// <remarks>
-/// <para>Each coordinate has taps of its own. They weigh the 20 newest positions and add up to 1, so that the answer does not depend on where the origin is. Holding, constant
-/// velocity and damped velocity are such predictors, with a velocity that is the difference of the two newest samples.</para>
-/// <para>Fitted to all of the motion it is a bound from below for every linear predictor of 20 taps there. Cross-validated, each tenth of the motion is told by taps
-/// that were fitted to the rest without what overlaps it: that can be had without knowing what is asked.</para>
+/// <para>Each coordinate has taps of its own. They weigh the 20 newest positions and add up to 1, so that the answer does not depend on
+/// where the origin is. Holding, constant velocity and damped velocity are such predictors, with a velocity that is the difference of the
+/// two newest samples.</para>
+/// <para>Fitted to all of the motion it is a bound from below for every linear predictor of 20 taps there. Cross-validated, each tenth of
+/// the motion is told by taps that were fitted to the rest without what overlaps it: that can be had without knowing what is asked.</para>
 /// </remarks>
 internal sealed class LinearFit
 {
@@ -54,7 +55,9 @@ internal sealed class LinearFit
         return new LinearFit(Math.Sqrt(inSample / count), Math.Sqrt(crossValidated / count));
     }
 
-    /// <summary>The normal equations of one coordinate: the way from the newest sample on, out of the ways from the newest to each older one.</summary>
+    /// <summary>
+    /// The normal equations of one coordinate: the way from the newest sample on, out of the ways from the newest to each older one.
+    /// </summary>
     private sealed class Equations
     {
         private const int Unknowns = Taps - 1;

@@ -7,9 +7,11 @@ namespace LagSim.Harness.Experiments.Hands;
 /// <param name="Samples">How many predictions were made.</param>
 /// <param name="AdaptiveMetres">Of the adaptive predictor.</param>
 /// <param name="CandidateMetres">Of each that it mixes, in its order.</param>
-/// <param name="LinearMetres">Of a linear predictor of 20 taps, fitted to this very motion but for the tenth that it is asked about.</param>
+/// <param name="LinearMetres">Of a linear predictor of 20 taps, fitted to this very motion but for the tenth that it is asked
+/// about.</param>
 /// <param name="LinearInSampleMetres">The same, fitted to all of it: no linear predictor of 20 taps does better on this motion.</param>
-/// <param name="MinWorstMetres">A L^2 / 2 with the largest acceleration of this motion: below that no predictor can promise to stay.</param>
+/// <param name="MinWorstMetres">A L^2 / 2 with the largest acceleration of this motion: below that no predictor can promise to
+/// stay.</param>
 public sealed record PredictionError(
     double HorizonMilliseconds,
     int Samples,

@@ -4,10 +4,14 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>What a hand does from the grab on: it lifts the ball off the floor within a second, does the motion, and throws. The truth that pictures are held against.</summary>
+/// <summary>
+/// What a hand does from the grab on: it lifts the ball off the floor within a second, does the motion, and throws. The truth that pictures
+/// are held against.
+/// </summary>
 /// <remarks>
-/// <para>The motion is played where it is at least half a metre clear of the floor, however it lies in its own coordinates, on straight lines between its samples. In
-/// its last 0.2 s a throw comes on top of it: the first half of a stroke of 0.7 m, ahead and up, at whose fastest instant the hand opens.</para>
+/// <para>The motion is played where it is at least half a metre clear of the floor, however it lies in its own coordinates, on straight
+/// lines between its samples. In its last 0.2 s a throw comes on top of it: the first half of a stroke of 0.7 m, ahead and up, at whose
+/// fastest instant the hand opens.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 internal sealed class HandCourse

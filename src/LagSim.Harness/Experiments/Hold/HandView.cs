@@ -7,11 +7,15 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>Where a player's screen would draw another's hand by <see cref="AdaptivePredictor"/>, from the keyframes that have come and from those that have not.</summary>
+/// <summary>
+/// Where a player's screen would draw another's hand by <see cref="AdaptivePredictor"/>, from the keyframes that have come and from those
+/// that have not.
+/// </summary>
 /// <remarks>
-/// That no keyframe came tells something too: until now less what a keyframe takes, the hand was where the others foretell it, give or take the sender's distance. So each frame gives the
-/// predictor a sample that is as old as the slowest of the newest keyframes was, but never older than the newest keyframe itself, on <see cref="HandPath"/>. Keyframes
-/// alone, at uneven times, would teach it little. For display only; not thread-safe.
+/// That no keyframe came tells something too: until now less what a keyframe takes, the hand was where the others foretell it, give or take
+/// the sender's distance. So each frame gives the predictor a sample that is as old as the slowest of the newest keyframes was, but never
+/// older than the newest keyframe itself, on <see cref="HandPath"/>. Keyframes alone, at uneven times, would teach it little. For display
+/// only; not thread-safe.
 /// </remarks>
 internal sealed class HandView
 {

@@ -28,7 +28,9 @@ public sealed record HoldOptions(HandMotion Motion)
     /// <summary>The longest hold by default in real time, in seconds, which are waited for.</summary>
     public const double RealSeconds = 20;
 
-    /// <summary>How long the hand does the motion, <see cref="ShortestSeconds"/> to <see cref="LongestSeconds"/>, and no longer than the motion is.</summary>
+    /// <summary>
+    /// How long the hand does the motion, <see cref="ShortestSeconds"/> to <see cref="LongestSeconds"/>, and no longer than the motion is.
+    /// </summary>
     public double HoldSeconds { get; init; } = Math.Min(LongestSeconds, Motion.Seconds);
 
     /// <summary>By how many metres the others may be off before the hand tells where it is, above 0.</summary>
@@ -55,13 +57,18 @@ public sealed record HoldOptions(HandMotion Motion)
     /// <summary>The luck of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
 
-    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In real time whoever is told of progress ends it, by an exception.</summary>
+    /// <summary>
+    /// Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In
+    /// real time whoever is told of progress ends it, by an exception.
+    /// </summary>
     public CancellationToken Cancellation { get; init; }
 
     /// <summary>How long the run takes, from the start of the scene.</summary>
     public SimDuration Length => GrabAfter + SimDuration.FromSeconds(HandCourse.LiftSeconds + HoldSeconds) + Afterwards;
 
-    /// <summary>The scene: a ball of radius 0.1 m and 0.4 kg at rest on a floor, in flight moved by Runge-Kutta steps as in the drop test.</summary>
+    /// <summary>
+    /// The scene: a ball of radius 0.1 m and 0.4 kg at rest on a floor, in flight moved by Runge-Kutta steps as in the drop test.
+    /// </summary>
     public static Scene BuildScene() => new SceneBuilder("hold")
         .AddPlane("floor", Vector3D.Up, Vector3D.Zero)
         .AddBody("ball", new BodySpec(HandCourse.BallRadius, 0.4, 0.6, MotionLaw.RungeKutta4), HandCourse.Rest)

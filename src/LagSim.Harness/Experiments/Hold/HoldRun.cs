@@ -20,10 +20,12 @@ namespace LagSim.Harness.Experiments.Hold;
 /// <param name="SceneHash">The scene's.</param>
 /// <param name="ClockErrorMilliseconds">The largest error of a shared clock.</param>
 /// <param name="Events">How many events the host's world went through.</param>
-/// <param name="Heals">How often peers rewrote their past for an event of the hand that came late; 0 with a strategy that rewrites none.</param>
+/// <param name="Heals">How often peers rewrote their past for an event of the hand that came late; 0 with a strategy that rewrites
+/// none.</param>
 /// <param name="BytesSentPerSecond">Each peer's datagrams over the whole run, UDP and IP headers included.</param>
 /// <param name="Lateness">By how many milliseconds the hand's events came after their stamp.</param>
-/// <param name="CpuCoresAtRest">Processor use of the whole process at the end; null where not measured, as where the ball slides on.</param>
+/// <param name="CpuCoresAtRest">Processor use of the whole process at the end; null where not measured, as where the ball slides
+/// on.</param>
 /// <param name="Keyframes">How often the hand told where it is.</param>
 /// <param name="KeyframesPerSecond">The same for each second of the motion.</param>
 /// <param name="HolderSentPerSecond">Bytes a second that the peer whose hand it is sent while the motion went on, headers included.</param>
@@ -66,7 +68,9 @@ public sealed record HoldRun(
         && StateHashes.All(hash => hash == TruthStateHash) && EventHashes.All(hash => hash == TruthEventHash);
 }
 
-/// <summary>How far from the hand another peer saw the ball that it holds, during the motion and at the same shared time. Immutable.</summary>
+/// <summary>
+/// How far from the hand another peer saw the ball that it holds, during the motion and at the same shared time. Immutable.
+/// </summary>
 /// <param name="Peer">Whose view: the place in the group, 0 is the host.</param>
 /// <param name="Simulated">Of the ball as that peer's world has it: the last keyframe foretold by the fixed rule.</param>
 /// <param name="Predicted">Of a ball drawn where <see cref="Net.Display.AdaptivePredictor"/> tells that the hand is.</param>

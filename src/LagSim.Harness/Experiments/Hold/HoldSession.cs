@@ -10,7 +10,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>One session as the holder's game plays it: a grab, frames in which keyframes go out as <see cref="HandSender"/> says, and a release at the hand's velocity.</summary>
+/// <summary>
+/// One session as the holder's game plays it: a grab, frames in which keyframes go out as <see cref="HandSender"/> says, and a release at
+/// the hand's velocity.
+/// </summary>
 internal sealed class HoldSession
 {
     private static readonly BodyId Ball = BodyId.OfScene(0);

@@ -121,7 +121,9 @@ public static class HoldTest
         T[] Instants<T>(Func<int, T> of) => Array.ConvertAll(Enumerable.Range(0, grid.Count).ToArray(), n => of(n));
     }
 
-    /// <summary>What one of the others saw, and would have seen with the predictor: it hears again what it heard, when it did, frame by frame.</summary>
+    /// <summary>
+    /// What one of the others saw, and would have seen with the predictor: it hears again what it heard, when it did, frame by frame.
+    /// </summary>
     private static HeldView View(PeerGroup peers, HoldSession session, int place, Vector3D[] hand, int first, int end, out Vector3D[] drawn)
     {
         IReadOnlyList<HandUpdate> heard = session.Hand.HeardBy(place);

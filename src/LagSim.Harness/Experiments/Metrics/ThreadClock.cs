@@ -5,8 +5,8 @@ using System.Runtime.InteropServices;
 namespace LagSim.Harness.Experiments.Metrics;
 
 /// <summary>
-/// The time that this thread has had a core: what others take on a shared machine is not counted, so a tail is the program's own. Where the system does not tell (anything but Linux) wall
-/// clock.
+/// The time that this thread has had a core: what others take on a shared machine is not counted, so a tail is the program's own. Where the
+/// system does not tell (anything but Linux) wall clock.
 /// </summary>
 public static class ThreadClock
 {

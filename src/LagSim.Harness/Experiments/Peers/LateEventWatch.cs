@@ -10,8 +10,9 @@ namespace LagSim.Harness.Experiments.Peers;
 
 /// <summary>Notes when the last peer showed each event, by its own shared clock, and what the host accepted.</summary>
 /// <remarks>
-/// In virtual time a step takes none, so what is heard of is shown. In real time every session tells on a thread of its own, and an event counts as shown once
-/// that peer has published its next picture: what a peer does itself makes one too, so there only those who do nothing are told to the millisecond.
+/// In virtual time a step takes none, so what is heard of is shown. In real time every session tells on a thread of its own, and an event
+/// counts as shown once that peer has published its next picture: what a peer does itself makes one too, so there only those who do nothing
+/// are told to the millisecond.
 /// </remarks>
 internal sealed class LateEventWatch
 {
@@ -39,7 +40,10 @@ internal sealed class LateEventWatch
     /// <summary>What the host accepted, in the order of its log. To be read once the run has ended.</summary>
     internal IReadOnlyList<ExternalEvent> Accepted => accepted;
 
-    /// <summary>Of each event that was done its stamp, and when the last peer showed it; the end of time if one never did. To be read once the run has ended.</summary>
+    /// <summary>
+    /// Of each event that was done its stamp, and when the last peer showed it; the end of time if one never did. To be read once the run
+    /// has ended.
+    /// </summary>
     internal IReadOnlyList<(SimTime Stamp, SimTime Dealt)> Windows
     {
         get
@@ -56,7 +60,9 @@ internal sealed class LateEventWatch
     /// <summary>Says that a player has done this.</summary>
     internal void Did(in ExternalEvent external) => done.Add(external);
 
-    /// <summary>The phase of an instant: during any event that has happened and is not shown by all, else before the first, or after.</summary>
+    /// <summary>
+    /// The phase of an instant: during any event that has happened and is not shown by all, else before the first, or after.
+    /// </summary>
     internal static Phase PhaseAt(IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows, SimTime time) =>
         windows.All(w => time < w.Stamp) ? Phase.Before : windows.Any(w => time >= w.Stamp && time < w.Dealt) ? Phase.During : Phase.After;
 

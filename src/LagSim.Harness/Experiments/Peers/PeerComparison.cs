@@ -37,7 +37,10 @@ public static class PeerComparison
         return most;
     }
 
-    /// <summary>The first instant at which a body is not the same to the bit as the first of the peers has it, and the first such body and peer; null if there is none.</summary>
+    /// <summary>
+    /// The first instant at which a body is not the same to the bit as the first of the peers has it, and the first such body and peer;
+    /// null if there is none.
+    /// </summary>
     /// <param name="peers">One entry a peer; all are compared with the first.</param>
     /// <param name="bodies">How many bodies there are.</param>
     /// <param name="count">How many instants there are.</param>

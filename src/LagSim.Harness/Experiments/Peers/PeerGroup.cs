@@ -11,7 +11,9 @@ using LagSim.Time;
 namespace LagSim.Harness.Experiments.Peers;
 
 /// <summary>A host and its clients in one process, each with a clock of its own, watched while they share a world.</summary>
-/// <remarks>In real time (<see cref="RealPeers"/>) and in virtual time (<see cref="VirtualPeers"/>) the same sessions and strategies run.</remarks>
+/// <remarks>
+/// In real time (<see cref="RealPeers"/>) and in virtual time (<see cref="VirtualPeers"/>) the same sessions and strategies run.
+/// </remarks>
 public abstract class PeerGroup : IDisposable
 {
     /// <summary>How long before a run ends it is left unwatched, to see what a world at rest costs.</summary>
@@ -49,7 +51,9 @@ public abstract class PeerGroup : IDisposable
     /// <summary>What each peer's timelines say in the end.</summary>
     public IReadOnlyList<PeerSamples> Settled { get; private protected set; } = [];
 
-    /// <summary>The largest distance of a client's shared clock from the host's at each true instant that was sampled, in milliseconds.</summary>
+    /// <summary>
+    /// The largest distance of a client's shared clock from the host's at each true instant that was sampled, in milliseconds.
+    /// </summary>
     public double[] ClockErrorMilliseconds { get; private protected set; } = [];
 
     /// <summary>Processor seconds per second while everything rested and nobody watched; null where that was not measured.</summary>
@@ -71,7 +75,9 @@ public abstract class PeerGroup : IDisposable
     /// <summary>Lets time pass until the host's shared clock reads that long after the start, watching.</summary>
     public abstract void RunUntil(SimDuration sinceStart, Action<SimDuration>? progress);
 
-    /// <summary>As <see cref="RunUntil"/>, until every peer's shared clock reads that; unwatched at the end, while what rests is measured.</summary>
+    /// <summary>
+    /// As <see cref="RunUntil"/>, until every peer's shared clock reads that; unwatched at the end, while what rests is measured.
+    /// </summary>
     public abstract void RunQuietlyUntil(SimDuration sinceStart, Action<SimDuration>? progress);
 
     /// <summary>Has a peer do something, now.</summary>

@@ -5,7 +5,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>What one peer showed: for each instant of the grid the state of every body, read when that peer's shared clock had just reached it.</summary>
+/// <summary>
+/// What one peer showed: for each instant of the grid the state of every body, read when that peer's shared clock had just reached it.
+/// </summary>
 /// <remarks>Written by one thread, the one that plays the game's frame; read once that has ended.</remarks>
 public sealed class PeerSamples
 {
@@ -39,7 +41,10 @@ public sealed class PeerSamples
     /// <summary>The next instant; only while not complete.</summary>
     public SimTime NextTime => grid.At(Next);
 
-    /// <summary>The instant of the world that the peer shows when its shared clock reads that; never one before the scene began. See <see cref="Net.Sessions.Session.DisplayTime"/>.</summary>
+    /// <summary>
+    /// The instant of the world that the peer shows when its shared clock reads that; never one before the scene began. See
+    /// <see cref="Net.Sessions.Session.DisplayTime"/>.
+    /// </summary>
     public SimTime ShownAt(SimTime shared) => SimTime.Max(shared - displayDelay, SimTime.Min(shared, grid.Start));
 
     /// <summary>Whether the peer's render snapshot covered the n-th instant at the time; if not it stalled.</summary>
@@ -51,9 +56,8 @@ public sealed class PeerSamples
     /// <summary>Samples every instant that the clock has reached.</summary>
     /// <param name="snapshot">What the peer shows now; null: nothing.</param>
     /// <param name="now">What its shared clock reads now.</param>
-    /// <param name="timeout">
-    /// An instant further in the past than this, which was not sampled when it was due, counts as stalled, unless the render snapshot is still the
-    /// one of the last look: then it showed the instant as it does now.
+    /// <param name="timeout"> An instant further in the past than this, which was not sampled when it was due, counts as stalled, unless
+    /// the render snapshot is still the one of the last look: then it showed the instant as it does now.
     /// </param>
     public void Take(RenderSnapshot? snapshot, SimTime now, SimDuration timeout)
     {
@@ -70,7 +74,9 @@ public sealed class PeerSamples
         }
     }
 
-    /// <summary>Samples the n-th instant as the render snapshot shows another one; what is seen at one true instant differs by the clocks' error.</summary>
+    /// <summary>
+    /// Samples the n-th instant as the render snapshot shows another one; what is seen at one true instant differs by the clocks' error.
+    /// </summary>
     public void TakeAt(int n, RenderSnapshot? snapshot, SimTime now)
     {
         if (snapshot is not null && snapshot.Covers(ShownAt(now)))

@@ -14,7 +14,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>Peers in real time over real sockets on this machine: each with its own thread, port and clock, watched by the calling thread.</summary>
+/// <summary>
+/// Peers in real time over real sockets on this machine: each with its own thread, port and clock, watched by the calling thread.
+/// </summary>
 public sealed class RealPeers : PeerGroup
 {
     private const int PollMilliseconds = 1;
@@ -165,7 +167,10 @@ public sealed class RealPeers : PeerGroup
         }
     }
 
-    /// <summary>The link by which a peer hears of another. Both ways have one clock and one path, so that what befalls a link does so both ways at once.</summary>
+    /// <summary>
+    /// The link by which a peer hears of another. Both ways have one clock and one path, so that what befalls a link does so both ways at
+    /// once.
+    /// </summary>
     private LinkModel LinkTo(int receiver, PeerAddress from)
     {
         int client = receiver == 0 ? Array.FindIndex(ports, port => port?.LocalAddress == from) : receiver;
@@ -178,7 +183,8 @@ public sealed class RealPeers : PeerGroup
         LinkModel down = new(options.Link.FromHost, luck.Fork(1), luck.Fork(2));
         if (options.Link.HasBulkTransfer)
         {
-            // The way up is another thread's. So acknowledgements have a queue of their own: a twentieth of its rate that the session is not made to share.
+            // The way up is another thread's. So acknowledgements have a queue of their own: a twentieth of its rate that the session is
+            // not made to share.
             LinkModel acks = new(options.Link.ToHost, luck.Fork(4), luck.Fork(2));
             _ = new BulkTransfer(new LinkModel(options.Link.FromHost, luck.Fork(3), luck.Fork(2), down.Queue), acks, trueTime.Now);
         }
@@ -208,7 +214,10 @@ public sealed class RealPeers : PeerGroup
         Sample();
     }
 
-    /// <summary>A thread that the machine kept waiting may be behind its clock: what settles at the end is to be there, however long that takes within reason.</summary>
+    /// <summary>
+    /// A thread that the machine kept waiting may be behind its clock: what settles at the end is to be there, however long that takes
+    /// within reason.
+    /// </summary>
     private void AwaitWorlds(SimTime end)
     {
         long deadline = Stopwatch.GetTimestamp() + (long)(AnswerDeadline.ToSeconds() * Stopwatch.Frequency);

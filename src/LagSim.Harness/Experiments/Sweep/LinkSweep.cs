@@ -6,7 +6,9 @@ using System.Threading.Tasks;
 
 namespace LagSim.Harness.Experiments.Sweep;
 
-/// <summary>Sessions on links that are full, or nearly: what is offered against what comes, how long it takes, and whether all agree all the same.</summary>
+/// <summary>
+/// Sessions on links that are full, or nearly: what is offered against what comes, how long it takes, and whether all agree all the same.
+/// </summary>
 /// <remarks>In virtual time. Each cell is played on one thread from the same seed, so every figure is the same in every run.</remarks>
 public static class LinkSweep
 {

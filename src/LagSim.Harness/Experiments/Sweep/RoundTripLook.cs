@@ -12,7 +12,9 @@ internal readonly record struct RoundTripLook(double AtSeconds, double Milliseco
     /// <summary>So long a round trip has to stay below the bound.</summary>
     private const double StaysForSeconds = 1;
 
-    /// <summary>The longest from the end of a dip until the round trip is below a bound and stays there for a second; 0 if there was no dip.</summary>
+    /// <summary>
+    /// The longest from the end of a dip until the round trip is below a bound and stays there for a second; 0 if there was no dip.
+    /// </summary>
     /// <param name="course">All looks, in order.</param>
     /// <param name="belowMs">The bound.</param>
     internal static double Recovery(IReadOnlyList<RoundTripLook> course, double belowMs)

@@ -37,7 +37,9 @@ public sealed record SweepOutcome
     /// <summary>For how long queues showed on the way to clients, in seconds, summed over all of them.</summary>
     public double QueuedSeconds { get; init; }
 
-    /// <summary>What the host sent meanwhile, in bytes of updates without UDP and IP, for each byte of entries that came; 0 if no queue showed.</summary>
+    /// <summary>
+    /// What the host sent meanwhile, in bytes of updates without UDP and IP, for each byte of entries that came; 0 if no queue showed.
+    /// </summary>
     public double SentPerNeededByteWhileQueued { get; init; }
 
     /// <summary>Events that clients did.</summary>
@@ -73,10 +75,15 @@ public sealed record SweepOutcome
     /// <summary>The load up to which no link may be too slow for a client.</summary>
     public const double LoadForAll = 0.8;
 
-    /// <summary>How much of the link the events and what one update for each three of them adds would take, in the direction that carries more.</summary>
+    /// <summary>
+    /// How much of the link the events and what one update for each three of them adds would take, in the direction that carries more.
+    /// </summary>
     public double LoadShare { get; init; }
 
-    /// <summary>Whether the cell shows what it must: nothing lost, nothing differs, enough compared; on links with less than 80 % of load, nobody too slow either.</summary>
+    /// <summary>
+    /// Whether the cell shows what it must: nothing lost, nothing differs, enough compared; on links with less than 80 % of load, nobody
+    /// too slow either.
+    /// </summary>
     public bool IsGood => Shortfall is null;
 
     /// <summary>What of that it does not show, as sentences, <see cref="Failure"/> first; null if it shows all of it.</summary>

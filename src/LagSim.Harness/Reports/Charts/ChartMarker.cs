@@ -10,7 +10,8 @@ public sealed class ChartMarker
     /// <param name="label">What happened, for example <c>teleport</c>.</param>
     /// <param name="kind">A line across the panel or a small triangle.</param>
     /// <param name="colour">A palette slot, to match a series; null for the neutral colour of annotations.</param>
-    /// <exception cref="ArgumentException"><paramref name="x"/> is not finite, <paramref name="label"/> is empty or the slot negative.</exception>
+    /// <exception cref="ArgumentException"><paramref name="x"/> is not finite, <paramref name="label"/> is empty or the slot
+    /// negative.</exception>
     public ChartMarker(double x, string label, MarkerKind kind = MarkerKind.Line, int? colour = null)
     {
         ArgumentException.ThrowIfNullOrEmpty(label);

@@ -54,7 +54,10 @@ public sealed class ChartPanel
     /// <summary>A shaded part at the bottom; null for none.</summary>
     public ShadedBand? Band { get; init; }
 
-    /// <summary>Whether the legend stands right of the plot, an entry below the other, and not above it; there is no room for reference lines' labels then.</summary>
+    /// <summary>
+    /// Whether the legend stands right of the plot, an entry below the other, and not above it; there is no room for reference lines'
+    /// labels then.
+    /// </summary>
     public bool HasLegendAtRight { get; init; }
 
     /// <summary>Values that the y axis reaches besides its own, so that several panels can have one scale.</summary>

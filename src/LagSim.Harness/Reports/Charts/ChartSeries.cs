@@ -11,7 +11,8 @@ public sealed class ChartSeries
     /// <param name="x">Places on the x axis, in its unit (most often seconds), finite, in the order they are to be joined.</param>
     /// <param name="y">Values in the unit of the panel. NaN breaks the line; infinity is refused.</param>
     /// <param name="style">How the series is drawn.</param>
-    /// <param name="colour">A palette slot, so that the same thing keeps its colour in every panel; null takes the place in the panel.</param>
+    /// <param name="colour">A palette slot, so that the same thing keeps its colour in every panel; null takes the place in the
+    /// panel.</param>
     /// <exception cref="ArgumentException">
     /// The name is empty, the lengths differ, an x is not finite, a y is infinite or the slot is negative.
     /// </exception>

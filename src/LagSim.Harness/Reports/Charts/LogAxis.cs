@@ -6,7 +6,8 @@ using System.Linq;
 namespace LagSim.Harness.Reports.Charts;
 
 /// <summary>
-/// A log10 axis, of whole decades or as long as its values need. What is below its lowest value lies on a line of its own at the bottom, labelled <c>0</c>.
+/// A log10 axis, of whole decades or as long as its values need. What is below its lowest value lies on a line of its own at the bottom,
+/// labelled <c>0</c>.
 /// </summary>
 internal sealed class LogAxis : Axis
 {

@@ -4,7 +4,9 @@ using System.Linq;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>Where the texts of a panel go, so that none covers data or another text. Places are pixels from the panel's plot corner.</summary>
+/// <summary>
+/// Where the texts of a panel go, so that none covers data or another text. Places are pixels from the panel's plot corner.
+/// </summary>
 internal sealed class PanelLayout
 {
     private const double MarkerRowHeight = 15.0;

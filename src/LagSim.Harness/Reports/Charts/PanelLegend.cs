@@ -3,7 +3,9 @@ using System.Linq;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>What the legend of a panel says and where: in rows beside and below the panel's title, or in a column right of the plot.</summary>
+/// <summary>
+/// What the legend of a panel says and where: in rows beside and below the panel's title, or in a column right of the plot.
+/// </summary>
 /// <param name="Entries">In the order of the series; y is that of the first line of text, below the legend's origin.</param>
 /// <param name="Rows">How many rows title and legend take above the plot.</param>
 internal sealed record PanelLegend(IReadOnlyList<PanelLegend.Entry> Entries, int Rows)

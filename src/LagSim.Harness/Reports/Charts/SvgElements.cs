@@ -101,8 +101,8 @@ internal static class SvgElements
     internal static bool IsSolid(PointShape shape) => shape <= PointShape.TriangleDown;
 
     /// <summary>
-    /// The path data of a curve. y grows downwards from <paramref name="y"/>'s upper end; a NaN lifts the pen, and what stands alone between two is a dot, or
-    /// nothing where points have marks of their own.
+    /// The path data of a curve. y grows downwards from <paramref name="y"/>'s upper end; a NaN lifts the pen, and what stands alone
+    /// between two is a dot, or nothing where points have marks of their own.
     /// </summary>
     internal static string Curve(IReadOnlyList<(double X, double Y)> points, Axis x, Axis y, SeriesStyle style, bool hasLonePoints = true)
     {

@@ -36,7 +36,9 @@ internal static class ImpactPartner
         return all.Where(e => e.Key == key && e.Body != self).MinBy(e => Gap(scene, self, state, e)).Body;
     }
 
-    /// <summary>The surface that a body ran into: of those it touches, the one towards which it moved fastest; one that carries it is touched too.</summary>
+    /// <summary>
+    /// The surface that a body ran into: of those it touches, the one towards which it moved fastest; one that carries it is touched too.
+    /// </summary>
     /// <param name="scene">The scene.</param>
     /// <param name="radius">The body's radius in metres.</param>
     /// <param name="before">The body right before.</param>

@@ -13,12 +13,14 @@ namespace LagSim.Harness.SceneFiles.Runs;
 /// <summary>One instance of a scene in virtual time, with its events and samples reported as it goes.</summary>
 public sealed class SceneRun
 {
-    /// <summary>It is advanced by a quarter of the history at a time at most: so all that happened since the last time is there to be reported.</summary>
+    /// <summary>
+    /// It is advanced by a quarter of the history at a time at most: so all that happened since the last time is there to be reported.
+    /// </summary>
     private const int StridesInHistory = 4;
 
     /// <summary>
-    /// And by how many events at most, or of four a body: what a body was before an event is read from its newest back, so more at a time would cost the square of
-    /// their number, and fewer would have most bodies looked at for nothing.
+    /// And by how many events at most, or of four a body: what a body was before an event is read from its newest back, so more at a time
+    /// would cost the square of their number, and fewer would have most bodies looked at for nothing.
     /// </summary>
     private const long EventsAtOnce = 256;
 
@@ -45,10 +47,14 @@ public sealed class SceneRun
     /// <summary>Called with the world at every sample's time, the start included.</summary>
     public Action<SimTime, Simulation>? OnSample { get; init; }
 
-    /// <summary>The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.</summary>
+    /// <summary>
+    /// The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.
+    /// </summary>
     public double SampleEverySeconds { get; init; } = 0.01;
 
-    /// <summary>How much of its past the simulation keeps; default 1 s, at least 4 ticks. Its memory is that of the events in it, not of the run's.</summary>
+    /// <summary>
+    /// How much of its past the simulation keeps; default 1 s, at least 4 ticks. Its memory is that of the events in it, not of the run's.
+    /// </summary>
     public SimDuration History { get; init; } = SimDuration.FromSeconds(1);
 
     /// <summary>Ends the run early, by an <see cref="OperationCanceledException"/>; default never.</summary>

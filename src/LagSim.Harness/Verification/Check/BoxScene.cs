@@ -4,7 +4,9 @@ using LagSim.Testing.Links;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>A random gas in a periodic box: 8 to 12 balls that leave it on one side and come in on the other.</summary>
-/// <remarks>Nothing else goes with such a box: no gravity, no force, no wall; and with nothing static, a change spreads by balls alone.</remarks>
+/// <remarks>
+/// Nothing else goes with such a box: no gravity, no force, no wall; and with nothing static, a change spreads by balls alone.
+/// </remarks>
 internal sealed class BoxScene : CheckScene
 {
     private static readonly double[] Restitutions = [0.5, 0.8, 0.9, 1, 1];

@@ -28,7 +28,9 @@ public sealed record CheckOptions
     /// <summary>How many at most, up to <see cref="MaxPeers"/>; default 8.</summary>
     public int ToPeers { get; init; } = MaxPeers;
 
-    /// <summary>The link of every client; null, the default: each has its own, drawn from all profiles and all pure delays of 0 to 2 s.</summary>
+    /// <summary>
+    /// The link of every client; null, the default: each has its own, drawn from all profiles and all pure delays of 0 to 2 s.
+    /// </summary>
     public LinkProfile? Profile { get; init; }
 
     /// <summary>What peers do with late events, one of <see cref="LateEventStrategies.Names"/>.</summary>
@@ -40,16 +42,22 @@ public sealed record CheckOptions
     /// <summary>What players do of all that was drawn, by index; null, the default: all.</summary>
     public IReadOnlyList<int>? Events { get; init; }
 
-    /// <summary>How many sessions are played at a time, at least 1; default as many as there are processors. It changes no figure but times.</summary>
+    /// <summary>
+    /// How many sessions are played at a time, at least 1; default as many as there are processors. It changes no figure but times.
+    /// </summary>
     public int Workers { get; init; } = Environment.ProcessorCount;
 
-    /// <summary>How often a failing session is played again, smaller, to find the least that still fails; 0 leaves it whole. Default 200.</summary>
+    /// <summary>
+    /// How often a failing session is played again, smaller, to find the least that still fails; 0 leaves it whole. Default 200.
+    /// </summary>
     public int ShrinkingPlays { get; init; } = 200;
 
     /// <summary>How late an event may be; null, the default: as late as the session's links need. A test has it too short.</summary>
     internal SimDuration? History { get; init; }
 
-    /// <summary>Gets each peer's number in its session and the session itself, before its first step: for faults put in on purpose.</summary>
+    /// <summary>
+    /// Gets each peer's number in its session and the session itself, before its first step: for faults put in on purpose.
+    /// </summary>
     internal Action<int, Session>? PrepareSession { get; init; }
 
     /// <summary>

@@ -42,7 +42,9 @@ public sealed record CheckOutcome
     /// <summary>Events that were refused for being too late, or came to a peer whose history no longer had their time.</summary>
     public long TooLateEvents { get; init; }
 
-    /// <summary>Of these, those that the host accepted: they came to another peer neither in time, nor in a copy of the world. There must be none.</summary>
+    /// <summary>
+    /// Of these, those that the host accepted: they came to another peer neither in time, nor in a copy of the world. There must be none.
+    /// </summary>
     public long LostEvents { get; init; }
 
     /// <summary>Whether links had rates and queues; then the host may refuse what came too late.</summary>

@@ -11,7 +11,9 @@ namespace LagSim.Harness.Verification.Check;
 /// <param name="WallSeconds">How long it took, without the shrinking.</param>
 public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnlyList<CheckFailure> Failures, int AskedFor, double WallSeconds)
 {
-    /// <summary>The seeds of the sessions that were given up in the middle because the check was stopped, ascending; they have no outcome.</summary>
+    /// <summary>
+    /// The seeds of the sessions that were given up in the middle because the check was stopped, ascending; they have no outcome.
+    /// </summary>
     public IReadOnlyList<ulong> StoppedSeeds { get; init; } = [];
 
     /// <summary>Whether it was stopped before all sessions were done.</summary>
@@ -32,7 +34,9 @@ public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnly
     /// <summary>How many of these cut off or put in an impact.</summary>
     public long HealsThatChangedAnImpact => Outcomes.Sum(o => o.HealsThatChangedAnImpact);
 
-    /// <summary>Events of players that were too late; each is a failure, unless links were full or processes stood still and the host refused it.</summary>
+    /// <summary>
+    /// Events of players that were too late; each is a failure, unless links were full or processes stood still and the host refused it.
+    /// </summary>
     public long TooLateEvents => Outcomes.Sum(o => o.TooLateEvents);
 
     /// <summary>Events that the host accepted and that another peer lacks; each is a failure.</summary>

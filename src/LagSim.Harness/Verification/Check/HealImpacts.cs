@@ -6,11 +6,13 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>
-/// Counts the heals of one world, and those that changed an impact: that of the impacts up to where the world had got before the late event came cut one off for good,
-/// or put one in that was not there. Which impact it is its key tells, that is time to a tick, round and bodies; one that happens again at the
-/// same key is the same one, whatever came of it.
+/// Counts the heals of one world, and those that changed an impact: that of the impacts up to where the world had got before the late event
+/// came cut one off for good, or put one in that was not there. Which impact it is its key tells, that is time to a tick, round and bodies;
+/// one that happens again at the same key is the same one, whatever came of it.
 /// </summary>
-/// <remarks>Exact, and as cheap as what a heal rewrites: nothing is looked at twice. What the world does ahead of any heal is not kept.</remarks>
+/// <remarks>
+/// Exact, and as cheap as what a heal rewrites: nothing is looked at twice. What the world does ahead of any heal is not kept.
+/// </remarks>
 internal sealed class HealImpacts : IImpactObserver
 {
     private readonly Simulation simulation;

@@ -5,12 +5,12 @@ using LagSim.Testing.Links;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>
-/// Heaps of balls with friction on an open floor, one or two: pyramids of five, which are islands from the first moment on. A few balls lie beside them, to
-/// which most is done.
+/// Heaps of balls with friction on an open floor, one or two: pyramids of five, which are islands from the first moment on. A few balls lie
+/// beside them, to which most is done.
 /// </summary>
 /// <remarks>
-/// Each step of an island is an event in every world, some five hundred a second. So rolling resistance soon ends what moves, and what is done is done in the
-/// first seconds. No ball is heavier than four others.
+/// Each step of an island is an event in every world, some five hundred a second. So rolling resistance soon ends what moves, and what is
+/// done is done in the first seconds. No ball is heavier than four others.
 /// </remarks>
 internal sealed class HeapScene : CheckScene
 {
@@ -64,7 +64,10 @@ internal sealed class HeapScene : CheckScene
     private BodySpec DrawSpec(ForceSet forces) => new(
         Radius, random.Pick(0.5, 1, 1, 1, 2), random.Pick(0, 0, 0, 0.3), forces: forces, tolerance: 1e-5, friction: friction, rollingResistance: rolling);
 
-    /// <summary>One of the forces or several, or none; none that pulls elsewhere and so never lets it rest. Of balls in heaps alone: any other would roll by steps.</summary>
+    /// <summary>
+    /// One of the forces or several, or none; none that pulls elsewhere and so never lets it rest. Of balls in heaps alone: any other would
+    /// roll by steps.
+    /// </summary>
     private ForceSet DrawForces()
     {
         ForceSet forces = ForceSet.None;

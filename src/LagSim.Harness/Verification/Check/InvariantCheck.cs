@@ -9,8 +9,13 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Random sessions against the one invariant: whatever came when, every peer's world is that of a peer that never had a delay, bit for bit.</summary>
-/// <remarks>In virtual time. Each session is drawn from its own seed and played on one thread, so every figure but the time taken is the same in every run.</remarks>
+/// <summary>
+/// Random sessions against the one invariant: whatever came when, every peer's world is that of a peer that never had a delay, bit for bit.
+/// </summary>
+/// <remarks>
+/// In virtual time. Each session is drawn from its own seed and played on one thread, so every figure but the time taken is the same in
+/// every run.
+/// </remarks>
 public static class InvariantCheck
 {
     /// <summary>Of so many failing sessions the least that fails is looked for; the others are only named.</summary>
@@ -21,7 +26,8 @@ public static class InvariantCheck
     /// <summary>Plays all sessions, several at a time.</summary>
     /// <param name="options">What is checked.</param>
     /// <param name="progress">Called on the caller's thread now and then with how many sessions are done; null for nobody.</param>
-    /// <param name="cancellation">Ends it early, with a report of the sessions that were done by then; those in progress are given up.</param>
+    /// <param name="cancellation">Ends it early, with a report of the sessions that were done by then; those in progress are given
+    /// up.</param>
     /// <exception cref="ArgumentException">An option is out of its range; the sentence names it.</exception>
     public static CheckReport Run(CheckOptions options, Action<int>? progress = null, CancellationToken cancellation = default)
     {

@@ -6,9 +6,9 @@ namespace LagSim.Harness.Verification.Check;
 
 /// <summary>Random balls on orbits around a static sphere that pulls them, in a closed room of 5 m without gravity.</summary>
 /// <remarks>
-/// Most are pulled by the inverse square and fly by the closed form of Kepler's problem, until they meet each other, a wall or the sphere, on which what is slow
-/// comes to lie; others are pulled by another power, or through a wind besides. So contact lasts on what is round, under a force, with and without resistance to
-/// rolling.
+/// Most are pulled by the inverse square and fly by the closed form of Kepler's problem, until they meet each other, a wall or the sphere,
+/// on which what is slow comes to lie; others are pulled by another power, or through a wind besides. So contact lasts on what is round,
+/// under a force, with and without resistance to rolling.
 /// </remarks>
 internal sealed class OrbitScene : CheckScene
 {

@@ -3,8 +3,13 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>A heap in a pit: 8 to 12 unequal balls with friction fall into it as a loose cloud, and are lifted, kicked and pushed about there.</summary>
-/// <remarks>Its contact tolerance is drawn too, so islands step at 64 Hz in some and at 256 in others. What is done ends in time for the heap to come to rest.</remarks>
+/// <summary>
+/// A heap in a pit: 8 to 12 unequal balls with friction fall into it as a loose cloud, and are lifted, kicked and pushed about there.
+/// </summary>
+/// <remarks>
+/// Its contact tolerance is drawn too, so islands step at 64 Hz in some and at 256 in others. What is done ends in time for the heap to
+/// come to rest.
+/// </remarks>
 internal sealed class PitScene : CheckScene
 {
     private static readonly double[] Frictions = [0, 0.2, 0.5, 1];

@@ -6,8 +6,9 @@ namespace LagSim.Harness.Verification.Check;
 
 /// <summary>A random scene: a closed room in which 8 to 12 balls meet each other all the time.</summary>
 /// <remarks>
-/// With and without gravity, often flat, with any restitution and mass ratio, on any law of flight under any of the forces, with and without friction, sometimes around static spheres. Some are calm: what falls there
-/// comes to rest within a second or two, until something happens to it, and so a late event comes for a body that rests by then.
+/// With and without gravity, often flat, with any restitution and mass ratio, on any law of flight under any of the forces, with and
+/// without friction, sometimes around static spheres. Some are calm: what falls there comes to rest within a second or two, until something
+/// happens to it, and so a late event comes for a body that rests by then.
 /// </remarks>
 internal sealed class RoomScene : CheckScene
 {
@@ -66,7 +67,10 @@ internal sealed class RoomScene : CheckScene
         }
     }
 
-    /// <summary>Where what falls comes to rest, less: with a little more going on there balls come to lie on each other, and when each event is done decides that.</summary>
+    /// <summary>
+    /// Where what falls comes to rest, less: with a little more going on there balls come to lie on each other, and when each event is done
+    /// decides that.
+    /// </summary>
     internal override long? MaxEvents => isCalm ? 400 : null;
 
     internal override int MaxHands => isCalm ? 0 : base.MaxHands;
@@ -99,7 +103,9 @@ internal sealed class RoomScene : CheckScene
     private BodySpec Rough(in BodySpec spec) => new(
         spec.Radius, spec.Mass, spec.Restitution, spec.Flight, spec.Step, spec.Forces, spec.Tolerance, flights.Pick(0.1, 0.4, 1), rolling);
 
-    /// <summary>The same ball under any of the forces, with and without friction, by the law that the world picks for them, or another.</summary>
+    /// <summary>
+    /// The same ball under any of the forces, with and without friction, by the law that the world picks for them, or another.
+    /// </summary>
     private BodySpec Forced(in BodySpec spec)
     {
         ForceSet set = ForceSet.None;

@@ -8,7 +8,9 @@ using LagSim.Timelines;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>What a session met of what is rarely drawn: seen in the world that had all on time, at every event and right before those of players.</summary>
+/// <summary>
+/// What a session met of what is rarely drawn: seen in the world that had all on time, at every event and right before those of players.
+/// </summary>
 public readonly record struct SceneFeatures
 {
     private const int Large = 5;
@@ -144,7 +146,10 @@ public readonly record struct SceneFeatures
         }
     }
 
-    /// <summary>How many bodies that move by common steps, or by that other law as well, touch each other, one by one, from a body on; none if it is not such a one.</summary>
+    /// <summary>
+    /// How many bodies that move by common steps, or by that other law as well, touch each other, one by one, from a body on; none if it is
+    /// not such a one.
+    /// </summary>
     private static int CountIsland(List<(BodyId Body, BodySpec Spec, BodyState State)> there, int from, MotionLaw other)
     {
         if (!IsOf(there[from].State))

@@ -5,7 +5,10 @@ using System.Threading;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Finds the least of a failing session that still fails, by delta debugging (Zeller and Hildebrandt 2002): what is done first, then the bodies.</summary>
+/// <summary>
+/// Finds the least of a failing session that still fails, by delta debugging (Zeller and Hildebrandt 2002): what is done first, then the
+/// bodies.
+/// </summary>
 /// <remarks>Deterministic; the effort is bounded by how often it may play.</remarks>
 internal sealed class Shrinking
 {

@@ -8,7 +8,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>Datagrams that nobody should send: noise, noise behind a true header, true ones changed, cut, joined or played again, and true forms with made-up values.</summary>
+/// <summary>
+/// Datagrams that nobody should send: noise, noise behind a true header, true ones changed, cut, joined or played again, and true forms
+/// with made-up values.
+/// </summary>
 /// <remarks>Deterministic by its seed. Not thread-safe.</remarks>
 public sealed class HostileDatagrams
 {

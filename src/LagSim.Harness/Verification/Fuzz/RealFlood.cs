@@ -13,13 +13,17 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>A host and a client over real UDP sockets, flooded at full speed: a stranger sends garbage to both, and their own datagrams are played again.</summary>
+/// <summary>
+/// A host and a client over real UDP sockets, flooded at full speed: a stranger sends garbage to both, and their own datagrams are played
+/// again.
+/// </summary>
 public static class RealFlood
 {
     /// <summary>
-    /// By how much the memory in use may grow from the flood's first fifth to its end. The two sessions keep six seconds of a world of one ball; what waits in their carriers
-    /// and what their threads have just let go differs from look to look by up to 4 MB. Of 200 bytes kept for each of the datagrams that
-    /// ten seconds bring in on a slow machine, 100,000, there would be 16 MB, and of 1 kB for each of 20,000 as much.
+    /// By how much the memory in use may grow from the flood's first fifth to its end. The two sessions keep six seconds of a world of one
+    /// ball; what waits in their carriers and what their threads have just let go differs from look to look by up to 4 MB. Of 200 bytes
+    /// kept for each of the datagrams that ten seconds bring in on a slow machine, 100,000, there would be 16 MB, and of 1 kB for each of
+    /// 20,000 as much.
     /// </summary>
     private const long MaxGrowth = 12_000_000;
 

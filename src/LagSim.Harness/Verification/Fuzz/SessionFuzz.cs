@@ -13,8 +13,9 @@ namespace LagSim.Harness.Verification.Fuzz;
 
 /// <summary>Sessions of a host and two clients in virtual time, under hostile datagrams from their first connect request on.</summary>
 /// <remarks>
-/// <para>In every other session all of them come from strangers' addresses, or are true ones played again from their own: that session must go on
-/// and all its worlds agree. In the others they bear the peers' own addresses; then nothing may throw, and that is all that can be asked.</para>
+/// <para>In every other session all of them come from strangers' addresses, or are true ones played again from their own: that session must
+/// go on and all its worlds agree. In the others they bear the peers' own addresses; then nothing may throw, and that is all that can be
+/// asked.</para>
 /// <para>Deterministic: the same seed and number of packets give the same report, but for the memory.</para>
 /// </remarks>
 public static class SessionFuzz
@@ -27,15 +28,15 @@ public static class SessionFuzz
     private const int Peers = 3;
 
     /// <summary>
-    /// Memory is looked at in every so manieth session of strangers that gets all its packets, while it goes on: after the first quarter of them, when
-    /// what an honest session keeps is there, and after the last. A forced collection takes some milliseconds.
+    /// Memory is looked at in every so manieth session of strangers that gets all its packets, while it goes on: after the first quarter of
+    /// them, when what an honest session keeps is there, and after the last. A forced collection takes some milliseconds.
     /// </summary>
     private const int LookEvery = 5;
 
     /// <summary>
-    /// By how much the memory of a living session may grow over its last 1,500 packets. A window of entries that come out of order may grow to its full
-    /// 4,096, a megabyte; what else an honest session keeps, and what collections leave lying about, was 41 kB at most in 4,000 sessions. Of a
-    /// kilobyte kept for each hostile datagram there would be 1.5 MB.
+    /// By how much the memory of a living session may grow over its last 1,500 packets. A window of entries that come out of order may grow
+    /// to its full 4,096, a megabyte; what else an honest session keeps, and what collections leave lying about, was 41 kB at most in 4,000
+    /// sessions. Of a kilobyte kept for each hostile datagram there would be 1.5 MB.
     /// </summary>
     private const long MaxGrowth = 1_200_000;
 

@@ -8,8 +8,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Zero, negative, subnormal, huge and no numbers wherever a number enters a scene: a sentence that names the value and what is allowed, at once, or a right
-/// answer.
+/// Zero, negative, subnormal, huge and no numbers wherever a number enters a scene: a sentence that names the value and what is allowed, at
+/// once, or a right answer.
 /// </summary>
 internal sealed class BadInputCase : IHardCase
 {
@@ -24,8 +24,8 @@ internal sealed class BadInputCase : IHardCase
     ];
 
     /// <summary>
-    /// Where a number enters: a scene with it, and where a ball of it, let go at rest, must be a second later by the textbook; null where it must be finite,
-    /// or end by a sentence, and no more is known.
+    /// Where a number enters: a scene with it, and where a ball of it, let go at rest, must be a second later by the textbook; null where
+    /// it must be finite, or end by a sentence, and no more is known.
     /// </summary>
     private static readonly (string What, Func<double, SceneBuilder> Scene, Func<double, double?> Place)[] Inputs =
     [
@@ -91,8 +91,9 @@ internal sealed class BadInputCase : IHardCase
         .AddBody("ball", new BodySpec(0.5, 1, 0.5, MotionLaw.RungeKutta4, step, ForceSet.Of(0)), default);
 
     /// <summary>
-    /// Where the classical Runge-Kutta method with steps h takes what starts at rest at the anchor of a spring of w² N/m: (Re R(i w h)^(1/h) - 1) g / w², with
-    /// R(z) = 1 + z + z²/2 + z³/6 + z⁴/24. Null where w h is so large that the method follows nothing; what is too short to be a step would be as good as none.
+    /// Where the classical Runge-Kutta method with steps h takes what starts at rest at the anchor of a spring of w² N/m: (Re R(i w
+    /// h)^(1/h) - 1) g / w², with R(z) = 1 + z + z²/2 + z³/6 + z⁴/24. Null where w h is so large that the method follows nothing; what is
+    /// too short to be a step would be as good as none.
     /// </summary>
     private static double? StepsOf(double h)
     {
@@ -102,7 +103,9 @@ internal sealed class BadInputCase : IHardCase
             : h > 5e-3 ? null : (Math.Cos(Swing) - 1) * Gravity / (Swing * Swing);
     }
 
-    /// <summary>How far what starts at rest has fallen after a second, against c of linear drag on 1 kg: g (1 + (exp(-c) - 1) / c) / c.</summary>
+    /// <summary>
+    /// How far what starts at rest has fallen after a second, against c of linear drag on 1 kg: g (1 + (exp(-c) - 1) / c) / c.
+    /// </summary>
     private static double? Dragged(double c) =>
         -Gravity * (c > 1e-3 ? (1 + ((Math.Exp(-c) - 1) / c)) / c : 0.5 - (c / 6) + (c * c / 24) - (c * c * c / 120));
 

@@ -9,9 +9,9 @@ namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>A ball in a box: where unfolding says it is after many hits, and back at the start when its velocity is reversed.</summary>
 /// <remarks>
-/// Flat walls neither magnify nor damp: what a hit leaves in the velocity moves the place by as much times the time that follows, and no more. In a box along
-/// the axes a hit turns one component round exactly. In one that is turned each hit rounds the velocity; its walls are not quite at right angles then, which
-/// reversal takes back.
+/// Flat walls neither magnify nor damp: what a hit leaves in the velocity moves the place by as much times the time that follows, and no
+/// more. In a box along the axes a hit turns one component round exactly. In one that is turned each hit rounds the velocity; its walls are
+/// not quite at right angles then, which reversal takes back.
 /// </remarks>
 internal sealed class BoxReversalCase : IHardCase
 {

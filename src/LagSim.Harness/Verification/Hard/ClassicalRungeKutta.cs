@@ -4,7 +4,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Textbook integrators of x'' = f(t, x, v), written apart from the engine: what it is held against, and what it must not be.</summary>
+/// <summary>
+/// Textbook integrators of x'' = f(t, x, v), written apart from the engine: what it is held against, and what it must not be.
+/// </summary>
 internal static class ClassicalRungeKutta
 {
     /// <summary>An acceleration as a function of time, place and velocity.</summary>

@@ -7,7 +7,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Inelastic collapse: three balls in a line, or two and a wall, meet infinitely often below a known restitution, and finitely often above it.
+/// Inelastic collapse: three balls in a line, or two and a wall, meet infinitely often below a known restitution, and finitely often above
+/// it.
 /// </summary>
 internal sealed class CollapseCase : IHardCase
 {
@@ -85,7 +86,9 @@ internal sealed class CollapseCase : IHardCase
             };
     }
 
-    /// <summary>How often they meet, from their speeds alone: contacts alternate, and each is a linear map of the two rates at which the gaps grow.</summary>
+    /// <summary>
+    /// How often they meet, from their speeds alone: contacts alternate, and each is a linear map of the two rates at which the gaps grow.
+    /// </summary>
     private static int Count(bool isWall, double e, out double apart, out double slowest)
     {
         // The gap between the first two (or the wall and the near ball) closes first.

@@ -4,15 +4,15 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>What a contact tolerance d promises of bodies in persistent contact, and how their steps are read: what bounds of such bodies are
-/// argued from.</summary>
+/// <summary>
+/// What a contact tolerance d promises of bodies in persistent contact, and how their steps are read: what bounds of such bodies are argued
+/// from.
+/// </summary>
 /// <remarks>
 /// A step h is the largest power of two of seconds in which a fall from rest stays within d, so g h^2 / 2 is at most d, and the chord of a
-/// step at most d / 4 from its
-/// parabola. A member's velocity is that of the middle of its step: read within one it is off by up to a h / 2, and at a tick the mean of
-/// both sides is off by the
-/// second order alone. Sweeps leave a contact to close by 0.005 d in a step, and impacts within one by 0.05 d, which the next puts right, so a contact that holds still is
-/// off by twice that.
+/// step at most d / 4 from its parabola. A member's velocity is that of the middle of its step: read within one it is off by up to a h / 2,
+/// and at a tick the mean of both sides is off by the second order alone. Sweeps leave a contact to close by 0.005 d in a step, and impacts
+/// within one by 0.05 d, which the next puts right, so a contact that holds still is off by twice that.
 /// </remarks>
 internal static class ContactSteps
 {

@@ -9,7 +9,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A ball slides off a dome, which carries it until the dome would have to pull: persistent contact on what is round, and its end.</summary>
+/// <summary>
+/// A ball slides off a dome, which carries it until the dome would have to pull: persistent contact on what is round, and its end.
+/// </summary>
 /// <remarks>
 /// In steps of h the ball moves on chords, which lead away from the dome by (v h)^2/(2 R) at most. It is let go once it is d/4 off it.
 /// Where the dome ceases to push the

@@ -76,7 +76,9 @@ internal abstract class DragCase : IHardCase
     /// <summary>How far off fixed steps leave a fall.</summary>
     protected abstract double StepError(double step, double seconds);
 
-    /// <summary>How far off fixed steps leave place and speed after a flight, the contact at its end being found on the quintic of its step.</summary>
+    /// <summary>
+    /// How far off fixed steps leave place and speed after a flight, the contact at its end being found on the quintic of its step.
+    /// </summary>
     protected abstract (double Place, double Speed) StepErrors(double step, Hop hop);
 
     /// <summary>The laws, steps and tolerances.</summary>

@@ -65,8 +65,8 @@ internal sealed class DropCase : IHardCase
             double hop = 2 * speed / Gravity;
             expected += hop;
 
-            // A place that is off by d is crossed d/v later, and changes the speed by g d/v; a speed that is off by a part of itself makes all hops to come,
-            // 2v/(g (1 - e)), longer by that part.
+            // A place that is off by d is crossed d/v later, and changes the speed by g d/v; a speed that is off by a part of itself makes
+            // all hops to come, 2v/(g (1 - e)), longer by that part.
             double place = (4 + (steps * hop)) * Rounding.Unit * Radius, toCome = 2 * speed / (Gravity * (1 - e));
             roundings += (place / speed) + (((Gravity * place / (speed * speed)) + (Rounding.PerContact * Rounding.Unit)) * toCome);
         }

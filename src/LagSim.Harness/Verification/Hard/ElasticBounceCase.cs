@@ -64,7 +64,9 @@ internal sealed class ElasticBounceCase : IHardCase
         (2 * Rounding.Walk(Rounding.PerContact * (double)contacts)) + (8 * Rounding.Unit),
         "twice the speed's walk by 8 roundings a contact, four times its rms, and 8 roundings to read it: 8 u sqrt(8n/3)", "g h, as at the start");
 
-    /// <summary>The same bounces as an engine of ticks has them that reflects at the tick nearest to the root and puts the ball on the floor there.</summary>
+    /// <summary>
+    /// The same bounces as an engine of ticks has them that reflects at the tick nearest to the root and puts the ball on the floor there.
+    /// </summary>
     private static double ReflectAtTick(int contacts, int bits)
     {
         double tick = Math.ScaleB(1, -bits), v = 0, gap = 1;
@@ -82,7 +84,8 @@ internal sealed class ElasticBounceCase : IHardCase
     }
 
     /// <summary>
-    /// Steps of a millisecond, exact in between, reflected at the end of the step that crosses the floor; the energy half way up after the last contact.
+    /// Steps of a millisecond, exact in between, reflected at the end of the step that crosses the floor; the energy half way up after the
+    /// last contact.
     /// </summary>
     private static double StepWise(int contacts)
     {

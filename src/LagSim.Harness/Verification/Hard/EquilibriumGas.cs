@@ -8,7 +8,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A gas of hard spheres in a periodic box that has forgotten its lattice: what kinetic theory says of it, and what is counted in it.</summary>
+/// <summary>
+/// A gas of hard spheres in a periodic box that has forgotten its lattice: what kinetic theory says of it, and what is counted in it.
+/// </summary>
 internal static class EquilibriumGas
 {
     internal const double Radius = GasScene.Radius;
@@ -21,7 +23,8 @@ internal static class EquilibriumGas
     internal static double ContactValue(double fraction) => (1 - (fraction / 2)) / Math.Pow(1 - fraction, 3);
 
     /// <summary>
-    /// The compressibility factor by the virial series in the fraction, coefficients B2 to B10 (Clisby and McCoy, J. Stat. Phys. 122, 15, 2006).
+    /// The compressibility factor by the virial series in the fraction, coefficients B2 to B10 (Clisby and McCoy, J. Stat. Phys. 122, 15,
+    /// 2006).
     /// </summary>
     internal static double VirialPressure(double fraction, out double rest)
     {
@@ -44,7 +47,9 @@ internal static class EquilibriumGas
     internal static double Frequency(double fraction, double temperature) =>
         24 * fraction * ContactValue(fraction) / Diameter * Math.Sqrt(temperature / Math.PI);
 
-    /// <summary>Two thirds of the kinetic energy for each body, in the frame of their centre of mass, which takes one body's share.</summary>
+    /// <summary>
+    /// Two thirds of the kinetic energy for each body, in the frame of their centre of mass, which takes one body's share.
+    /// </summary>
     internal static double Temperature(Simulation simulation, SimTime time)
     {
         Vector3D mean = Vector3D.Zero;

@@ -4,13 +4,13 @@ using System.Collections.Generic;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// How errors of a body that flies along a line and bounces off a floor are passed on, to first order, each source by itself; their sizes are added only at the
-/// end.
+/// How errors of a body that flies along a line and bounces off a floor are passed on, to first order, each source by itself; their sizes
+/// are added only at the end.
 /// </summary>
 /// <remarks>
-/// Of v' = f(v) a flight multiplies an error of the speed by f(v1)/f(v0) and moves the place by (v1 - v0)/f(v0) of it. A contact passes it on by its saltation
-/// matrix (Leine and Nijmeijer 2004): who is dx too high is late by dt = -dx/v, and speed and place right after, at the same time, are off by -e dv - (e a +
-/// a') dt and -e dx.
+/// Of v' = f(v) a flight multiplies an error of the speed by f(v1)/f(v0) and moves the place by (v1 - v0)/f(v0) of it. A contact passes it
+/// on by its saltation matrix (Leine and Nijmeijer 2004): who is dx too high is late by dt = -dx/v, and speed and place right after, at the
+/// same time, are off by -e dv - (e a + a') dt and -e dx.
 /// </remarks>
 internal sealed class ErrorSources
 {

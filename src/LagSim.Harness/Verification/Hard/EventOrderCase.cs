@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>The same events in the same order whichever index names the pairs to ask, and however many threads run a world of their own at a time.</summary>
+/// <summary>
+/// The same events in the same order whichever index names the pairs to ask, and however many threads run a world of their own at a time.
+/// </summary>
 internal sealed class EventOrderCase : IHardCase
 {
     private static readonly int[] Threads = [2, 3, 7];

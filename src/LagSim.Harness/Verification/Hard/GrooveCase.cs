@@ -6,10 +6,14 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A sphere wedged between two planes with friction rolls or slips down along them: two contacts that rub at once, with a smaller arm than the radius.</summary>
+/// <summary>
+/// A sphere wedged between two planes with friction rolls or slips down along them: two contacts that rub at once, with a smaller arm than
+/// the radius.
+/// </summary>
 /// <remarks>
-/// The planes rise at an angle t to either side, the groove falls at an angle b. Each contact lies cos(t) of the radius below the axis, and both together push 1 / cos(t) times what the groove carries. So it rolls with
-/// g sin b / (1 + 2/5 / cos² t), which needs friction of f cos(t) / (g cos b), f being what is lacking to g sin b; else it slips with g sin b - mu g cos b / cos t.
+/// The planes rise at an angle t to either side, the groove falls at an angle b. Each contact lies cos(t) of the radius below the axis, and
+/// both together push 1 / cos(t) times what the groove carries. So it rolls with g sin b / (1 + 2/5 / cos² t), which needs friction of f
+/// cos(t) / (g cos b), f being what is lacking to g sin b; else it slips with g sin b - mu g cos b / cos t.
 /// </remarks>
 internal sealed class GrooveCase : IHardCase
 {

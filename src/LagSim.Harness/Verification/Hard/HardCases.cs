@@ -60,7 +60,8 @@ public static class HardCases
     /// <param name="seed">The luck of what is drawn.</param>
     /// <param name="areControls">Whether to run the deliberately wrong methods in place of the engine.</param>
     /// <param name="progress">Is told how many cases are done, with the part of the one at hand, and its name.</param>
-    /// <param name="cancellation">Ends it early, with the rows of the cases that were done by then; the one in progress is given up.</param>
+    /// <param name="cancellation">Ends it early, with the rows of the cases that were done by then; the one in progress is given
+    /// up.</param>
     /// <returns>The rows in the order of the cases.</returns>
     public static IReadOnlyList<HardRow> Run(
         IReadOnlyList<IHardCase> cases, HardScale scale, ulong seed, bool areControls = false, Action<double, string>? progress = null,

@@ -4,7 +4,8 @@ namespace LagSim.Harness.Verification.Hard;
 /// <param name="Case">The hard case it belongs to.</param>
 /// <param name="Size">At which size, in words: how many contacts, which step, which ratio.</param>
 /// <param name="Error">How far off; NaN where nothing came out, which fails.</param>
-/// <param name="ErrorKind">What the error is, with its unit after an underscore: <c>time_s</c>, <c>energy_relative</c>, <c>count</c>.</param>
+/// <param name="ErrorKind">What the error is, with its unit after an underscore: <c>time_s</c>, <c>energy_relative</c>,
+/// <c>count</c>.</param>
 /// <param name="Bound">The most it may be, in the same unit.</param>
 /// <param name="Argument">Why the bound is what it is: from rounding, ticks, or the order of a method. Never from what came out.</param>
 /// <param name="Reference">What the result is held against.</param>

@@ -10,8 +10,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Heaps: what falls into a box with friction, a ball that only friction keeps on two others, a leaning tower that only rolling resistance keeps from falling, and
-/// a pyramid of balls in steps without end.
+/// Heaps: what falls into a box with friction, a ball that only friction keeps on two others, a leaning tower that only rolling resistance
+/// keeps from falling, and a pyramid of balls in steps without end.
 /// </summary>
 internal sealed class HeapCase : IHardCase
 {
@@ -99,7 +99,10 @@ internal sealed class HeapCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
+    /// <summary>
+    /// A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so
+    /// nothing ever rests.
+    /// </summary>
     private static Scene Pyramid(double friction, double width)
     {
         SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).WithContactTolerance(OfPyramid)
@@ -174,7 +177,10 @@ internal sealed class HeapCase : IHardCase
         Name, size, depth, "depth_m", 2 * Falling, "two of d, 1e-5 m: a fall in a step, and the turning of a line of centres in one", "no"
             + " ball is in another or in a plane");
 
-    /// <summary>A ball on two that touch, on a floor: friction keeps them so from the tangent of 15 degrees on, half the angle between the line of centres and the vertical.</summary>
+    /// <summary>
+    /// A ball on two that touch, on a floor: friction keeps them so from the tangent of 15 degrees on, half the angle between the line of
+    /// centres and the vertical.
+    /// </summary>
     private HardRow Stays(HardContext context, double friction)
     {
         BodySpec ball = new(0.5, 1, 0, friction: friction);
@@ -189,8 +195,9 @@ internal sealed class HeapCase : IHardCase
     }
 
     /// <summary>
-    /// A tower of equal balls on a floor, the line of centres aslant. What is above the k-th contact from the top weighs k balls, with its centre k radii up that
-    /// line; so rolling resistance c, which takes a moment of c r times what presses, holds it to k tan = c, and the lowest contact of two gives way first.
+    /// A tower of equal balls on a floor, the line of centres aslant. What is above the k-th contact from the top weighs k balls, with its
+    /// centre k radii up that line; so rolling resistance c, which takes a moment of c r times what presses, holds it to k tan = c, and the
+    /// lowest contact of two gives way first.
     /// </summary>
     /// <remarks>At the start each ball turns by what a heap leaves of that when it comes to rest.</remarks>
     private HardRow Leans(HardContext context, int balls, double part)

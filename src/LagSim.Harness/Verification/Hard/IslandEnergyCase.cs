@@ -7,7 +7,10 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Three balls that a spring presses together swing to and fro over a floor, as one island, for a long time: the energy of a method that keeps it is off by what it was in the first period.</summary>
+/// <summary>
+/// Three balls that a spring presses together swing to and fro over a floor, as one island, for a long time: the energy of a method that
+/// keeps it is off by what it was in the first period.
+/// </summary>
 /// <remarks>
 /// A spring of its own holds each to the middle of the row across which they swing, so the outer ones push on the inner one for ever, and
 /// the floor carries all. Contact steps are leapfrog (Hairer,

@@ -7,8 +7,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A jammed hopper: a smooth ball, a little too large for the hole between four static spheres, is stuck in it under a heap. It sits as deep
-/// as geometry says, whatever lies on it.
+/// A jammed hopper: a smooth ball, a little too large for the hole between four static spheres, is stuck in it under a heap. It sits as
+/// deep as geometry says, whatever lies on it.
 /// </summary>
 /// <remarks>
 /// The line from a rim's centre to the plug rises by a small angle t, so a load W presses each of the four contacts with W / (4 sin t), and

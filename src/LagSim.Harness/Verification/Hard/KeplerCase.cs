@@ -10,12 +10,13 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed form and under error
-/// control no further than what each piece may be off by, passed on along the orbit.
+/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed
+/// form and under error control no further than what each piece may be off by, passed on along the orbit.
 /// </summary>
 /// <remarks>
-/// A place that is off by dx and a velocity by dv change the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is late by 3 a/mu of
-/// that times t, and as far off as it moves in that. Everything else comes round with the orbit, magnified by 10/(1 - e) at the most.
+/// A place that is off by dx and a velocity by dv change the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is
+/// late by 3 a/mu of that times t, and as far off as it moves in that. Everything else comes round with the orbit, magnified by 10/(1 - e)
+/// at the most.
 /// </remarks>
 internal sealed class KeplerCase : IHardCase
 {
@@ -81,7 +82,9 @@ internal sealed class KeplerCase : IHardCase
     private static (double E, int Steps)[] Orbits(HardContext context) =>
         context.Sizes([(0.0, 256), (0.5, 1024)], [(0.0, 256), (0.5, 1024), (0.9, 16_384), (0.99, 131_072), (0.999, 2_097_152)]);
 
-    /// <summary>Near the centre of a narrow orbit, 1 - e away from it, a micrometre each step would say nothing of where the body ends.</summary>
+    /// <summary>
+    /// Near the centre of a narrow orbit, 1 - e away from it, a micrometre each step would say nothing of where the body ends.
+    /// </summary>
     private static double[] Tolerances(HardContext context, double e) => context.Sizes([1e-9], e <= 0.9 ? [1e-6, 1e-9, 1e-12] : [1e-9, 1e-12]);
 
     /// <summary>The places that are looked at, the last of them after a period.</summary>

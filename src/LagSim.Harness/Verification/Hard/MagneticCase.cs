@@ -7,12 +7,12 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A force across the velocity, of a magnetic field or of a spin: a helix, or with gravity, which is to it what an electric field is, one that drifts across
-/// it; the speed must not decay.
+/// A force across the velocity, of a magnetic field or of a spin: a helix, or with gravity, which is to it what an electric field is, one
+/// that drifts across it; the speed must not decay.
 /// </summary>
 /// <remarks>
-/// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z less z^5/120 and
-/// smaller terms. v - x cross omega, which is linear, is kept, so the place is off by as much as the velocity over omega.
+/// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z
+/// less z^5/120 and smaller terms. v - x cross omega, which is linear, is kept, so the place is off by as much as the velocity over omega.
 /// </remarks>
 internal sealed class MagneticCase : IHardCase
 {
@@ -118,8 +118,8 @@ internal sealed class MagneticCase : IHardCase
             yield break;
         }
 
-        // What a piece leaves of the velocity goes round with it, and moves the place by no more than over omega; the textbook's angle has roundings of its
-        // own.
+        // What a piece leaves of the velocity goes round with it, and moves the place by no more than over omega; the textbook's angle has
+        // roundings of its own.
         double fast = flight.ErrorOf(pieces, Start.Length + (2 * drift.Length)), far = flight.ErrorOf(pieces, place.Length + (2 * radius));
         yield return new HardRow(Name, size, speed, "speed_relative", fast / across, flight.Argument + ", none of it magnified", works);
         yield return new HardRow(

@@ -10,13 +10,13 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Impacts of spheres with friction and spin: a bounce that grips or slips, a ball that backspin brings back, one between floor and ceiling, and that energy
-/// never grows.
+/// Impacts of spheres with friction and spin: a bounce that grips or slips, a ball that backspin brings back, one between floor and
+/// ceiling, and that energy never grows.
 /// </summary>
 /// <remarks>
-/// Of a solid sphere with slip u = v + r w on a floor, and a normal velocity n: it grips, and leaves with no slip and v - 2/7 u, if that is no more than
-/// friction can do, mu (1 + e) n; else v changes by that, and r w by 5/2 of it (Garwin 1969, with a tangential restitution of zero: nothing here springs back
-/// along the surface, as a super ball does).
+/// Of a solid sphere with slip u = v + r w on a floor, and a normal velocity n: it grips, and leaves with no slip and v - 2/7 u, if that is
+/// no more than friction can do, mu (1 + e) n; else v changes by that, and r w by 5/2 of it (Garwin 1969, with a tangential restitution of
+/// zero: nothing here springs back along the surface, as a super ball does).
 /// </remarks>
 internal sealed class ObliqueCase : IHardCase
 {

@@ -7,7 +7,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A harmonic oscillator: the classical method changes its amplitude by a factor that theory knows, and is stable up to omega h = 2.828.</summary>
+/// <summary>
+/// A harmonic oscillator: the classical method changes its amplitude by a factor that theory knows, and is stable up to omega h = 2.828.
+/// </summary>
 internal sealed class OscillatorCase : IHardCase
 {
     private const double Step = 1.0 / 32;

@@ -7,9 +7,9 @@ namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>Drag in proportion to the square of the speed, falling and bouncing, against tanh and ln cosh, hop by hop.</summary>
 /// <remarks>
-/// On v' = f(v) the classical method's local error is at most 73/720 M L^4 h^5 (Lotkin 1951, also Ralston 1962), where |f| is at most M, |f'| at most L and
-/// |f''| at most L^2/M; one L less for the place, the integral. Where the speed changes sign f'' jumps: that step is off by at most k (gh)^2 h. Drag only ever
-/// damps an error of the speed.
+/// On v' = f(v) the classical method's local error is at most 73/720 M L^4 h^5 (Lotkin 1951, also Ralston 1962), where |f| is at most M,
+/// |f'| at most L and |f''| at most L^2/M; one L less for the place, the integral. Where the speed changes sign f'' jumps: that step is off
+/// by at most k (gh)^2 h. Drag only ever damps an error of the speed.
 /// </remarks>
 internal sealed class QuadraticDragCase : DragCase
 {

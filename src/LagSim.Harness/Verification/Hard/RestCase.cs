@@ -7,7 +7,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>What lies still: on a plane, on a slope, on another ball, in a small pile. No drift, no gain of energy, a finite number of events.</summary>
+/// <summary>
+/// What lies still: on a plane, on a slope, on another ball, in a small pile. No drift, no gain of energy, a finite number of events.
+/// </summary>
 internal sealed class RestCase : IHardCase
 {
     /// <summary>The contact tolerance of the balls on each other.</summary>
@@ -49,7 +51,10 @@ internal sealed class RestCase : IHardCase
         }
     }
 
-    /// <summary>Steps that put what has sunk in as far above the surface, with half its speed: it trembles, and has an impact every other step or so.</summary>
+    /// <summary>
+    /// Steps that put what has sunk in as far above the surface, with half its speed: it trembles, and has an impact every other step or
+    /// so.
+    /// </summary>
     private static (double Drift, long Impacts) Tremble(double step)
     {
         double worst = 0, v = 0, y = 0;

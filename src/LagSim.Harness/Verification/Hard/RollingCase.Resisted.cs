@@ -16,7 +16,9 @@ internal sealed partial class RollingCase
     private const double Tolerance = 1e-5;
     private static readonly double Step = ContactSteps.Step(Tolerance);
 
-    /// <summary>How a ball is thrown along the floor: its friction, its resistance, its speed, and that with which its spin would have it roll.</summary>
+    /// <summary>
+    /// How a ball is thrown along the floor: its friction, its resistance, its speed, and that with which its spin would have it roll.
+    /// </summary>
     private static readonly (double Mu, double C, double Speed, double Turn)[] Throws = [(0.3, 0.1, 2, 0), (0.3, 0.02, 2, -3), (0.2, 0.1, 1, 4), (0.3, 0.3, 2, 0), (0.5, 0.4, 3, -1)];
 
     private IEnumerable<HardRow> ResistedRows(HardContext context)

@@ -7,11 +7,14 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, turning on the spot, down a slope, against the textbook's formulas.</summary>
+/// <summary>
+/// A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, turning on the spot, down a slope, against the
+/// textbook's formulas.
+/// </summary>
 /// <remarks>
-/// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it rolls with 5/7 g (sin
-/// a - c cos a) if 2/7 tan a + 5/7 c is at most mu, else it slips with g (sin a - mu cos a). All pieces are parabolas, so a change from one to the next, which happens at a tick,
-/// is all that is not exact but for rounding.
+/// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it
+/// rolls with 5/7 g (sin a - c cos a) if 2/7 tan a + 5/7 c is at most mu, else it slips with g (sin a - mu cos a). All pieces are
+/// parabolas, so a change from one to the next, which happens at a tick, is all that is not exact but for rounding.
 /// </remarks>
 internal sealed partial class RollingCase : IHardCase
 {
@@ -140,7 +143,9 @@ internal sealed partial class RollingCase : IHardCase
             Name, size, Math.Abs(rests - stops), "time_s", Rounding.Tick + (16 * Rounding.Unit * stops), "a tick, and 16 roundings", "2 w r/(5 c g)");
     }
 
-    /// <summary>Let go on a slope of 3 in 4, with friction above or below what rolling needs, which is more where something resists it.</summary>
+    /// <summary>
+    /// Let go on a slope of 3 in 4, with friction above or below what rolling needs, which is more where something resists it.
+    /// </summary>
     private IEnumerable<HardRow> Slope(HardContext context, double nearness, double actual, double c)
     {
         const double sine = 0.6, cosine = 0.8, seconds = 2;

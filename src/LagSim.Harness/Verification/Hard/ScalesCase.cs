@@ -10,8 +10,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Random scenes of all sizes, masses, speeds, gravities and forces, by every law, with friction and spin, static spheres and periodic boxes: no state is ever
-/// without a number.
+/// Random scenes of all sizes, masses, speeds, gravities and forces, by every law, with friction and spin, static spheres and periodic
+/// boxes: no state is ever without a number.
 /// </summary>
 internal sealed class ScalesCase : IHardCase
 {
@@ -118,7 +118,9 @@ internal sealed class ScalesCase : IHardCase
         return (builder.Build(), seconds);
     }
 
-    /// <summary>Lengths, times and masses each of a scale of their own, with forces and gravity about as strong as they must be to matter on it.</summary>
+    /// <summary>
+    /// Lengths, times and masses each of a scale of their own, with forces and gravity about as strong as they must be to matter on it.
+    /// </summary>
     private static (Scene Scene, double Seconds) Forced(SeededRandom random)
     {
         double length = Power(random, -9, 9), time = Power(random, -9, 9), mass = Power(random, -9, 9), speed = length / time;

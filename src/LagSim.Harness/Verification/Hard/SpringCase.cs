@@ -8,11 +8,12 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A spring with a damper, from none to far beyond the critical one, and stiff ones, against exponentials, in closed form and under error control.
+/// A spring with a damper, from none to far beyond the critical one, and stiff ones, against exponentials, in closed form and under error
+/// control.
 /// </summary>
 /// <remarks>
-/// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: a place that is off by dx and a velocity by dv never
-/// leave the place off by more than dx + dv/sqrt(kappa).
+/// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: a place that is off by dx and a
+/// velocity by dv never leave the place off by more than dx + dv/sqrt(kappa).
 /// </remarks>
 internal sealed class SpringCase : IHardCase
 {
@@ -66,7 +67,8 @@ internal sealed class SpringCase : IHardCase
             worst = Math.Max(worst, Math.Abs(Read(simulation, First, at).Position.X - 2 - exact.Place(start, push, at.ToSeconds())));
         }
 
-        // The place is rounded as its coordinate, 2 and its amplitude; the velocity as omega times the amplitude, and so counts as much once it is over omega.
+        // The place is rounded as its coordinate, 2 and its amplitude; the velocity as omega times the amplitude, and so counts as much
+        // once it is over omega.
         double amplitude = Math.Sqrt((start * start) + (push * push / kappa)), each = flight.ErrorOf((int)simulation.EventsProcessed, 0);
         double roundings = flight.ErrorOf((int)simulation.EventsProcessed, 2 + (2 * amplitude)) - each;
         double response = flight.Law == MotionLaw.ClosedForm ? 16 * Rounding.Unit * (gamma + omega) * seconds * amplitude : 0;

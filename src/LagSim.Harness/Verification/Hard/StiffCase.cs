@@ -6,8 +6,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A damped body whose step is as long as its decay, in flight and on a floor: theory's factor where the method is stable, and beyond that a refusal or smaller
-/// steps, never a silent explosion.
+/// A damped body whose step is as long as its decay, in flight and on a floor: theory's factor where the method is stable, and beyond that
+/// a refusal or smaller steps, never a silent explosion.
 /// </summary>
 internal sealed class StiffCase : IHardCase
 {

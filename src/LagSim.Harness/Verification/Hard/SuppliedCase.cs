@@ -6,7 +6,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A program's own force: what it supplies acts as the library's force of the same formula does, bit for bit, and its name and version tell worlds apart.
+/// A program's own force: what it supplies acts as the library's force of the same formula does, bit for bit, and its name and version tell
+/// worlds apart.
 /// </summary>
 internal sealed class SuppliedCase : IHardCase
 {

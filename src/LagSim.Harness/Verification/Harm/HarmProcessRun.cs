@@ -113,7 +113,7 @@ public sealed class HarmProcessRun : IDisposable
     private HarmProcessOutcome Outcome(StallProcess host, List<StallProcess> others, IEnumerable<string> more)
     {
         failures.AddRange(more);
-        string sentence = host.Lines.FirstOrDefault(line => line.Contains("is sent away", StringComparison.Ordinal)) ?? "";
+        string sentence = host.Lines.FirstOrDefault(line => line.Contains("is disconnected", StringComparison.Ordinal)) ?? "";
         double late = 0;
         long compared = 0;
         foreach (StallProcess process in failures.Count == 0 ? others.Prepend(host) : [])

@@ -13,7 +13,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>Plays one attack in virtual time, on machines that take as long as the work that they do, and looks at how late the others' worlds are.</summary>
+/// <summary>
+/// Plays one attack in virtual time, on machines that take as long as the work that they do, and looks at how late the others' worlds are.
+/// </summary>
 internal sealed class HarmRun
 {
     /// <summary>A world so far behind real time is a harm.</summary>

@@ -3,7 +3,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Verification.References;
 
-/// <summary>An ellipse with a semi-major axis of 1 m about a centre of pull at the origin, which begins at its far end; by Kepler's equation.</summary>
+/// <summary>
+/// An ellipse with a semi-major axis of 1 m about a centre of pull at the origin, which begins at its far end; by Kepler's equation.
+/// </summary>
 /// <param name="e">The eccentricity, from 0 to below 1.</param>
 /// <param name="period">How long a turn takes, in seconds.</param>
 internal sealed class KeplerOrbit(double e, double period)

@@ -19,13 +19,19 @@ public sealed record StallOptions
     /// <summary>What peers do with late events; another than the default is to see that the check finds what does not agree.</summary>
     public string Strategy { get; init; } = LateEventStrategies.Default;
 
-    /// <summary>Whether who is killed keeps its pass; without, it is to be seen that the check finds who comes back as somebody else.</summary>
+    /// <summary>
+    /// Whether who is killed keeps its pass; without, it is to be seen that the check finds who comes back as somebody else.
+    /// </summary>
     public bool KeepsPasses { get; init; } = true;
 
-    /// <summary>For how long who lost the other asks to be let in again, in seconds; 0 is to see that the check finds who does not come back.</summary>
+    /// <summary>
+    /// For how long who lost the other asks to be let in again, in seconds; 0 is to see that the check finds who does not come back.
+    /// </summary>
     public double RejoinSeconds { get; init; } = 120;
 
-    /// <summary>How many of its accepted entries of the log each client's check overlooks, from the 5th on; to see that what is lost is found.</summary>
+    /// <summary>
+    /// How many of its accepted entries of the log each client's check overlooks, from the 5th on; to see that what is lost is found.
+    /// </summary>
     public int Overlooked { get; init; }
 
     /// <summary>Called with each session that a client opens, before it is stepped; for tests, to put in a fault.</summary>

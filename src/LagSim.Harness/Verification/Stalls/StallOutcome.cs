@@ -15,7 +15,9 @@ public sealed record StallOutcome
     /// <summary>How many of them were not the host's.</summary>
     public long Differed { get; init; }
 
-    /// <summary>How many accepted events the log of a client was to have, from each copy that it got up to where it came, over all clients.</summary>
+    /// <summary>
+    /// How many accepted events the log of a client was to have, from each copy that it got up to where it came, over all clients.
+    /// </summary>
     public long Expected { get; init; }
 
     /// <summary>How many of those it did not have, whether a later copy made up for them or not.</summary>
@@ -27,7 +29,9 @@ public sealed record StallOutcome
     /// <summary>Events in those logs that the host refused.</summary>
     public long Refused { get; init; }
 
-    /// <summary>Those of them that came too late: over a link that takes longer than the host's history, that is nearly all of them.</summary>
+    /// <summary>
+    /// Those of them that came too late: over a link that takes longer than the host's history, that is nearly all of them.
+    /// </summary>
     public long RefusedTooLate { get; init; }
 
     /// <summary>How often a client got a fresh copy of the world.</summary>

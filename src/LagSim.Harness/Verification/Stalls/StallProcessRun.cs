@@ -13,11 +13,15 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>Plays a drawn session again with real processes: stopped, killed and started again, and behind a relay that changes its ports.</summary>
+/// <summary>
+/// Plays a drawn session again with real processes: stopped, killed and started again, and behind a relay that changes its ports.
+/// </summary>
 /// <remarks>For systems with signals. What the processes do depends on their clocks: whether they agree does not.</remarks>
 public sealed class StallProcessRun : IDisposable
 {
-    /// <summary>How long processes may take to start and to get in, on links that take seconds and behind ports that change meanwhile.</summary>
+    /// <summary>
+    /// How long processes may take to start and to get in, on links that take seconds and behind ports that change meanwhile.
+    /// </summary>
     private const double StartSeconds = 180;
 
     private const double LookSeconds = 0.5;
@@ -45,8 +49,8 @@ public sealed class StallProcessRun : IDisposable
     /// <param name="tool">The tool's program, and the arguments that it needs before its own.</param>
     /// <param name="folder">Where passes are kept; it must be there.</param>
     /// <param name="cancellation">Ends it early.</param>
-    /// <param name="progress">
-    /// Told, on the thread that plays, how many seconds of <see cref="SecondsOf"/> have gone by, and what happens then where anything does; null for nobody.
+    /// <param name="progress"> Told, on the thread that plays, how many seconds of <see cref="SecondsOf"/> have gone by, and what happens
+    /// then where anything does; null for nobody.
     /// </param>
     public StallProcessRun(
         StallCase drawn, double recoverySeconds, IReadOnlyList<string> tool, string folder, CancellationToken cancellation, Action<double, string?>? progress = null)
@@ -67,7 +71,9 @@ public sealed class StallProcessRun : IDisposable
         actions = [.. clients.Select(_ => Draw())];
     }
 
-    /// <summary>How long a session is played, in seconds from the moment that all are in: some more until the processes have started and got in.</summary>
+    /// <summary>
+    /// How long a session is played, in seconds from the moment that all are in: some more until the processes have started and got in.
+    /// </summary>
     /// <param name="drawn">Which session.</param>
     /// <param name="recoverySeconds">How long it takes at worst until all are up to date after the last stall, as far as is known.</param>
     public static double SecondsOf(StallCase drawn, double recoverySeconds)

@@ -306,7 +306,9 @@ internal sealed class StallRun
         RejoinTime = SimDuration.FromSeconds(options.RejoinSeconds),
     };
 
-    /// <summary>Notes who is up to date again: in, reached where it is now, and with all that the host's log had when its stall was over.</summary>
+    /// <summary>
+    /// Notes who is up to date again: in, reached where it is now, and with all that the host's log had when its stall was over.
+    /// </summary>
     private void Look()
     {
         foreach (StallClient client in clients)

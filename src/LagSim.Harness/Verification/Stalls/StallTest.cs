@@ -6,7 +6,9 @@ using System.Threading.Tasks;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>Drawn sessions in which peers stand still, are killed and started again, and change their addresses: play goes on, or resumes by itself.</summary>
+/// <summary>
+/// Drawn sessions in which peers stand still, are killed and started again, and change their addresses: play goes on, or resumes by itself.
+/// </summary>
 /// <remarks>In virtual time. Each session is played on one thread from its seed, so every figure is the same in every run.</remarks>
 public static class StallTest
 {

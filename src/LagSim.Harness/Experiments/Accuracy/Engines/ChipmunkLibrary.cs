@@ -3,7 +3,9 @@ using System.Runtime.InteropServices;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>What is used of Chipmunk's C interface (chipmunk/chipmunk.h of version 7), whose numbers are doubles on 64-bit systems.</summary>
+/// <summary>
+/// What is used of Chipmunk's C interface (chipmunk/chipmunk.h of version 7), whose numbers are doubles on 64-bit systems.
+/// </summary>
 internal static unsafe class ChipmunkLibrary
 {
     private static readonly NativeFunctions Library = new("libchipmunk.so.7", "libchipmunk.so", "libchipmunk.7.dylib", "libchipmunk.dylib", "chipmunk.dll");
@@ -62,7 +64,9 @@ internal static unsafe class ChipmunkLibrary
         : !Environment.Is64BitProcess ? "Chipmunk is there in single precision, as on all 32-bit systems, and double is needed"
         : null;
 
-    /// <summary>A build with assertions, as Debian's is, says so on stdout when it makes its first space; results belong there and nothing else.</summary>
+    /// <summary>
+    /// A build with assertions, as Debian's is, says so on stdout when it makes its first space; results belong there and nothing else.
+    /// </summary>
     internal static void Begin() => Greeting.Value.ToString();
 
     private static readonly Lazy<bool> Greeting = new(() =>

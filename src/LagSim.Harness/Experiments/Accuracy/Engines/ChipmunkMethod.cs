@@ -7,7 +7,8 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>
-/// Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no damping, no sleeping).
+/// Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no
+/// damping, no sleeping).
 /// </summary>
 /// <remarks>
 /// It multiplies the elasticities of two shapes, and their frictions, where LagSim takes the lesser; they are set so that the products are

@@ -10,9 +10,9 @@ namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>MathNet.Numerics' fourth-order Runge-Kutta, as who needs an integrator would use it.</summary>
 /// <remarks>
-/// It integrates; contacts are not in it. Here each body is a system of its own, one call a step. A step that ends beyond a surface is called again with half
-/// the time, 60 times by bisection, until the touch is found to a rounding; there the velocity is reflected, and what is left of the step is done. So bodies
-/// that meet each other are left out.
+/// It integrates; contacts are not in it. Here each body is a system of its own, one call a step. A step that ends beyond a surface is
+/// called again with half the time, 60 times by bisection, until the touch is found to a rounding; there the velocity is reflected, and
+/// what is left of the step is done. So bodies that meet each other are left out.
 /// </remarks>
 internal sealed class MathNetMethod : SteppedEngine
 {

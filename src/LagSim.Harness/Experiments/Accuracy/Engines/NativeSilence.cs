@@ -3,8 +3,8 @@ using System;
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>
-/// While it lasts, what native code prints to C's <c>stdout</c> is thrown away. What .NET prints is not: it does not go that way. On Linux with glibc and on
-/// macOS; elsewhere it does nothing.
+/// While it lasts, what native code prints to C's <c>stdout</c> is thrown away. What .NET prints is not: it does not go that way. On Linux
+/// with glibc and on macOS; elsewhere it does nothing.
 /// </summary>
 internal sealed unsafe class NativeSilence : IDisposable
 {

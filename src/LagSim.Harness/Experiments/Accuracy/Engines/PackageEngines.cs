@@ -5,7 +5,9 @@ using LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>The engines that come as packages, which not every registry has: built with <c>-p:WithPeers=true</c>, and named as missing without.</summary>
+/// <summary>
+/// The engines that come as packages, which not every registry has: built with <c>-p:WithPeers=true</c>, and named as missing without.
+/// </summary>
 internal static class PackageEngines
 {
     internal static IReadOnlyList<IWorkMethod> All { get; } =

@@ -7,7 +7,8 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>
-/// A physics engine, or an integrator, that goes in steps of equal length, which are swept. A new one says who it is and how a <see cref="Run"/> of it steps.
+/// A physics engine, or an integrator, that goes in steps of equal length, which are swept. A new one says who it is and how a
+/// <see cref="Run"/> of it steps.
 /// </summary>
 internal abstract class SteppedEngine : IWorkMethod
 {
@@ -83,7 +84,9 @@ internal abstract class SteppedEngine : IWorkMethod
         /// </summary>
         protected double FrictionAt(StaticPlane plane) => Math.Min(plane.Friction, Scene.Bodies[0].Spec.Friction);
 
-        /// <summary>The restitution of a ball at a surface by LagSim's rule, the lesser of the two; all balls of a scene have the same.</summary>
+        /// <summary>
+        /// The restitution of a ball at a surface by LagSim's rule, the lesser of the two; all balls of a scene have the same.
+        /// </summary>
         protected double RestitutionAt(StaticPlane plane) => Math.Min(plane.Restitution, Scene.Bodies[0].Spec.Restitution);
     }
 }

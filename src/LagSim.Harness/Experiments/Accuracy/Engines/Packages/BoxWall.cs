@@ -12,7 +12,10 @@ internal static class BoxWall
         : scene.Planes.All(plane => IsOne(plane.Normal.X) || IsOne(plane.Normal.Y) || IsOne(plane.Normal.Z)) ? null
         : "its walls are boxes along the axes, and the scene has one that is oblique";
 
-    /// <summary>The box's centre and its sides in metres: thick enough that nothing gets through it in a step, and no larger than single precision bears.</summary>
+    /// <summary>
+    /// The box's centre and its sides in metres: thick enough that nothing gets through it in a step, and no larger than single precision
+    /// bears.
+    /// </summary>
     internal static (Vector3D Centre, Vector3D Sides) Of(StaticPlane plane)
     {
         const double thick = 10, wide = 400;
