@@ -8,7 +8,7 @@ namespace LagSim.Cli.Output;
 /// and open.
 /// </summary>
 /// <param name="Colour">The palette slot.</param>
-/// <param name="Shape">What marks its points.</param>
+/// <param name="Shape">The marker of its points.</param>
 /// <param name="IsOwn">Whether it is LagSim's, and so drawn through and strong.</param>
 internal sealed record AccuracyStyle(int Colour, PointShape Shape, bool IsOwn)
 {

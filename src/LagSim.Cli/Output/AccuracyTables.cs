@@ -64,7 +64,7 @@ internal static class AccuracyTables
         return table;
     }
 
-    /// <summary>What the errors are, and what they are held against.</summary>
+    /// <summary>Describes the errors and their references.</summary>
     internal static string Title(WorkScene scene) =>
         $"{scene.Name}: the {string.Join(", the ", scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Sentence))}; held against: {scene.Reference}";
 

@@ -65,7 +65,7 @@ internal static class CheckFiles
         page.Save(Path.Combine(folder, "report.html"));
     }
 
-    /// <summary>What came out, in one sentence.</summary>
+    /// <summary>Returns the result in one sentence.</summary>
     internal static string Finding(CheckReport report)
     {
         string sessions = NumberText.Count(report.Outcomes.Count, "session", "N0");

@@ -6,7 +6,9 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The pictures of a comparison: a panel a strategy, all of one scale, since strategies that agree have the same curve.</summary>
+/// <summary>
+/// The charts of a comparison: a panel for each strategy, all on one scale, since strategies that agree have the same curve.
+/// </summary>
 internal static class CompareChart
 {
     private const double ErrorFloor = 1e-9;

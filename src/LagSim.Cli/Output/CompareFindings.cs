@@ -7,13 +7,13 @@ using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What the runs say of healing beside the others, found by comparing them, link by link.</summary>
+/// <summary>The findings about healing against the other strategies, computed link by link.</summary>
 internal sealed class CompareFindings
 {
     private const string Healing = "healing";
     private const string Interpolation = CommonOptions.Interpolating;
 
-    /// <summary>What is less than 1 % smaller is not called better.</summary>
+    /// <summary>A difference of less than 1 % does not count as better.</summary>
     private const double Noticeable = 0.99;
 
     private readonly bool hasBoth;

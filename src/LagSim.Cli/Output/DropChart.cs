@@ -7,20 +7,20 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The pictures of a drop test: height against time, and the error below it.</summary>
+/// <summary>The charts of a drop test: height against time, and the error below it.</summary>
 internal static class DropChart
 {
     private const double ErrorFloor = 1e-12;
 
-    /// <summary>How much of the case before it a picture begins with, so that what marks the lift does not lie on the frame.</summary>
+    /// <summary>The lead before the lift in a chart, so that the marker is not on the frame.</summary>
     private const double LeadSeconds = 0.5;
 
-    /// <summary>The least that the picture of an event's milliseconds shows before and after them.</summary>
+    /// <summary>The least time before and after an event in its chart.</summary>
     private const double MinMarginSeconds = 0.02;
 
     private const string Time = "shared time since the start of the scene (s)";
 
-    /// <param name="run">What is shown.</param>
+    /// <param name="run">The run to show.</param>
     /// <param name="before">The case before it in the same run, of which the end is shown too; null for none.</param>
     internal static LineChart Of(DropRun run, DropRun? before = null)
     {
@@ -52,7 +52,7 @@ internal static class DropChart
     }
 
     /// <summary>The milliseconds that matter: from just before the lift until just after the last peer knows of it.</summary>
-    /// <param name="run">What is shown.</param>
+    /// <param name="run">The run to show.</param>
     /// <param name="before">The case before it in the same run; null for none.</param>
     /// <returns>The chart; null for a case without a lift.</returns>
     internal static LineChart? OfEvent(DropRun run, DropRun? before = null)

@@ -9,6 +9,6 @@ internal static class DropNames
 
     internal static string Time(DropOptions options) => options.IsVirtual ? "virtual" : "real";
 
-    /// <summary>What carried the datagrams: no socket has a part in virtual time.</summary>
+    /// <summary>The name of the carrier. In virtual time there is no socket.</summary>
     internal static string Transport(DropOptions options) => options.IsVirtual ? "virtual" : options.Carrier.Name;
 }

@@ -1,6 +1,6 @@
 namespace LagSim.Cli.Output;
 
-/// <summary>What the tool's exit codes mean; scripts rely on them.</summary>
+/// <summary>The exit codes of the tool. Scripts rely on them.</summary>
 internal static class ExitCode
 {
     internal const int Done = 0;
@@ -16,7 +16,7 @@ internal static class ExitCode
     /// <summary>Ctrl-C, as shells report it: 128 and the number of the signal.</summary>
     internal const int Interrupted = 130;
 
-    /// <summary>Nobody reads the results any more.</summary>
+    /// <summary>The reader of the results has closed the pipe.</summary>
     internal const int ClosedPipe = 141;
 
     /// <summary>Asked to terminate.</summary>

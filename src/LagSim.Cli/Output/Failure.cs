@@ -6,7 +6,7 @@ using LagSim.Cli.Commands;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A command that failed, for who reads JSON: one document there too, with the sentence that stands on stderr.</summary>
+/// <summary>A failed command as a JSON document, with the message that is also on stderr.</summary>
 internal static class Failure
 {
     /// <summary>Writes the document if JSON was asked for, and hands the exit code on.</summary>
@@ -26,7 +26,7 @@ internal static class Failure
         }
         catch (IOException)
         {
-            // Nobody reads it; the sentence stands on stderr.
+            // The reader has gone; the message is on stderr.
         }
 
         return exitCode;

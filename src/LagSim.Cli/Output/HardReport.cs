@@ -4,8 +4,8 @@ using LagSim.Harness.Verification.Hard;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>All that <c>lagsim hard</c> found out, however it is told. Immutable.</summary>
-/// <param name="Rows">What was checked.</param>
+/// <summary>The results of <c>lagsim hard</c>. Immutable.</summary>
+/// <param name="Rows">The checks.</param>
 /// <param name="Scale">How large the sizes were.</param>
 /// <param name="AreControls">Whether deliberately wrong methods were run, which must fail.</param>
 /// <param name="Seed">The luck of it.</param>

@@ -9,8 +9,7 @@ using LagSim.Scenes;
 namespace LagSim.Cli.Output;
 
 /// <summary>
-/// The pictures of a hand: what another peer saw of the held ball and of the throw, the errors by delay, how well the hand can be
-/// predicted, and its motion.
+/// The charts of a hand: the held ball and the throw as another peer saw them, the errors by delay, the prediction errors, and the motion.
 /// </summary>
 internal static class HoldChart
 {
@@ -99,7 +98,7 @@ internal static class HoldChart
         };
     }
 
-    /// <summary>What delay does: the errors of the held ball, and what telling of the hand costs.</summary>
+    /// <summary>The charts over delay: the errors of the held ball, and the bandwidth of its keyframes.</summary>
     internal static LineChart OfDelays(HoldReport report)
     {
         HoldRun[] runs = report.Runs.Where(run => run.Options.DelayMilliseconds is not null).OrderBy(run => run.Options.DelayMilliseconds).ToArray();

@@ -12,12 +12,12 @@ using LagSim.Scenes;
 namespace LagSim.Cli.Output;
 
 /// <summary>
-/// A hand that holds and throws a ball as files: a row a link, samples and two pictures of each link, what delay does, the prediction, and
-/// a page that shows them.
+/// The files of a hand that holds and throws a ball: a row for each link, its samples and two charts, the errors by delay, the prediction,
+/// and a page that shows all.
 /// </summary>
 internal static class HoldFiles
 {
-    /// <summary>What came out, in one sentence.</summary>
+    /// <summary>Returns the result in one sentence.</summary>
     internal static string Finding(IReadOnlyList<HoldRun> runs)
     {
         long differing = runs.SelectMany(run => new[] { run.Settled.Before, run.Settled.During, run.Settled.After })
@@ -97,7 +97,7 @@ internal static class HoldFiles
     }
 
     /// <summary>
-    /// Where the hand was, where each peer showed the ball, and where the predictor would have drawn it for those who look on.
+    /// The samples: where the hand was, where each peer showed the ball, and where the predictor would have drawn it for the other peers.
     /// </summary>
     private static void Samples(string path, HoldRun run)
     {

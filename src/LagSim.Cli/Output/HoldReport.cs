@@ -4,7 +4,7 @@ using LagSim.Harness.Experiments.Hold;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>All that <c>lagsim hold</c> found out, however it is told. Immutable.</summary>
+/// <summary>The results of <c>lagsim hold</c>. Immutable.</summary>
 /// <param name="Motion">How the hand moved.</param>
 /// <param name="Runs">The sessions, one for each link.</param>
 /// <param name="Predictions">How well that motion can be predicted from all of its samples, by how old they are.</param>

@@ -110,7 +110,7 @@ internal static class HoldTables
 
     internal static string Time(HoldOptions options) => options.IsVirtual ? "virtual" : "real";
 
-    /// <summary>What carried the datagrams: no socket has a part in virtual time.</summary>
+    /// <summary>The name of the carrier. In virtual time there is no socket.</summary>
     internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : Carrier.Udp.Name;
 
     internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"client {place}");

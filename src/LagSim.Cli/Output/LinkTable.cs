@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Every link there has been, as it was looked at from time to time.</summary>
+/// <summary>Every link of the session so far, with samples of its traffic.</summary>
 internal sealed class LinkTable
 {
     private readonly List<LinkRow> rows = [];
@@ -59,18 +59,18 @@ internal sealed class LinkRow
 
     internal byte Peer => first.Peer;
 
-    /// <summary>Where it was last.</summary>
+    /// <summary>The latest address.</summary>
     internal PeerAddress Address => Last.Address;
 
     internal bool IsPresent { get; set; } = true;
 
-    /// <summary>As it was last looked at.</summary>
+    /// <summary>The latest sample.</summary>
     internal LinkTraffic Last { get; private set; }
 
-    /// <summary>Bytes a second of datagrams alone, since it was first looked at; NaN if that was just now.</summary>
+    /// <summary>Bytes per second of datagrams without headers, since the first sample; NaN if that was just now.</summary>
     internal double SentPerSecond => PerSecond(Last.BytesSent - first.BytesSent);
 
-    /// <summary>The same of what came.</summary>
+    /// <summary>The same for received bytes.</summary>
     internal double ReceivedPerSecond => PerSecond(Last.BytesReceived - first.BytesReceived);
 
     /// <summary>Whether a link is this one: to the same peer, wherever that is now, and with all that went over it before.</summary>

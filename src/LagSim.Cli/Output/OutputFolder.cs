@@ -37,7 +37,7 @@ internal static class OutputFolder
     }
 
     /// <summary>
-    /// Removes a folder and those it lies in up to one that was there before; one in which somebody has put something stays.
+    /// Removes a folder, and its parents up to one that existed before. A folder that holds anything stays.
     /// </summary>
     private static void RemoveEmpty(string? path, string? upTo)
     {

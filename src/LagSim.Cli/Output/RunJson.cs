@@ -6,10 +6,10 @@ using LagSim.Harness.Experiments.Peers;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What the runs of every command that compares peers have in common, as JSON.</summary>
+/// <summary>The JSON keys that the runs of every peer comparison have in common.</summary>
 internal static class RunJson
 {
-    /// <summary>What was run: the keys that every run begins with.</summary>
+    /// <summary>The keys that every run begins with: what was run.</summary>
     internal static void Setting(
         Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay, int peers)
     {
@@ -23,7 +23,7 @@ internal static class RunJson
         json.WriteNumber("peers", peers);
     }
 
-    /// <summary>What came of it: the keys that follow on those.</summary>
+    /// <summary>The keys that follow: the results.</summary>
     internal static void Figures(Utf8JsonWriter json, IPeerRun run, double? cpuCoresAtRest)
     {
         Phases(json, "seen", run.Seen);

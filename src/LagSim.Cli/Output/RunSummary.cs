@@ -19,6 +19,6 @@ internal sealed record RunSummary(Simulation End, SimTime Until, double StartEne
     /// <summary>The wall clock of all runs that were timed.</summary>
     internal double TimingSeconds { get; init; }
 
-    /// <summary>The wall clock of the picture: one more run, and its drawing; zero without one.</summary>
+    /// <summary>The wall-clock time of the chart: one more run, and drawing; zero without one.</summary>
     internal double PictureSeconds { get; init; }
 }

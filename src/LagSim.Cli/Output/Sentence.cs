@@ -4,7 +4,7 @@ using System.Text;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What went wrong as a sentence for a terminal.</summary>
+/// <summary>Formats failures as sentences for a terminal.</summary>
 internal static class Sentence
 {
     /// <summary>A failure's message, without the name of a parameter that only a programmer knows.</summary>

@@ -46,7 +46,7 @@ internal sealed class SessionPrinter
 
     internal LinkTable Links { get; } = new();
 
-    /// <summary>A line for whoever watches, at once.</summary>
+    /// <summary>Prints a line and flushes it.</summary>
     internal void Line(string text)
     {
         TextWriter to = json ? console.Error : console.Output;
@@ -95,7 +95,7 @@ internal sealed class SessionPrinter
         Progress($"peer {link.Peer} at {link.Address} is gone");
     }
 
-    /// <summary>Takes in how the links are, and tells a client's that there is one.</summary>
+    /// <summary>Takes a sample of the links, and reports a client's first one.</summary>
     internal void LookAt(IReadOnlyList<LinkTraffic> links)
     {
         foreach (LinkTraffic link in links)
@@ -108,7 +108,7 @@ internal sealed class SessionPrinter
         }
     }
 
-    /// <summary>What it came to. The session's thread must have stopped.</summary>
+    /// <summary>Prints the summary. The session's thread must have stopped.</summary>
     internal void Summary(Session session, UdpPort port, SessionRecorder? recorder)
     {
         if (json)

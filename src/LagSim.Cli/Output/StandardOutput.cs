@@ -16,7 +16,7 @@ internal static class StandardOutput
         Console.IsOutputRedirected ? Writer(Pipe(1) ?? Console.OpenStandardOutput()) : Console.Out;
 
     /// <summary>
-    /// Whether writing failed because nobody reads any more, which is no mistake of anybody: <c>lagsim ... | head -1</c>.
+    /// Whether writing failed because the reader closed the pipe, as <c>lagsim ... | head -1</c> does. That is no error.
     /// </summary>
     internal static bool IsClosedPipe(IOException failure) => failure.HResult == BrokenPipe;
 

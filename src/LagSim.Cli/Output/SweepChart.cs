@@ -10,7 +10,7 @@ namespace LagSim.Cli.Output;
 internal static class SweepChart
 {
     /// <summary>Null where there is nothing to draw: no cell in which anything happened.</summary>
-    /// <param name="outcomes">What was played.</param>
+    /// <param name="outcomes">The outcomes to show.</param>
     /// <param name="beside">Another run, drawn dashed; null for none.</param>
     internal static LineChart? Of(IReadOnlyList<SweepOutcome> outcomes, IReadOnlyList<SweepOutcome>? beside)
     {

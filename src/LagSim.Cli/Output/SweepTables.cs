@@ -11,17 +11,17 @@ namespace LagSim.Cli.Output;
 /// <summary>The sweep over full links as a table.</summary>
 internal static class SweepTables
 {
-    /// <summary>What the columns are called.</summary>
+    /// <summary>The names of the columns.</summary>
     internal static readonly string[] Headings =
     [
         "clients", "kbit/s", "queue ms", "dips", "events/s each", "load", "offered B/s", "delivered B/s", "sent B/s", "idle ms", "p50 ms", "p99 ms", "refused", "lost", "differ",
         "compared", "copies", "too slow",
     ];
 
-    /// <summary>So many of them, from the first on, say which cell a row is of.</summary>
+    /// <summary>The number of leading columns that identify the cell of a row.</summary>
     private const int CellColumns = 5;
 
-    /// <summary>What stands between two columns, and at both edges.</summary>
+    /// <summary>The blanks between two columns, and at both edges.</summary>
     private const int Gap = 2;
 
     internal static void Write(ToolConsole console, IReadOnlyList<SweepOutcome> outcomes, string? folder, int count)

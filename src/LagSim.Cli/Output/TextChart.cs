@@ -21,7 +21,7 @@ internal static class TextChart
     /// <param name="curves">Each as long as <paramref name="x"/>.</param>
     /// <param name="columns">Characters across, the labels not counted.</param>
     /// <param name="rows">Characters down.</param>
-    /// <param name="label">What stands at the axis for a value of y.</param>
+    /// <param name="label">Returns the label of a value on the y axis.</param>
     internal static string Draw(double[] x, IReadOnlyList<double[]> curves, int columns, int rows, Func<double, string> label)
     {
         double[] values = curves.SelectMany(curve => curve).Where(double.IsFinite).ToArray();

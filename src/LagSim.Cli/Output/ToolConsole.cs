@@ -33,19 +33,19 @@ internal sealed class ToolConsole
         }
     }
 
-    /// <summary>Whether lines may be as long as they like: nothing says how wide what reads the results is.</summary>
+    /// <summary>Whether lines may have any length, since the output is a file or pipe.</summary>
     internal bool IsEndless => !IsTerminal && Rich.Profile.Width == WidthOfAFile;
 
-    /// <summary>Whether somebody's window is as wide as usual at least, and yet has an edge.</summary>
+    /// <summary>Whether output goes to a terminal of at least the usual width.</summary>
     internal bool IsWindow => !IsEndless && Rich.Profile.Width >= UsualWidth;
 
-    /// <summary>Asks for an end of what takes long.</summary>
+    /// <summary>Cancels long work.</summary>
     internal CancellationToken Stop { get; }
 
-    /// <summary>Whether somebody watches the results as they come.</summary>
+    /// <summary>Whether results are shown live.</summary>
     internal bool IsTerminal { get; }
 
-    /// <summary>What somebody types, or pipes in.</summary>
+    /// <summary>The standard input.</summary>
     internal TextReader Input => Console.In;
 
     /// <summary>Results, as plain text.</summary>
@@ -58,8 +58,7 @@ internal sealed class ToolConsole
     internal IAnsiConsole Rich { get; }
 
     /// <summary>
-    /// Writes a table; on a terminal of less than 80 columns that has no room for it each row as a list, so that no cell is broken into
-    /// pieces.
+    /// Writes a table. A terminal of less than 80 columns without room for it gets each row as a list, so that no cell is broken.
     /// </summary>
     internal void Write(Table table)
     {
@@ -91,7 +90,7 @@ internal sealed class ToolConsole
     /// Runs something long, with a bar on the error stream where that is a terminal, else a line at the start and one for each part that it
     /// names.
     /// </summary>
-    /// <param name="title">What runs.</param>
+    /// <param name="title">The name of the work.</param>
     /// <param name="length">How much there is to do, in simulated seconds.</param>
     /// <param name="work">Does it, and says from time to time how much is done.</param>
     /// <param name="isBarShown">Whether there may be a bar: not over results that scroll by on the same terminal.</param>
@@ -135,7 +134,7 @@ internal sealed class ToolConsole
     }
 
     /// <summary>
-    /// Between two pieces of work: stops if asked to, and hands on what has been written, so that a reader that has gone is noticed.
+    /// Between two units of work: stops if cancelled, and flushes the output, so that a closed pipe is noticed.
     /// </summary>
     private void Pause()
     {

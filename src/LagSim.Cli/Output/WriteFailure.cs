@@ -3,7 +3,7 @@ using System.IO;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Why a file or folder cannot be written, in words for who named it.</summary>
+/// <summary>Formats why a file or folder cannot be written, for the user who named it.</summary>
 internal static class WriteFailure
 {
     /// <summary>Whether a failure is one of writing.</summary>

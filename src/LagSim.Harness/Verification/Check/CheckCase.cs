@@ -46,7 +46,9 @@ internal sealed class CheckCase
     private const double StopPercent = 15;
     private const double LongestEntry = 30; // seconds from the first request to the world: six round trips of 4 s, and losses
 
-    /// <summary>The percentage of peers with neighbour lists, most of them from the first body on, the others once spawns were added.</summary>
+    /// <summary>
+    /// The percentage of peers with neighbour lists, most of them from the first body on, the others once spawns were added.
+    /// </summary>
     private const double IndexPercent = 50;
     private const double FromTheFirstPercent = 70;
     private const int LatestIndex = 24;
