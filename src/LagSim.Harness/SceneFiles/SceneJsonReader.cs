@@ -28,7 +28,7 @@ internal ref partial struct SceneJsonReader
 
     /// <param name="json">The document, known to be UTF-8.</param>
     /// <param name="file">What errors call it.</param>
-    /// <param name="locate"> The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported
+    /// <param name="locate">The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported
     /// at its place. The limits stand in the builder alone, and it names a part but cannot know where in the file that is; so a document
     /// that does not build is read once more like this.
     /// </param>

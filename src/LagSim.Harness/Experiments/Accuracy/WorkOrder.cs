@@ -16,16 +16,16 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// <param name="Scene">The scene.</param>
 /// <param name="Method">The method.</param>
 /// <param name="Slope">The order; 1 means that half the step gives half the error.</param>
-/// <param name="Points">From how many points.</param>
+/// <param name="Points">The number of points used.</param>
 public sealed record WorkOrder(string Scene, string Method, double Slope, int Points)
 {
-    /// <summary>The most points that count.</summary>
+    /// <summary>The most points used.</summary>
     public const int Most = 4;
 
     private const int Fewest = 3;
 
     /// <summary>
-    /// The order of a method on a scene, from its points of one kind of error; null if too few of them are in the asymptotic part.
+    /// Measures the order of a method on a scene from its points of one kind of error; null if too few are in the asymptotic part.
     /// </summary>
     internal static WorkOrder? Of(WorkScene scene, IEnumerable<WorkPoint> points)
     {

@@ -4,7 +4,7 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>Something that a player is to do, at some time.</summary>
-/// <param name="AtSeconds"> When, from the session's start on. Two of one peer with the same time get the same stamp; the second, by
+/// <param name="AtSeconds">When, from the session's start on. Two of one peer with the same time get the same stamp; the second, by
 /// another peer, waits until that one's clock reads the first one's stamp to the tick, if it is not past it already.
 /// </param>
 /// <param name="Peer">Who, by index; if that one is not in the session at the time, the host does it.</param>

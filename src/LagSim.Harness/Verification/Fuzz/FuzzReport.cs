@@ -6,7 +6,7 @@ namespace LagSim.Harness.Verification.Fuzz;
 /// <param name="Malformed">How many were refused by a decoder.</param>
 /// <param name="Ignored">How many were well formed and no business of who got them. The rest could not be told from an honest
 /// peer's.</param>
-/// <param name="SessionsBroken"> How many sessions ended or came apart under datagrams that bear a peer's own address and its session's
+/// <param name="SessionsBroken">How many sessions ended or came apart under datagrams that bear a peer's own address and its session's
 /// number: without encryption who can do that can do what the peer can. Under what strangers send none may.
 /// </param>
 /// <param name="StrangerBytesSent">What strangers sent to peers, without headers.</param>

@@ -49,7 +49,7 @@ public sealed class StallProcessRun : IDisposable
     /// <param name="tool">The tool's program, and the arguments that it needs before its own.</param>
     /// <param name="folder">Where passes are kept; it must be there.</param>
     /// <param name="cancellation">Ends it early.</param>
-    /// <param name="progress"> Told, on the thread that plays, how many seconds of <see cref="SecondsOf"/> have gone by, and what happens
+    /// <param name="progress">Told, on the thread that plays, how many seconds of <see cref="SecondsOf"/> have gone by, and what happens
     /// then where anything does; null for nobody.
     /// </param>
     public StallProcessRun(

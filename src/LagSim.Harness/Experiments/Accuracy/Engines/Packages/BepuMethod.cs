@@ -21,7 +21,7 @@ namespace LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 /// </remarks>
 internal sealed class BepuMethod : SteppedEngine
 {
-    /// <summary>The spring's frequency in Hz over the root of the steps a second.</summary>
+    /// <summary>The spring's frequency in Hz divided by the root of the steps per second.</summary>
     private const double Stiffness = 0.5;
 
     public override string Name => "BepuPhysics";
@@ -93,7 +93,7 @@ internal sealed class BepuMethod : SteppedEngine
 
         private static float Damping(double restitution)
         {
-            double log = Math.Log(Math.Max(restitution, 1e-9)); // none at all is critical damping
+            double log = Math.Log(Math.Max(restitution, 1e-9)); // zero restitution is critical damping
             return (float)(-log / Math.Sqrt((Math.PI * Math.PI) + (log * log)));
         }
 

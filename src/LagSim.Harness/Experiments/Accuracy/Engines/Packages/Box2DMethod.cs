@@ -27,7 +27,7 @@ internal sealed class Box2DMethod : FlatEngine
 
     private sealed class Box2DRun : FlatRun
     {
-        /// <summary>What Box2D's own examples step with.</summary>
+        /// <summary>The step rate of Box2D's own examples.</summary>
         private const int Substeps = 4;
 
         private readonly B2WorldId world;
