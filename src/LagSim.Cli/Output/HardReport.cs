@@ -8,7 +8,7 @@ namespace LagSim.Cli.Output;
 /// <param name="Rows">The checks.</param>
 /// <param name="Scale">How large the sizes were.</param>
 /// <param name="AreControls">Whether deliberately wrong methods were run, which must fail.</param>
-/// <param name="Seed">The luck of it.</param>
+/// <param name="Seed">The seed of all random numbers.</param>
 /// <param name="WallSeconds">How long it took.</param>
 internal sealed record HardReport(IReadOnlyList<HardRow> Rows, HardScale Scale, bool AreControls, ulong Seed, double WallSeconds)
 {

@@ -8,5 +8,5 @@ namespace LagSim.Cli.Output;
 /// <param name="Motion">How the hand moved.</param>
 /// <param name="Runs">The sessions, one for each link.</param>
 /// <param name="Predictions">How well that motion can be predicted from all of its samples, by how old they are.</param>
-/// <param name="Seed">The luck of all of it.</param>
+/// <param name="Seed">The seed of all random numbers.</param>
 internal sealed record HoldReport(HandMotion Motion, IReadOnlyList<HoldRun> Runs, IReadOnlyList<PredictionError> Predictions, ulong Seed);

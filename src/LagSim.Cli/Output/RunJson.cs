@@ -63,7 +63,7 @@ internal static class RunJson
     /// <param name="json">Where to.</param>
     /// <param name="key">Its key.</param>
     /// <param name="errors">The error.</param>
-    /// <param name="without">What stands for the figures of no sample: 0 where a phase may be empty, null where nothing could be
+    /// <param name="without">The value in place of the figures of no sample: 0 where a phase may be empty, null where nothing could be
     /// measured.</param>
     internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors, double? without = 0)
     {

@@ -5,7 +5,7 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// <summary>The results of speed against error. Immutable.</summary>
 /// <param name="Points">Every scene, method, setting and kind of error, in that order.</param>
 /// <param name="Orders">The measured order of each method that has steps.</param>
-/// <param name="LeftOut">What was left out and why, a sentence each, with missing engines among them.</param>
+/// <param name="LeftOut">The omissions and their reasons, a sentence each, with missing engines among them.</param>
 public sealed record WorkReport(IReadOnlyList<WorkPoint> Points, IReadOnlyList<WorkOrder> Orders, IReadOnlyList<string> LeftOut)
 {
     /// <summary>

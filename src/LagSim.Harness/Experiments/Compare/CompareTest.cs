@@ -14,7 +14,7 @@ namespace LagSim.Harness.Experiments.Compare;
 /// <summary>Plays a plan with one strategy on one link, in virtual time, and measures what every peer showed.</summary>
 public static class CompareTest
 {
-    /// <summary>The lead of the start, so that every peer hears of it in time: 2 s one way, and again for lost datagrams.</summary>
+    /// <summary>The lead of the start, so that every peer receives it in time: 2 s one way, and again for lost datagrams.</summary>
     private static readonly SimDuration StartLead = SimDuration.FromSeconds(5);
 
     /// <summary>Runs it. The same options give the same figures, except the time to heal.</summary>

@@ -17,7 +17,7 @@ public static class HoldTest
     /// <summary>The peer with the hand: the first client, so that its events need the host's verdict.</summary>
     public const int Holder = 1;
 
-    /// <summary>The lead of the start, so that every peer hears of it in time: 2 s one way, and again for lost datagrams.</summary>
+    /// <summary>The lead of the start, so that every peer receives it in time: 2 s one way, and again for lost datagrams.</summary>
     private static readonly SimDuration StartLead = SimDuration.FromSeconds(5);
 
     private static readonly Vector3D Nowhere = new(double.NaN, double.NaN, double.NaN);
