@@ -71,7 +71,7 @@ internal static class CheckText
 
     private static string Count(long number, string thing, string? many = null) => NumberText.Count(number, thing, "N0", many);
 
-    /// <summary>Of which failing sessions the least that fails was looked for, where that is not all of them.</summary>
+    /// <summary>Returns which failing sessions were shrunk, if not all of them were.</summary>
     internal static string? Shrunk(CheckReport report)
     {
         string[] shrunk = [.. report.Failures.Where(f => f.IsShrunk).Select(f => $"{f.Whole.Seed}")];

@@ -37,17 +37,17 @@ internal sealed class CompareFindings
     }
 
     /// <summary>
-    /// The links on which interpolation has the smaller largest error as seen while an event is on its way, by 1 % or more.
+    /// Returns the links on which interpolation has the smaller largest error as seen while an event is in transit, by 1 % or more.
     /// </summary>
     internal IReadOnlyList<string> BetterDuring { get; }
 
-    /// <summary>The links on which the largest jump that interpolation shows is smaller, by 1 % or more.</summary>
+    /// <summary>Returns the links on which the largest jump that interpolation shows is smaller, by 1 % or more.</summary>
     internal IReadOnlyList<string> SmootherThanHealing { get; }
 
-    /// <summary>Where healing shows larger or more errors than another strategy once no event is on its way any more.</summary>
+    /// <summary>Returns where healing shows larger or more errors than another strategy once no event is in transit.</summary>
     internal IReadOnlyList<(string Profile, string Strategy)> HealingWorseAfter { get; }
 
-    /// <summary>The same in sentences.</summary>
+    /// <summary>Returns the same in sentences.</summary>
     internal IEnumerable<string> Sentences()
     {
         if (hasHealing)

@@ -21,7 +21,7 @@ internal static class DropChart
     private const string Time = "shared time since the start of the scene (s)";
 
     /// <param name="run">The run to show.</param>
-    /// <param name="before">The case before it in the same run, of which the end is shown too; null for none.</param>
+    /// <param name="before">The case before it in the same run, whose end is shown too; null for none.</param>
     internal static LineChart Of(DropRun run, DropRun? before = null)
     {
         DropTrace trace = before is null ? run.Trace : WithLead(run.Trace, before.Trace);
@@ -51,7 +51,7 @@ internal static class DropChart
         };
     }
 
-    /// <summary>The milliseconds that matter: from just before the lift until just after the last peer knows of it.</summary>
+    /// <summary>Draws the milliseconds around the lift: from just before it until just after the last peer received it.</summary>
     /// <param name="run">The run to show.</param>
     /// <param name="before">The case before it in the same run; null for none.</param>
     /// <returns>The chart; null for a case without a lift.</returns>
@@ -83,11 +83,11 @@ internal static class DropChart
     }
 
     /// <summary>
-    /// A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be
-    /// hidden.
+    /// Draws a panel for each strategy, all on one scale. Strategies that agree have the same curve, and in one panel only the last drawn
+    /// would be visible.
     /// </summary>
-    /// <param name="runs">A run a strategy.</param>
-    /// <param name="shown">The runs of the charts above. All times here are moved so that the ball is lifted when it is there.</param>
+    /// <param name="runs">A run for each strategy.</param>
+    /// <param name="shown">The runs of the charts above. All times here are shifted to their lift.</param>
     internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> shown)
     {
         double? lift = shown.Select(run => run.Trace.Lift).FirstOrDefault(at => at is not null);
@@ -113,7 +113,7 @@ internal static class DropChart
 
     private static string Peer(int peer) => peer == 0 ? "host" : $"client {peer}";
 
-    /// <summary>The same at later times.</summary>
+    /// <summary>Returns the same run shifted to later times.</summary>
     private static DropTrace Moved(DropTrace trace, double later) => later == 0 ? trace : trace with
     {
         Seconds = Array.ConvertAll(trace.Seconds, at => at + later),
@@ -137,12 +137,12 @@ internal static class DropChart
         double[] Joined(double[] earlier, double[] own) => [.. earlier[from..], .. own];
     }
 
-    /// <summary>When the ball was lifted, and when the last peer showed it; none where it was not.</summary>
+    /// <summary>Returns markers of the lift, and of when the last peer showed it; none without a lift.</summary>
     private static List<ChartMarker> Known(DropRun run) => run.Trace.Lift is double lifted && run.Trace.Dealt is double dealt
         ? [new ChartMarker(lifted, "lifted here"), new ChartMarker(dealt, "known to all")]
         : [];
 
-    /// <summary>The thesis's figure, where it compares.</summary>
+    /// <summary>Returns the thesis's figure, where it is comparable.</summary>
     private static ReferenceLine[] Thesis(DropRun run) =>
         run.Case == DropCase.Teleport && run.Options.IsThesisSetting ? [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")] : [];
 }

@@ -2,7 +2,7 @@ using LagSim.Harness.Experiments.Drop;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The words of the contract for what the harness has as values.</summary>
+/// <summary>The names of the harness's values in JSON and CSV.</summary>
 internal static class DropNames
 {
     internal static string Case(DropCase which) => which == DropCase.SameStart ? "same-start" : "teleport";

@@ -10,7 +10,7 @@ internal static class ExitCode
 
     internal const int Usage = 2;
 
-    /// <summary>Something could not be read, written, reached or done, or is not valid.</summary>
+    /// <summary>An input is invalid, or could not be read, written, reached or processed.</summary>
     internal const int Input = 3;
 
     /// <summary>Ctrl-C, as shells report it: 128 and the number of the signal.</summary>
@@ -19,6 +19,6 @@ internal static class ExitCode
     /// <summary>The reader of the results has closed the pipe.</summary>
     internal const int ClosedPipe = 141;
 
-    /// <summary>Asked to terminate.</summary>
+    /// <summary>A request to terminate.</summary>
     internal const int Terminated = 143;
 }

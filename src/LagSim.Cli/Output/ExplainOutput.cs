@@ -93,7 +93,7 @@ internal static class ExplainOutput
         }
     }
 
-    /// <summary>A table whose last column is a sentence: it alone is broken into lines.</summary>
+    /// <summary>Returns a table of which only the last column, a sentence, is wrapped.</summary>
     private static Table NewTable(string title, string[] columns)
     {
         Table table = DropTables.NewTable(title, columns);

@@ -9,7 +9,7 @@ namespace LagSim.Cli.Output;
 /// <summary>A failed command as a JSON document, with the message that is also on stderr.</summary>
 internal static class Failure
 {
-    /// <summary>Writes the document if JSON was asked for, and hands the exit code on.</summary>
+    /// <summary>Writes the document if JSON was requested, and returns the exit code.</summary>
     internal static int Tell(TextWriter output, ParseResult parsed, string sentence, int exitCode)
     {
         Command command = parsed.CommandResult.Command;
@@ -32,7 +32,7 @@ internal static class Failure
         return exitCode;
     }
 
-    /// <summary>The document.</summary>
+    /// <summary>Writes the document.</summary>
     internal static void Write(TextWriter output, string command, ulong? seed, string sentence, int exitCode) =>
         JsonDocumentWriter.Write(output, command, seed, null, null, null, json =>
         {

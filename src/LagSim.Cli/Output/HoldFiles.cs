@@ -74,7 +74,7 @@ internal static class HoldFiles
         }
     }
 
-    /// <summary>A row a link and peer that looks on.</summary>
+    /// <summary>Writes a row for each link and watching peer.</summary>
     private static void Runs(string path, IReadOnlyList<HoldRun> runs)
     {
         using StreamWriter file = new(path);
@@ -123,7 +123,7 @@ internal static class HoldFiles
         static object?[] Cells(Vector3D at) => [at.X, at.Y, at.Z];
     }
 
-    /// <summary>A row a horizon: what the JSON has, and each candidate.</summary>
+    /// <summary>Writes a row for each horizon: the values of the JSON, and each candidate.</summary>
     private static void Errors(string path, IReadOnlyList<PredictionError> errors)
     {
         using StreamWriter file = new(path);

@@ -13,7 +13,7 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A hand that holds and throws a ball, and its prediction, as tables for a person.</summary>
+/// <summary>A hand that holds and throws a ball, and its prediction, as tables for a terminal.</summary>
 internal static class HoldTables
 {
     internal static IReadOnlyList<string> ViewHeadings { get; } = ["link", "seen by", "simulated", "max", "predicted", "max", "of best", "hold", "velocity", "own"];
@@ -76,7 +76,7 @@ internal static class HoldTables
         }
     }
 
-    /// <summary>A row for each link and each peer that looks on.</summary>
+    /// <summary>Returns a row for each link and each watching peer.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Views(IReadOnlyList<HoldRun> runs) => runs.SelectMany(run => run.Views.Select(view => new[]
     {
         run.Options.Link.Name, PeerName(view.Peer), Millimetres(view.Simulated.RmsMetres), Millimetres(view.Simulated.MaxMetres), Predicted(view, view.Predicted.RmsMetres),
@@ -85,7 +85,7 @@ internal static class HoldTables
 
     private static string Predicted(HeldView view, double metres) => view.Predicted.Samples == 0 ? "-" : Millimetres(metres);
 
-    /// <summary>A row for each link.</summary>
+    /// <summary>Returns a row for each link.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Sessions(IReadOnlyList<HoldRun> runs) => runs.Select(run =>
     {
         ErrorStatistics[] settled = [run.Settled.Before.ToStatistics(), run.Settled.During.ToStatistics(), run.Settled.After.ToStatistics()];

@@ -59,10 +59,10 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    /// <summary>One error of the contract.</summary>
-    /// <param name="json">Where to.</param>
-    /// <param name="key">Its key.</param>
-    /// <param name="errors">The error.</param>
+    /// <summary>Writes one error.</summary>
+    /// <param name="json">The destination.</param>
+    /// <param name="key">The key.</param>
+    /// <param name="errors">The statistics of the error.</param>
     /// <param name="without">The value in place of the figures of no sample: 0 where a phase may be empty, null where nothing could be
     /// measured.</param>
     internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors, double? without = 0)
@@ -106,7 +106,7 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    /// <summary>The one hash that all have; null where there are several.</summary>
+    /// <summary>Returns the hash that all have in common; null if they differ.</summary>
     internal static ulong? Common(IEnumerable<ulong> hashes)
     {
         ulong[] different = hashes.Distinct().ToArray();

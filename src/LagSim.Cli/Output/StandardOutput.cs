@@ -6,7 +6,7 @@ using Microsoft.Win32.SafeHandles;
 namespace LagSim.Cli.Output;
 
 /// <summary>
-/// Standard output as results go to it: in blocks where it is no terminal, and with an error where the reader of a pipe has gone.
+/// The standard output for results: buffered where it is no terminal, and with an error when the reader of a pipe has gone.
 /// </summary>
 internal static class StandardOutput
 {
@@ -21,19 +21,19 @@ internal static class StandardOutput
     internal static bool IsClosedPipe(IOException failure) => failure.HResult == BrokenPipe;
 
     /// <summary>
-    /// The pipe with that descriptor; null if it is something else. <see cref="Console"/>'s own stream hides that a pipe is closed.
+    /// Opens the pipe of a descriptor; null if it is something else. <see cref="Console"/>'s own stream hides that a pipe is closed.
     /// </summary>
     internal static Stream? Pipe(nint descriptor)
     {
         if (OperatingSystem.IsWindows())
         {
-            return null; // it has no such descriptors; there a run goes on to its end
+            return null; // it has no such descriptors; a run continues to its end there
         }
 
         try
         {
             FileStream stream = new(new SafeFileHandle(descriptor, ownsHandle: false), FileAccess.Write, bufferSize: 0);
-            return stream.CanSeek ? null : stream; // a file's end is to stay where the shell's next command looks for it
+            return stream.CanSeek ? null : stream; // the file's position must stay where the shell's next command expects it
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or ArgumentException)
         {

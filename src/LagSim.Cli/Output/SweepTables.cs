@@ -49,9 +49,8 @@ internal static class SweepTables
     }
 
     /// <summary>
-    /// Which columns stand in which table. Where all of them are wider than the window, there are several tables one below the other, each
-    /// beginning with the columns that say which cell it is, so that no heading is cut. On a terminal of less than 80 columns the rows are
-    /// lists anyway.
+    /// Splits the columns into tables. If they do not fit the window together, there are several tables one below the other, each beginning
+    /// with the columns that identify the cell, so that no heading is cut. On a terminal of less than 80 columns the rows are lists anyway.
     /// </summary>
     private static List<int[]> Parts(ToolConsole console, string[][] rows)
     {
@@ -78,7 +77,9 @@ internal static class SweepTables
         return [.. parts, part];
     }
 
-    /// <summary>The longest word of the heading, which is broken at blanks, and the longest cell, which is not.</summary>
+    /// <summary>
+    /// Returns the larger of the longest word of the heading, which is wrapped at blanks, and the longest cell, which is not.
+    /// </summary>
     private static int WidthOf(int column, string[][] rows) =>
         Headings[column].Split(' ').Concat(rows.Select(row => row[column])).Max(text => text.Length);
 

@@ -7,7 +7,7 @@ using Spectre.Console.Rendering;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Where results and progress go.</summary>
+/// <summary>The destination of results and progress.</summary>
 internal sealed class ToolConsole
 {
     private const int WidthOfAFile = 150;
@@ -29,7 +29,7 @@ internal sealed class ToolConsole
         });
         if (!IsTerminal)
         {
-            Rich.Profile.Width = WidthOfAFile; // else a table in a file is broken to 80 columns
+            Rich.Profile.Width = WidthOfAFile; // else a table in a file is broken at 80 columns
         }
     }
 
@@ -48,13 +48,13 @@ internal sealed class ToolConsole
     /// <summary>The standard input.</summary>
     internal TextReader Input => Console.In;
 
-    /// <summary>Results, as plain text.</summary>
+    /// <summary>The results, as plain text.</summary>
     internal TextWriter Output { get; }
 
     /// <summary>Progress and log.</summary>
     internal TextWriter Error { get; }
 
-    /// <summary>Results, as tables.</summary>
+    /// <summary>The results, as tables.</summary>
     internal IAnsiConsole Rich { get; }
 
     /// <summary>
@@ -87,13 +87,13 @@ internal sealed class ToolConsole
     }
 
     /// <summary>
-    /// Runs something long, with a bar on the error stream where that is a terminal, else a line at the start and one for each part that it
-    /// names.
+    /// Runs long work, with a progress bar on the error stream if that is a terminal, else with a line at the start and for each named
+    /// part.
     /// </summary>
     /// <param name="title">The name of the work.</param>
-    /// <param name="length">How much there is to do, in simulated seconds.</param>
-    /// <param name="work">Does it, and says from time to time how much is done.</param>
-    /// <param name="isBarShown">Whether there may be a bar: not over results that scroll by on the same terminal.</param>
+    /// <param name="length">The amount of work, in simulated seconds.</param>
+    /// <param name="work">The work. It reports its progress from time to time.</param>
+    /// <param name="isBarShown">Whether a bar is allowed: not over results that scroll on the same terminal.</param>
     /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
     internal T WithProgress<T>(string title, double length, Func<Action<double>, T> work, bool isBarShown = true)
     {
@@ -121,10 +121,10 @@ internal sealed class ToolConsole
             });
     }
 
-    /// <summary>Names the part of what runs that begins now: on the bar, or as a line of the error stream where there is none.</summary>
+    /// <summary>Names the part of the work that begins now: on the bar, or as a line of the error stream where there is none.</summary>
     internal void Begin(string part) => tellPart(part);
 
-    /// <summary>Puts back what a progress bar hides.</summary>
+    /// <summary>Restores what a progress bar hides.</summary>
     internal static void ShowCursor()
     {
         if (!Console.IsErrorRedirected)
