@@ -4,7 +4,9 @@ using System.Threading;
 
 namespace LagSim.Cli;
 
-/// <summary>Ctrl-C and a request to terminate: the work is asked to stop, so that files end with a whole row and the cursor comes back.</summary>
+/// <summary>
+/// Handles Ctrl-C and termination requests: cancels the work, so that files end with a whole row and the cursor is shown again.
+/// </summary>
 internal sealed class Interruption : IDisposable
 {
     /// <summary>How long the work has to stop by itself.</summary>
@@ -20,10 +22,10 @@ internal sealed class Interruption : IDisposable
         PosixSignalRegistration.Create(PosixSignal.SIGTERM, signal => On(signal, Output.ExitCode.Terminated)),
     ];
 
-    /// <summary>What a command looks at between two pieces of work.</summary>
+    /// <summary>The token that cancels a command's work.</summary>
     internal CancellationToken Token => asked.Token;
 
-    /// <summary>The exit code that tells the signal; null if there was none.</summary>
+    /// <summary>The exit code of the signal; null if there was none.</summary>
     internal int? ExitCode { get; private set; }
 
     public void Dispose()
@@ -39,7 +41,7 @@ internal sealed class Interruption : IDisposable
     {
         if (ExitCode is not null)
         {
-            return; // the second time the system's own way: at once
+            return; // a second signal ends the process at once
         }
 
         ExitCode = exitCode;

@@ -15,18 +15,20 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli;
 
-/// <summary>The tool's entry: parses, runs one command, and turns what went wrong into a sentence and an exit code.</summary>
+/// <summary>
+/// The entry point of the tool: parses the command line, runs one command, and maps failures to a message and an exit code.
+/// </summary>
 internal static class Program
 {
     internal static int Main(string[] arguments)
     {
-        Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // tables and curves are not in every code page
+        Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // not every code page has the characters of tables and curves
         using Interruption interruption = new();
         int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token, () => interruption.ExitCode);
-        return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a check that failed is told however it ended
+        return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a failed check is reported even after an interrupt
     }
 
-    /// <summary>The tool with all its commands.</summary>
+    /// <summary>Builds the tool with all its commands.</summary>
     // Not a RootCommand: that is named after the assembly, which cannot be called as the tool is.
     internal static Command Root(ToolConsole console) => new("lagsim", "LagSim: a shared physical world without lag. Results go to stdout, progress to stderr.")
     {
@@ -52,12 +54,12 @@ internal static class Program
         ReplayCommand.Create(console),
     };
 
-    /// <summary>One call of the tool, results to one writer, progress and errors to the other, until it is done or asked to stop.</summary>
+    /// <summary>Runs the tool once, until it is done or cancelled.</summary>
     /// <param name="arguments">The command line.</param>
-    /// <param name="output">Takes the results.</param>
-    /// <param name="error">Takes progress and errors.</param>
-    /// <param name="stop">Asks for an end.</param>
-    /// <param name="signal">The exit code that tells what asked for it; null for that of an interrupt.</param>
+    /// <param name="output">Receives the results.</param>
+    /// <param name="error">Receives progress and errors.</param>
+    /// <param name="stop">Cancels the run.</param>
+    /// <param name="signal">Returns the exit code of the signal that cancelled it; null for that of an interrupt.</param>
     internal static int Run(string[] arguments, TextWriter output, TextWriter error, CancellationToken stop, Func<int?>? signal = null)
     {
         Command root = Root(new ToolConsole(output, error, stop));
@@ -113,7 +115,9 @@ internal static class Program
         }
     }
 
-    /// <summary>What is wrong with a command line, a sentence each: of a word that is no command only that, and not that there is none.</summary>
+    /// <summary>
+    /// Returns what is wrong with a command line, a sentence each. For an unknown command it returns only that.
+    /// </summary>
     private static string[] Problems(ParseResult parsed, bool isOfRoot)
     {
         string[] all = [.. parsed.Errors.Select(problem => problem.Message)];
@@ -122,7 +126,9 @@ internal static class Program
         return [.. problems, .. parsed.UnmatchedTokens.Select(word => OtherName(parsed, word)).OfType<string>()];
     }
 
-    /// <summary>How long a command goes on has another name where there is a session; whoever takes one for the other is told. Null if it is not that.</summary>
+    /// <summary>
+    /// Returns a hint if a duration option was given under the name that other commands use; else null.
+    /// </summary>
     private static string? OtherName(ParseResult parsed, string word)
     {
         string? other = word == "--for-s" ? "--until-s" : word == "--until-s" ? "--for-s" : null;
@@ -130,7 +136,7 @@ internal static class Program
         return command.Options.Any(option => option.Name == other) ? $"{command.Name} has no option '{word}'; here it is {other}." : null;
     }
 
-    /// <summary>A word that was taken for an argument, and is an option's name with a slip in it; null for none.</summary>
+    /// <summary>Returns an argument that looks like a misspelt option; null for none.</summary>
     private static string? MistakenOption(ParseResult parsed) => parsed.Tokens.Any(token => token.Type == TokenType.DoubleDash) ? null
         : parsed.CommandResult.Children.OfType<ArgumentResult>().SelectMany(argument => argument.Tokens)
             .Select(token => token.Value).FirstOrDefault(word => word.Length > 1 && word[0] == '-');

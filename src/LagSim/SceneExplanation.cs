@@ -240,8 +240,8 @@ public sealed class SceneExplanation
             new FeatureExplanation(
                 "contacts of bodies", bodies > 1 || scene.Spawners != PeerSet.Nobody,
                 hasIndex
-                    ? $"{bodies} bodies: an index of swept paths names those that come near."
-                    : $"{Count(bodies, "body", "bodies")}: up to {SimulationOptions.DefaultBruteForceLimit} every pair is looked at, without an index."),
+                    ? $"{bodies} bodies. Above {SimulationOptions.DefaultBruteForceLimit}, neighbour lists: only pairs that come near are tested."
+                    : $"{Count(bodies, "body", "bodies")}. Up to {SimulationOptions.DefaultBruteForceLimit}, brute force: every pair is tested."),
             new FeatureExplanation(
                 "periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
         };

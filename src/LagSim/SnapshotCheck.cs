@@ -160,7 +160,7 @@ internal static class SnapshotCheck
         if (!isPast || (body.End != hold.KeyframeTime + HandPath.Settles && body.End != hold.KeyframeTime + HandPath.Stops && body.End != hold.KeyframeTime + HandPath.Lasts))
         {
             throw new SceneException(
-                $"The hand that holds {whose} last told where it is at {hold.KeyframeTime}, and this piece of its path lasts from {body.Epoch.ToShortString()} to"
+                $"The hand that holds {whose} last told where it is at {hold.KeyframeTime}, and this segment lasts from {body.Epoch.ToShortString()} to"
                 + $" {body.End.ToShortString()}; it must not begin before, and end {HandPath.Settles}, {HandPath.Stops} or {HandPath.Lasts} after.");
         }
     }

@@ -57,7 +57,9 @@ internal static class AccuracyCommand
         return command;
     }
 
-    /// <summary>Who asks for one engine asks for nothing else: that it is missing, or suits none of the scenes, is an answer, but not a result.</summary>
+    /// <summary>
+    /// Throws if the only engine asked for is missing, or suits none of the scenes: there is no result then.
+    /// </summary>
     private static void ThrowIfNotThere(string peer, IReadOnlyList<WorkScene> scenes)
     {
         IWorkMethod[] asked = [.. WorkMethods.All.Where(method => method.Engine == peer)];

@@ -16,8 +16,8 @@ internal static class CheckCommand
     private const string All = "all";
     private const string None = "none";
 
-    /// <param name="console">Where the report goes.</param>
-    /// <param name="change">What a test changes about what is to be checked: it puts faults in on purpose. Null for nothing.</param>
+    /// <param name="console">The console that the report is written to.</param>
+    /// <param name="change">Changes the options, for tests that inject faults; null changes nothing.</param>
     internal static Command Create(ToolConsole console, Func<CheckOptions, CheckOptions>? change = null)
     {
         CommonOptions common = new();

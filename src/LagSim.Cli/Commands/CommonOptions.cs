@@ -10,7 +10,7 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>The options that every command has, and how options are checked.</summary>
+/// <summary>The options that every command has, and their validation.</summary>
 internal sealed class CommonOptions
 {
     internal const string SeedName = "--seed";
@@ -19,11 +19,11 @@ internal sealed class CommonOptions
 
     internal const string JsonName = "--json";
 
-    /// <summary>The strategy that a display delay is for.</summary>
+    /// <summary>The strategy that uses a display delay.</summary>
     internal const string Interpolating = "interpolation";
 
-    /// <summary>Characters that words to choose from may take in the left column of help; longer lists stand in the description.</summary>
-    private const int MaxWordsLength = 30;
+    /// <summary>The most characters of a list of choices in the left column of help. Longer lists go to the description.</summary>
+    private const int MostOfWords = 30;
 
     private const string DisplayDelayName = "--display-delay-ms";
 
@@ -40,14 +40,14 @@ internal sealed class CommonOptions
     internal Option<bool> Json { get; } = new(JsonName) { Description = "Print one JSON document and nothing else on stdout." };
 
     /// <param name="command">The command.</param>
-    /// <param name="isSeedDrawnFrom">Whether anything of it depends on the seed.</param>
+    /// <param name="isSeedDrawnFrom">Whether any result depends on the seed.</param>
     internal void AddTo(Command command, bool isSeedDrawnFrom = true)
     {
         AddSeedAndJsonTo(command, isSeedDrawnFrom);
         command.Options.Add(Out);
     }
 
-    /// <summary>For a command that has nothing to put into a folder.</summary>
+    /// <summary>The options of a command that writes no folder.</summary>
     internal void AddSeedAndJsonTo(Command command, bool isSeedDrawnFrom = true)
     {
         Seed.Description = isSeedDrawnFrom ? Seed.Description : "Only repeated in the results: every command takes a seed, but nothing here is random.";
@@ -55,7 +55,7 @@ internal sealed class CommonOptions
         command.Options.Add(Json);
     }
 
-    /// <summary>A number option with a range; NaN is in none.</summary>
+    /// <summary>A number option with a range, which excludes NaN.</summary>
     internal static Option<double> Number(string name, string description, double? byDefault, double least, double most)
     {
         Option<double> option = new(name)
@@ -72,12 +72,12 @@ internal sealed class CommonOptions
         return option;
     }
 
-    /// <summary>How far behind <c>interpolation</c> shows the world.</summary>
+    /// <summary>How far behind the present <c>interpolation</c> shows the world.</summary>
     internal static Option<double> DisplayDelay() => Number(
         DisplayDelayName, "How far behind shared time the interpolation strategy shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());
 
-    /// <summary>A display delay that nothing would use is a mistake.</summary>
-    /// <exception cref="UsageException">It was given, and the strategy is another than <c>interpolation</c> alone or among all.</exception>
+    /// <summary>Refuses a display delay that no strategy would use.</summary>
+    /// <exception cref="UsageException">The delay is given, and the strategy is neither <c>interpolation</c> nor all.</exception>
     internal static void ThrowIfUnused(ParseResult parsed, Option<double> displayDelay, string strategy, bool isInterpolating)
     {
         if (!isInterpolating && parsed.GetResult(displayDelay) is { Implicit: false })
@@ -103,8 +103,8 @@ internal sealed class CommonOptions
         HelpName = "NAME",
     };
 
-    /// <summary>The link that was asked for by a delay or a profile; null if by neither.</summary>
-    /// <exception cref="UsageException">By both, or there is no such profile.</exception>
+    /// <summary>Returns the link chosen by a delay or a profile; null if neither is given.</summary>
+    /// <exception cref="UsageException">Both are given, or the profile is unknown.</exception>
     internal static LinkProfile? LinkOf(double? delay, string? profile)
     {
         if (delay is not null && profile is not null)
@@ -117,7 +117,7 @@ internal sealed class CommonOptions
             : LinkProfiles.TryGet(profile, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);
     }
 
-    /// <summary>Real or virtual time.</summary>
+    /// <summary>The choice of real or virtual time.</summary>
     internal static Option<string> Time(string byDefault) =>
         Word("--time", "Real time over real sockets, or the same in virtual time, seeded, without waiting.", byDefault, "real", "virtual");
 
@@ -144,7 +144,7 @@ internal sealed class CommonOptions
         }
     });
 
-    /// <summary>An option that names a file or folder; no file system has one of an empty name.</summary>
+    /// <summary>An option that names a file or folder, and refuses an empty name.</summary>
     private static Option<string?> Path(string name, string description, string help)
     {
         Option<string?> option = new(name) { Description = description, HelpName = help };
@@ -159,7 +159,7 @@ internal sealed class CommonOptions
         return option;
     }
 
-    /// <summary>An option that takes one of some words.</summary>
+    /// <summary>An option with a choice of words.</summary>
     internal static Option<string> Word(string name, string description, string byDefault, params string[] words)
     {
         bool areFew = words.Sum(word => word.Length + 1) <= MaxWordsLength;
@@ -180,7 +180,7 @@ internal sealed class CommonOptions
         return option;
     }
 
-    /// <summary>An option for a whole number in a range.</summary>
+    /// <summary>An option for an integer in a range.</summary>
     internal static Option<int> Whole(string name, string description, int byDefault, int least, int most) => new(name)
     {
         Description = $"{description} ({least} to {most})",
@@ -198,7 +198,7 @@ internal sealed class CommonOptions
         },
     };
 
-    /// <summary>The number of an option's only argument; else an error that names the option and its range.</summary>
+    /// <summary>Parses an option's only argument as a number. An error names the option and its range.</summary>
     internal static double ParseNumber(ArgumentResult result, string name, double least, double most)
     {
         if (double.TryParse(Token(result), NumberStyles.Float, CultureInfo.InvariantCulture, out double value) && value >= least && value <= most)

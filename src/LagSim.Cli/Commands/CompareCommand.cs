@@ -72,14 +72,14 @@ internal static class CompareCommand
         return command;
     }
 
-    /// <summary>What promises agreement must agree, on every link.</summary>
+    /// <summary>Checks that strategies that promise agreement agree on every link.</summary>
     internal static int ExitCodeOf(IEnumerable<CompareRun> runs) => runs.Any(CompareTables.IsBroken) ? ExitCode.CheckFailed : ExitCode.Done;
 
     private static int Run(ToolConsole console, CompareOptions[] options, string? folder, bool json)
     {
         if (folder is not null)
         {
-            OutputFolder.ThrowIfNotWritable(folder); // to be said before some minutes have gone by
+            OutputFolder.ThrowIfNotWritable(folder); // report this before minutes of work
         }
 
         double each = CompareOptions.Length.ToSeconds();
@@ -112,7 +112,9 @@ internal static class CompareCommand
         return ExitCodeOf(runs);
     }
 
-    /// <summary>Something small with each strategy first, so that what is compiled when it first runs is not in the time that heals take.</summary>
+    /// <summary>
+    /// Runs something small with each strategy first, so that JIT compilation is not counted as time of heals.
+    /// </summary>
     private static void WarmUp(CompareOptions[] options, Action<double> progress)
     {
         Scene small = BuiltInScenes.Pair();

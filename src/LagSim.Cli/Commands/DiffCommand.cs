@@ -4,7 +4,7 @@ using LagSim.Net.Recordings;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim diff</c>: two recordings of one session held against each other.</summary>
+/// <summary><c>lagsim diff</c>: compares two recordings of one session.</summary>
 internal static class DiffCommand
 {
     internal static Command Create(ToolConsole console)

@@ -71,14 +71,14 @@ internal static class DropCommand
     {
         if (folder is not null)
         {
-            OutputFolder.ThrowIfNotWritable(folder); // to be said before half a minute has gone by
+            OutputFolder.ThrowIfNotWritable(folder); // report this before half a minute of work
         }
 
         string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier.Name}";
         IReadOnlyList<DropRun> runs = console.WithProgress(
             title, options.Length.ToSeconds(), progress => DropTest.Run(options, done => progress(done.ToSeconds())));
 
-        // All strategies are compared by what they do with the lift: who asked for the other half alone did not ask for that.
+        // The comparison of all strategies uses the lift only, so it is left out where only the other half is asked for.
         List<DropRun> strategies = allStrategies || options.Cases.Contains(DropCase.Teleport) ? CompareStrategies(console, options) : [];
         List<DropRun> reported = [.. runs, .. allStrategies ? strategies : []];
         if (folder is not null)
@@ -112,7 +112,7 @@ internal static class DropCommand
             }).ToList());
     }
 
-    /// <summary>What promises agreement must agree, in the comparison too.</summary>
+    /// <summary>Checks that strategies that promise agreement agree, in the comparison too.</summary>
     internal static int ExitCodeOf(IEnumerable<DropRun> runs) =>
         runs.Any(run => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees) ? ExitCode.CheckFailed : ExitCode.Done;
 

@@ -9,11 +9,11 @@ using LagSim.Net.Carriers;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>Where a host is, as a user writes it: <c>ADDRESS:PORT</c>, <c>[IPv6]:PORT</c> or <c>NAME:PORT</c>.</summary>
+/// <summary>The address of a host as a user writes it: <c>ADDRESS:PORT</c>, <c>[IPv6]:PORT</c> or <c>NAME:PORT</c>.</summary>
 internal static class EndPointText
 {
-    /// <summary>Takes the text apart.</summary>
-    /// <exception cref="UsageException">It has not this form.</exception>
+    /// <summary>Parses the text.</summary>
+    /// <exception cref="UsageException">The text does not have this form.</exception>
     internal static (string Host, int Port) Parse(string text)
     {
         int colon = text.LastIndexOf(':');
@@ -32,12 +32,12 @@ internal static class EndPointText
             : throw new UsageException($"The port in '{text}' is '{text[(colon + 1)..]}'; it must be a whole number between 1 and 65535.");
     }
 
-    /// <summary>The address itself; of a name with several the first, but IPv4 before IPv6.</summary>
-    /// <param name="text">What the user wrote.</param>
-    /// <param name="purpose">What the host is for, as a verb.</param>
-    /// <param name="stop">Ends the asking.</param>
-    /// <exception cref="UsageException">The text has not the form.</exception>
-    /// <exception cref="InputException">Nobody knows the name, or it is the address of no machine, at which nobody could answer.</exception>
+    /// <summary>Resolves the address. Of several addresses of a name it returns the first, IPv4 before IPv6.</summary>
+    /// <param name="text">The text that the user wrote.</param>
+    /// <param name="purpose">The use of the host, as a verb, for messages.</param>
+    /// <param name="stop">Cancels the name lookup.</param>
+    /// <exception cref="UsageException">The text does not have the form.</exception>
+    /// <exception cref="InputException">The name is unknown, or the address cannot belong to a machine.</exception>
     /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
     internal static IPEndPoint Resolve(string text, string purpose, CancellationToken stop)
     {
@@ -67,7 +67,7 @@ internal static class EndPointText
     }
 
     /// <summary>An address to bind to.</summary>
-    /// <exception cref="UsageException">It is none.</exception>
+    /// <exception cref="UsageException">The text is no such address.</exception>
     internal static IPAddress ParseLocal(string option, string text) =>
         !text.Contains('[', StringComparison.Ordinal) && IPAddress.TryParse(text, out IPAddress? address)
             ? address

@@ -5,7 +5,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim explain</c>: what a scene makes the engine simulate, what it leaves out, and why.</summary>
+/// <summary><c>lagsim explain</c>: what the engine simulates for a scene, what it leaves out, and why.</summary>
 internal static class ExplainCommand
 {
     internal static Command Create(ToolConsole console)

@@ -42,7 +42,7 @@ internal static class HardCommand
         return command;
     }
 
-    /// <summary>What did not pass is a failed check; of deliberately wrong methods, what did.</summary>
+    /// <summary>Fails on cases that did not pass; with deliberately wrong methods, on cases that did.</summary>
     internal static int ExitCodeOf(HardReport report) => report.AsItShouldBe == report.Rows.Count ? ExitCode.Done : ExitCode.CheckFailed;
 
     private static int Run(ToolConsole console, IReadOnlyList<IHardCase> cases, HardScale scale, bool areControls, ulong seed, string? folder, bool json)

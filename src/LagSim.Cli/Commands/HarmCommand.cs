@@ -11,13 +11,13 @@ using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim harm</c>: drawn attacks by one player on everybody's worlds, and what honest players cost.</summary>
+/// <summary><c>lagsim harm</c>: random attacks by one player on the other players' worlds, and the cost of honest players.</summary>
 internal static class HarmCommand
 {
     private const double HonestSeconds = 30;
 
-    /// <param name="console">Where it writes.</param>
-    /// <param name="tool">For tests: what is started as the processes; null for this very program.</param>
+    /// <param name="console">The console to write to.</param>
+    /// <param name="tool">For tests: the program to start for each process; null for this one.</param>
     internal static Command Create(ToolConsole console, string[]? tool = null)
     {
         CommonOptions common = new();
@@ -61,7 +61,7 @@ internal static class HarmCommand
         return command;
     }
 
-    /// <summary>So many times the default; none for 0.</summary>
+    /// <summary>A multiple of the default budget; 0 for no budget.</summary>
     internal static PlayerBudget? Budget(double times) =>
         times == 0 ? null : new PlayerBudget(Math.Max(1, PlayerBudget.Default.WorkPerSecond * times), Math.Max(1, PlayerBudget.Default.WorkAtOnce * times));
 
@@ -123,13 +123,13 @@ internal static class HarmCommand
             }
             catch (OperationCanceledException) when (console.Stop.IsCancellationRequested)
             {
-                // what was played by then is told
+                // what was played so far is reported
             }
 
             return costs;
         });
 
-    /// <summary>One after the other: what is measured is how fast the machine is.</summary>
+    /// <summary>One after the other, since this measures the machine's speed.</summary>
     private static IReadOnlyList<HarmProcessOutcome> PlayAgain(ToolConsole console, HarmOutcome[] chosen, string[] tool) => console.WithProgress(
         string.Create(CultureInfo.InvariantCulture, $"{NumberText.Count(chosen.Length, "attack")} again with processes, in about {chosen.Length * HarmProcessRun.PlaySeconds * 1.2:0} s"),
         chosen.Length,

@@ -13,12 +13,12 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim hold</c>: a hand that holds and throws a ball, and that others see later than it moves.</summary>
+/// <summary><c>lagsim hold</c>: a hand holds and throws a ball, which other peers see with latency.</summary>
 internal static class HoldCommand
 {
     private const double RealDelay = 100;
 
-    /// <summary>The delays of Fig 4 and 5, one way, in milliseconds: what is run where nothing is said.</summary>
+    /// <summary>The one-way delays of Fig 4 and 5, in milliseconds; the default.</summary>
     private static readonly double[] Delays = [0, 25, 50, 100, 200, 300, 500];
 
     internal static Command Create(ToolConsole console)
@@ -83,14 +83,14 @@ internal static class HoldCommand
         return command;
     }
 
-    /// <summary>What promises agreement must agree, on every link.</summary>
+    /// <summary>Checks that strategies that promise agreement agree on every link.</summary>
     internal static int ExitCodeOf(IEnumerable<HoldRun> runs) => runs.Any(HoldTables.IsBroken) ? ExitCode.CheckFailed : ExitCode.Done;
 
     private static int Run(ToolConsole console, HandMotion motion, HoldOptions[] options, string? folder, bool json)
     {
         if (folder is not null)
         {
-            OutputFolder.ThrowIfNotWritable(folder); // to be said before half a minute has gone by
+            OutputFolder.ThrowIfNotWritable(folder); // report this before half a minute of work
         }
 
         double each = options[0].Length.ToSeconds();

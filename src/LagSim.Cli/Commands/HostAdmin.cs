@@ -10,16 +10,16 @@ using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>The commands of <c>lagsim host --admin</c>: list players, send them away, shut machines out, remove bodies.</summary>
+/// <summary>The commands of <c>lagsim host --admin</c>: list and disconnect players, ban addresses, remove bodies.</summary>
 internal sealed class HostAdmin
 {
     internal const string Syntax = "players, kick PLAYER, ban PLAYER, unban ADDRESS, remove-bodies PLAYER";
 
-    private readonly Dictionary<string, PeerAddress> banned = []; // by how it was told
+    private readonly Dictionary<string, PeerAddress> banned = []; // by the text of the command
 
-    /// <summary>Reads lines until there are no more, on a thread of its own, which ends with the program.</summary>
-    /// <param name="input">Where they come from.</param>
-    /// <param name="say">What to do with each: <see cref="Do"/> it on the session's thread, and print the answer.</param>
+    /// <summary>Reads lines to the end of the input, on a background thread.</summary>
+    /// <param name="input">The source of the lines.</param>
+    /// <param name="say">Called with each line. It must run <see cref="Do"/> on the session's thread and print the answer.</param>
     internal static void Read(TextReader input, Action<string> say)
     {
         new Thread(ReadAll) { IsBackground = true, Name = "LagSim admin" }.Start();
@@ -36,8 +36,8 @@ internal sealed class HostAdmin
         }
     }
 
-    /// <summary>Does what a line says, on the session's thread.</summary>
-    /// <returns>What came of it, as a sentence.</returns>
+    /// <summary>Executes a line. For the session's thread.</summary>
+    /// <returns>The result, as a sentence.</returns>
     internal string Do(string line, HostSession host)
     {
         string[] words = line.Split(' ', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
@@ -50,7 +50,7 @@ internal sealed class HostAdmin
         {
             bool isKnown = banned.Remove(address, out PeerAddress machine);
             isKnown |= IPAddress.TryParse(address, out IPAddress? ip);
-            machine = ip is null ? machine : PeerAddress.From(new IPEndPoint(ip, 0)); // also one that is shut out for a while
+            machine = ip is null ? machine : PeerAddress.From(new IPEndPoint(ip, 0)); // also an address that is banned for a while
             return isKnown && host.Unban(machine) ? $"Players from {address} may come in again."
                 : $"'{address}' is not banned; banned are: {(banned.Count == 0 ? "none" : string.Join(", ", banned.Keys.Order()))}.";
         }

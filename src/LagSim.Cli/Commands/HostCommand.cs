@@ -11,7 +11,7 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim host</c>: a session that others join.</summary>
+/// <summary><c>lagsim host</c>: hosts a session for others to join.</summary>
 internal static class HostCommand
 {
     internal static Command Create(ToolConsole console)

@@ -9,7 +9,7 @@ using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim join</c>: taking part in a session that somebody hosts, from its start or at any time later.</summary>
+/// <summary><c>lagsim join</c>: joins a hosted session, at its start or later.</summary>
 internal static class JoinCommand
 {
     internal static Command Create(ToolConsole console)
@@ -41,7 +41,7 @@ internal static class JoinCommand
             {
                 ThrowIfSame(passFile, request.RecordFile);
                 options = options with { Pass = PassFile.Read(passFile) };
-                PassFile.ThrowIfNotWritable(passFile); // to be said before anybody has joined
+                PassFile.ThrowIfNotWritable(passFile); // report this before joining
             }
 
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
@@ -72,7 +72,7 @@ internal static class JoinCommand
         return command;
     }
 
-    /// <summary>A recording would take the place of the pass.</summary>
+    /// <summary>Refuses a recording that would overwrite the pass.</summary>
     private static void ThrowIfSame(string passFile, string? recordFile)
     {
         if (recordFile is not null && Path.GetFullPath(passFile) == Path.GetFullPath(recordFile))
@@ -89,7 +89,7 @@ internal static class JoinCommand
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {
-            console.Error.WriteLine($"The player's pass was not kept: {failure.Message}"); // the session goes on without
+            console.Error.WriteLine($"The player's pass was not kept: {failure.Message}"); // the session continues without it
         }
     }
 }

@@ -2,10 +2,13 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>Finds out, once, that a machine cannot simulate a world as fast as time passes. One that has come late, or has slept, and catches up, is not that.</summary>
+/// <summary>
+/// Detects, once, that a machine cannot simulate a world in real time. A world that joined late, or whose machine slept, and is catching up
+/// does not count.
+/// </summary>
 internal sealed class PaceWatch
 {
-    /// <summary>How far a world may be behind, and for how long it may then come no nearer.</summary>
+    /// <summary>How far the world may be behind, and for how long without catching up.</summary>
     private static readonly SimDuration Timeout = SimDuration.FromSeconds(2);
 
     private bool isBehind;
@@ -13,7 +16,9 @@ internal sealed class PaceWatch
     private SimTime since;
     private SimDuration least;
 
-    /// <summary>Looks; true the first time that the world has been behind by more than two seconds, and has not caught up by anything, for two seconds.</summary>
+    /// <summary>
+    /// Returns true the first time the world has been more than two seconds behind, without catching up at all, for two seconds.
+    /// </summary>
     internal bool Finds(SimTime now, SimDuration behind)
     {
         bool wasBehind = isBehind;

@@ -6,14 +6,14 @@ using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>The file that keeps a player's pass from one run of <c>lagsim join</c> to the next.</summary>
+/// <summary>A file that keeps a player's pass between runs of <c>lagsim join</c>.</summary>
 internal static class PassFile
 {
     private const int MaxBytes = 1_000; // a pass is one line of at most 36
 
-    /// <summary>The pass in the file; none if there is no such file yet.</summary>
+    /// <summary>Reads the pass; returns none if the file does not exist yet.</summary>
     /// <exception cref="InputException">The file holds something else.</exception>
-    /// <exception cref="IOException">It cannot be read.</exception>
+    /// <exception cref="IOException">The file cannot be read.</exception>
     internal static PlayerPass Read(string file)
     {
         if (!File.Exists(file))
@@ -21,7 +21,7 @@ internal static class PassFile
             return default;
         }
 
-        using FileStream stream = File.OpenRead(file); // what is no plain file may have no end
+        using FileStream stream = File.OpenRead(file); // a special file may have no end
         byte[] bytes = new byte[MaxBytes];
         int length = stream.ReadAtLeast(bytes, MaxBytes, throwOnEndOfStream: false);
         return length < MaxBytes && PlayerPass.TryParse(Encoding.UTF8.GetString(bytes, 0, length), out PlayerPass pass)
@@ -29,9 +29,9 @@ internal static class PassFile
             : throw new InputException($"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
     }
 
-    /// <summary>Tries out whether a pass could be kept, and leaves everything as it was.</summary>
-    /// <exception cref="UsageException">That is no name of a file.</exception>
-    /// <exception cref="IOException">It could not; the message names the option, the file and the cause.</exception>
+    /// <summary>Checks that a pass could be written, and changes nothing.</summary>
+    /// <exception cref="UsageException">The name is not a file name.</exception>
+    /// <exception cref="IOException">A pass could not be written; the message names the option, the file and the cause.</exception>
     internal static void ThrowIfNotWritable(string file)
     {
         if (file == ResultFile.StandardOutput)
@@ -54,14 +54,14 @@ internal static class PassFile
         }
     }
 
-    /// <summary>Keeps a copy of a pass that is about to be replaced by another player's, which may be of use at another host.</summary>
-    /// <returns>The copy's name; null if it could not be made.</returns>
+    /// <summary>Copies a pass that another player's is about to replace, since it may be of use at another host.</summary>
+    /// <returns>The name of the copy; null if it could not be made.</returns>
     internal static string? KeepFormer(string file)
     {
         string copy = file + ".old";
         try
         {
-            File.Copy(file, copy, overwrite: true); // with the same rights
+            File.Copy(file, copy, overwrite: true); // with the same permissions
             return copy;
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
@@ -72,10 +72,10 @@ internal static class PassFile
 
     private static string DraftOf(string file) => file + ".new";
 
-    /// <summary>Keeps a pass, in a file that only this user may read where the system knows such a thing.</summary>
+    /// <summary>Writes a pass, readable only by this user where the system supports that.</summary>
     internal static void Write(string file, PlayerPass pass)
     {
-        string draft = DraftOf(file); // then moved into place, so that a kill in between leaves the old file whole
+        string draft = DraftOf(file); // moved into place afterwards, so that a kill in between leaves the old file whole
         FileStreamOptions options = new() { Mode = FileMode.Create, Access = FileAccess.Write };
         if (!OperatingSystem.IsWindows())
         {

@@ -4,16 +4,16 @@ using System.Threading;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>What other threads have to say of a session, kept for the one that prints, which it wakes.</summary>
+/// <summary>A queue of output from other threads. The printing thread drains it, and is woken by it.</summary>
 internal sealed class PrintQueue : IDisposable
 {
     private readonly AutoResetEvent wakeUp = new(false);
     private readonly ConcurrentQueue<Action> told = new();
 
-    /// <summary>Waits until there is something to do, but no longer than that.</summary>
+    /// <summary>Waits for work, at most <paramref name="span"/>.</summary>
     internal void Wait(TimeSpan span) => wakeUp.WaitOne(span);
 
-    /// <summary>Has the printing thread look around; from any thread, at any time.</summary>
+    /// <summary>Wakes the printing thread. Safe on any thread, at any time.</summary>
     internal void Wake()
     {
         try
@@ -22,21 +22,21 @@ internal sealed class PrintQueue : IDisposable
         }
         catch (ObjectDisposedException)
         {
-            // Nobody waits any more.
+            // The printing thread has ended.
         }
     }
 
-    /// <summary>Has that said at once.</summary>
+    /// <summary>Queues output and wakes the printing thread.</summary>
     internal void Tell(Action what)
     {
         Add(what);
         Wake();
     }
 
-    /// <summary>Has that said after all that was said before, when the printing thread next looks around.</summary>
+    /// <summary>Queues output without waking the printing thread. Order is kept.</summary>
     internal void Add(Action what) => told.Enqueue(what);
 
-    /// <summary>Says all that waits; for the printing thread.</summary>
+    /// <summary>Runs everything queued. For the printing thread.</summary>
     internal void Print()
     {
         while (told.TryDequeue(out Action? what))

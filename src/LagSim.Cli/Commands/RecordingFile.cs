@@ -5,10 +5,10 @@ using LagSim.Net.Recordings;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>A recording that a command was given by name.</summary>
+/// <summary>A recording that a command opens by name.</summary>
 internal static class RecordingFile
 {
-    /// <exception cref="InputException">It cannot be opened; the sentence names it and the cause.</exception>
+    /// <exception cref="InputException">The file cannot be opened; the message names it and the cause.</exception>
     internal static Recording Read(string name)
     {
         try

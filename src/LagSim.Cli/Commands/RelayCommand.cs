@@ -13,7 +13,7 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim relay</c>: a bad link between real processes.</summary>
+/// <summary><c>lagsim relay</c>: simulates a bad link between real processes.</summary>
 internal static class RelayCommand
 {
     private static readonly TimeSpan Look = TimeSpan.FromMilliseconds(500);
@@ -114,7 +114,7 @@ internal static class RelayCommand
             stop.WaitHandle.WaitOne(TimeSpan.FromMilliseconds(Math.Clamp(Math.Ceiling(left), 0, Look.TotalMilliseconds)));
         }
 
-        relay.Dispose(); // else a datagram on which it works now would be passed on and not counted
+        relay.Dispose(); // else a datagram in progress would be forwarded and not counted
         return relay.Traffic;
     }
 }

@@ -5,7 +5,7 @@ using LagSim.Net.Recordings;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim replay</c>: a recording run again.</summary>
+/// <summary><c>lagsim replay</c>: re-simulates a recording.</summary>
 internal static class ReplayCommand
 {
     internal static Command Create(ToolConsole console)
@@ -41,7 +41,10 @@ internal static class ReplayCommand
         return command;
     }
 
-    /// <summary>Of a file that is no recording, or none up to its scene, only what is wrong with it: that it cannot be run needs no sentence more.</summary>
+    /// <summary>
+    /// Reports only what is wrong with a file that is no recording, or is damaged before its scene. That it cannot be run then needs no
+    /// message.
+    /// </summary>
     private static string WhyNot(Recording recording, RecordingReplay found) =>
         recording is not { Scene: null, Damage: RecordingDamage damage } ? found.Message
         : damage.Offset == 0 ? damage.Reason

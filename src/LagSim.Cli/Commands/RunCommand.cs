@@ -14,13 +14,13 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim run</c>: one instance of a scene in virtual time.</summary>
+/// <summary><c>lagsim run</c>: simulates one instance of a scene in virtual time.</summary>
 internal static class RunCommand
 {
-    /// <summary>Some 1.5 GB of CSV.</summary>
+    /// <summary>The most rows, some 1.5 GB of CSV.</summary>
     private const double MaxSampleRows = 1e7;
 
-    /// <summary>In seconds; what has run for so long is compiled as well as it will be.</summary>
+    /// <summary>The warm-up, in seconds, after which the JIT compiler has done its work.</summary>
     private const double LongEnoughToWarmUp = 1;
 
     internal static Command Create(ToolConsole console)
@@ -86,7 +86,7 @@ internal static class RunCommand
         return command;
     }
 
-    /// <summary>Two results in one file would garble each other, and one in the scene's file would be the scene's end.</summary>
+    /// <summary>Refuses two results in one file, and a result in the scene's file.</summary>
     private static void RefuseSameFile(params (string Name, string? Path)[] files)
     {
         (string Name, string? Path)[] named = files.Where(f => f.Path is not (null or ResultFile.StandardOutput)).ToArray();
@@ -102,7 +102,7 @@ internal static class RunCommand
         }
     }
 
-    /// <summary>A slip of the exponent is not to fill the disk.</summary>
+    /// <summary>Refuses a row count that would fill the disk, as a mistyped exponent may ask for.</summary>
     private static void RefuseTooManyRows(double every, double until, int bodies)
     {
         double rows = (Math.Floor(until / every) + 1) * bodies;
@@ -121,10 +121,10 @@ internal static class RunCommand
         if (request.Folder is string folder)
         {
             OutputFolder.ThrowIfNotWritable(folder);
-            Directory.CreateDirectory(folder); // the tables are written as the run goes
+            Directory.CreateDirectory(folder); // tables are written during the run
         }
 
-        // The run that is written, those that are timed with a warm-up before them where the first was too short for one, and one for the picture.
+        // The run that is written, the timed runs, with a warm-up if the first run was too short for one, and a run for the chart.
         double once = length.ToSeconds();
         double timing = request.Timed == 0 ? 0 : once * (request.Timed + 1);
         double picture = request.Folder is null ? 0 : once;
@@ -200,7 +200,7 @@ internal static class RunCommand
 
     private static IEnumerable<object?> Spin(BodyState state) => [state.Spin.X, state.Spin.Y, state.Spin.Z];
 
-    /// <summary>What is asked for; timed so many times, 0 for a run that only streams.</summary>
+    /// <summary>The request: timed a number of times, 0 for a run that only streams.</summary>
     private sealed record Request(
         Scene Scene, SimDuration Length, string? EventFile, string? SampleFile, double Every, int Timed, string? Folder, ulong Seed, SimDuration History);
 }

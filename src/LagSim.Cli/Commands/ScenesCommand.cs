@@ -58,7 +58,7 @@ internal static class ScenesCommand
             return;
         }
 
-        // A scene's name may be anything; it is not to lead out of the folder.
+        // A scene may have any name, which must not lead out of the folder.
         if (scene.Name.IndexOfAny(Path.GetInvalidFileNameChars()) >= 0)
         {
             throw new UsageException($"The scene is called '{scene.Name}', which cannot be a file's name; give it another, or leave out --out.");

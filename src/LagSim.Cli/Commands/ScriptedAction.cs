@@ -7,7 +7,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>Something to do at a time, as <c>--do</c> says it: <c>KIND@SECONDS[:BODY][:X,Y,Z]</c>.</summary>
+/// <summary>A timed action, as <c>--do</c> writes it: <c>KIND@SECONDS[:BODY][:X,Y,Z]</c>.</summary>
 internal sealed class ScriptedAction
 {
     internal const string Syntax =
@@ -36,14 +36,14 @@ internal sealed class ScriptedAction
         this.vector = vector;
     }
 
-    /// <summary>As it was written.</summary>
+    /// <summary>The text as written.</summary>
     internal string Text { get; }
 
-    /// <summary>When, in seconds since the session's start.</summary>
+    /// <summary>The time, in seconds since the session's start.</summary>
     internal double Seconds { get; }
 
-    /// <summary>Reads one.</summary>
-    /// <exception cref="UsageException">It is none; the message says what is wrong.</exception>
+    /// <summary>Parses an action.</summary>
+    /// <exception cref="UsageException">The text is no action; the message says what is wrong.</exception>
     internal static ScriptedAction Parse(string text)
     {
         int at = text.IndexOf('@', StringComparison.Ordinal);
@@ -75,7 +75,7 @@ internal sealed class ScriptedAction
         return new ScriptedAction(text, kind, seconds, body, isRemoval ? default : Vector(text, parts[^1]));
     }
 
-    /// <summary>What is to be done in this scene.</summary>
+    /// <summary>Resolves the action in a scene.</summary>
     /// <exception cref="UsageException">The scene has no such body.</exception>
     internal PlayerAction ActionIn(Scene scene)
     {

@@ -10,19 +10,19 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>The actions that a peer of a session is to do: does each at its time, and tells which were not done or were refused.</summary>
-/// <remarks>Its methods are for the printing thread. What the session's thread tells it comes by the queue.</remarks>
+/// <summary>The scripted actions of a peer. Performs each at its time, and reports those that failed or were refused.</summary>
+/// <remarks>Methods are for the printing thread. Results from the session's thread arrive through the queue.</remarks>
 internal sealed class SessionActions
 {
     private readonly Session session;
     private readonly IReadOnlyList<ScriptedAction> script;
     private readonly SessionPrinter printer;
     private readonly PrintQueue queue;
-    private readonly Dictionary<uint, ScriptedAction> unconfirmed = []; // own ones of a client, by sequence number; the session's thread's
-    private readonly List<(ScriptedAction Action, Task Attempt)> attempts = []; // of which the outcome has not been looked at
-    private volatile bool isAwaitingVerdict; // whether any is unjudged
-    private PlayerAction[]? inScene; // what each is, once the scene is known
-    private int done; // or given up
+    private readonly Dictionary<uint, ScriptedAction> unconfirmed = []; // a client's own, by sequence number; owned by the session's thread
+    private readonly List<(ScriptedAction Action, Task Attempt)> attempts = []; // outcome not yet checked
+    private volatile bool isAwaitingVerdict; // whether any has no verdict yet
+    private PlayerAction[]? inScene; // the resolved actions, once the scene is known
+    private int done; // performed or given up
 
     internal SessionActions(Session session, IReadOnlyList<ScriptedAction> script, SessionPrinter printer, PrintQueue queue)
     {
@@ -37,20 +37,22 @@ internal sealed class SessionActions
         }
     }
 
-    /// <summary>Whether any was not done, was refused, or is not known to have been accepted.</summary>
+    /// <summary>Whether any action failed, was refused, or has no known verdict.</summary>
     internal bool HaveFailed { get; private set; }
 
-    /// <summary>Whether the scene in which they are done is known.</summary>
+    /// <summary>Whether the scene is known and the actions are resolved.</summary>
     internal bool HaveBegun => inScene is not null;
 
-    /// <summary>Whether there is nothing to be heard of those that were tried.</summary>
+    /// <summary>Whether every attempted action has a known outcome.</summary>
     internal bool AreSettled => attempts.Count == 0 && !isAwaitingVerdict;
 
-    /// <summary>When the next is to be done, in seconds since the session's start; the largest number after the last.</summary>
+    /// <summary>The time of the next action, in seconds since the session's start; <see cref="double.MaxValue"/> after the last.</summary>
     internal double NextSeconds => done < script.Count ? script[done].Seconds : double.MaxValue;
 
-    /// <summary>Finds out what they are in the scene, and gives up those whose time is past: done now they would be others.</summary>
-    /// <exception cref="UsageException">The scene has not the body of one.</exception>
+    /// <summary>
+    /// Resolves the actions in the scene, and gives up those whose time is past: performed now, they would have another effect.
+    /// </summary>
+    /// <exception cref="UsageException">An action names a body that the scene does not have.</exception>
     internal void Begin(Scene scene, double passed)
     {
         inScene = script.Select(action => action.ActionIn(scene)).ToArray();
@@ -66,7 +68,7 @@ internal sealed class SessionActions
         }
     }
 
-    /// <summary>Does what is due. They must have begun.</summary>
+    /// <summary>Performs every action that is due. Call <see cref="Begin"/> first.</summary>
     internal void DoDue(PeerThread thread, double passed)
     {
         for (; NextSeconds <= passed; done++)
@@ -75,7 +77,7 @@ internal sealed class SessionActions
         }
     }
 
-    /// <summary>Tells of what could not be done here.</summary>
+    /// <summary>Reports the actions that could not be performed on this peer.</summary>
     internal void LookAtAttempts()
     {
         foreach ((ScriptedAction action, Task attempt) in attempts)
@@ -89,7 +91,7 @@ internal sealed class SessionActions
         attempts.RemoveAll(a => a.Attempt.IsFaulted || a.Attempt.IsCompletedSuccessfully);
     }
 
-    /// <summary>Tells of what was not done, or what nobody knows of. The session's thread must have stopped.</summary>
+    /// <summary>Reports the actions that were not performed or have no known verdict. The session's thread must have stopped.</summary>
     internal void TellUndone()
     {
         ScriptedAction[] undone = [.. attempts.Select(a => a.Action), .. script.Skip(done)];
@@ -107,7 +109,7 @@ internal sealed class SessionActions
     private void Do(PeerThread thread, ScriptedAction action, PlayerAction what) => attempts.Add((action, thread.Ask(peer =>
     {
         ExternalEvent external = peer.Do(what);
-        if (peer is ClientSession) // what a host does needs nobody's leave
+        if (peer is ClientSession) // a host's own actions need no verdict
         {
             unconfirmed[external.Sequence] = action;
             isAwaitingVerdict = true;
@@ -130,8 +132,8 @@ internal sealed class SessionActions
     }
 
     /// <summary>
-    /// Stops waiting for the verdicts that had not come yet. With a fresh copy the numbers of this peer's events may start again, so a
-    /// later verdict on one of these numbers would be about another event.
+    /// Stops waiting for outstanding verdicts. After a fresh snapshot this peer's sequence numbers may start again, so a later verdict on
+    /// one of them would be about another event.
     /// </summary>
     private void OnRenewed()
     {

@@ -73,10 +73,10 @@ internal sealed class SessionArguments
         command.Options.Add(rejoin);
     }
 
-    /// <summary>What they say; of the options what both sides have.</summary>
-    /// <exception cref="UsageException">They do not go together.</exception>
+    /// <summary>Reads the options; of the session's options, those that both sides have.</summary>
+    /// <exception cref="UsageException">The options contradict each other.</exception>
     /// <exception cref="System.IO.IOException">The recording cannot be written.</exception>
-    /// <exception cref="UnauthorizedAccessException">The same, for lack of permission.</exception>
+    /// <exception cref="UnauthorizedAccessException">The recording cannot be written, for lack of permission.</exception>
     internal SessionRequest Read(ParseResult parsed)
     {
         double? seconds = parsed.GetValue(length);
@@ -95,7 +95,7 @@ internal sealed class SessionArguments
 
         if (file is not null)
         {
-            ResultFile.ThrowIfNotWritable("--record", file); // to be said before anybody has joined
+            ResultFile.ThrowIfNotWritable("--record", file); // report this before joining
         }
 
         double silence = parsed.GetValue(timeout);
@@ -109,7 +109,7 @@ internal sealed class SessionArguments
         return new SessionRequest(options, ordered, seconds, file);
     }
 
-    /// <summary>A number of seconds that may be left out.</summary>
+    /// <summary>An optional number of seconds.</summary>
     internal static Option<double?> Seconds(string name, string description, double least, double most) => new(name)
     {
         Description = string.Create(CultureInfo.InvariantCulture, $"{description} ({least} to {most})"),
@@ -118,14 +118,14 @@ internal sealed class SessionArguments
     };
 }
 
-/// <summary>How to take part in a session.</summary>
-/// <param name="Options">For the session.</param>
-/// <param name="Actions">What to do, by time.</param>
-/// <param name="Seconds">How long, counted from the session's start; null until asked to stop.</param>
-/// <param name="RecordFile">Where to record; null for nowhere.</param>
+/// <summary>A request to take part in a session.</summary>
+/// <param name="Options">The session's options.</param>
+/// <param name="Actions">The scripted actions, in order of time.</param>
+/// <param name="Seconds">The duration, counted from the session's start; null until cancelled.</param>
+/// <param name="RecordFile">The file to record to; null for none.</param>
 internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<ScriptedAction> Actions, double? Seconds, string? RecordFile)
 {
-    /// <summary>Where a client asks to be let in; null for a host.</summary>
+    /// <summary>The address of the host, for a client; null for a host.</summary>
     internal IPEndPoint? Host { get; init; }
 
     /// <summary>The same as <see cref="Seconds"/>.</summary>

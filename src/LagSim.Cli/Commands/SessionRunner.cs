@@ -9,23 +9,25 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>Takes part in a session from its beginning to its end: does what is to be done at its time, tells what happens, and leaves.</summary>
-/// <remarks>The session has a thread of its own; this type's methods are for the calling one, which alone prints.</remarks>
+/// <summary>Runs one session from start to end: performs the scripted actions, prints events, and leaves.</summary>
+/// <remarks>The session has its own thread. Methods are for the calling thread, the only one that prints.</remarks>
 internal sealed class SessionRunner : IDisposable
 {
     private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(250);
 
     private static readonly TimeSpan LeaveTimeout = TimeSpan.FromSeconds(1);
 
-    /// <summary>How long a host whose time is up waits for its clients to leave, besides some round trips.</summary>
+    /// <summary>
+    /// How long a host whose time is up waits for its clients to leave, in addition to <see cref="RoundTripsOfTimeout"/>.
+    /// </summary>
     private static readonly SimDuration HostTimeout = SimDuration.FromSeconds(1.5);
 
     private const int RoundTripsOfTimeout = 4;
 
-    /// <summary>How long a host waits, after its time is up and the history has passed, for a world that is behind.</summary>
+    /// <summary>How long a host waits for a world that is behind, after its time is up and the history has passed.</summary>
     private static readonly SimDuration WorldTimeout = SimDuration.FromSeconds(5);
 
-    /// <summary>How long a host that has said goodbye answers those who have not heard it.</summary>
+    /// <summary>How long a host that has left keeps answering clients that missed its goodbye.</summary>
     private static readonly TimeSpan GoodbyeTime = TimeSpan.FromMilliseconds(300);
 
     private readonly Session session;
@@ -39,7 +41,7 @@ internal sealed class SessionRunner : IDisposable
     private readonly SessionWatch watch;
     private readonly SessionActions actions;
     private readonly CancellationTokenRegistration onStop;
-    private bool hasFailed; // something besides an action
+    private bool hasFailed; // for a reason other than an action
     private SimTime? timeoutEnd;
 
     internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
@@ -61,11 +63,11 @@ internal sealed class SessionRunner : IDisposable
 
         thread = new PeerThread(session, port, "LagSim session");
         thread.Session.HandlerFailed += failure =>
-            queue.Tell(() => printer.Problem($"Something that happened could not be told: {failure.Message}"));
+            queue.Tell(() => printer.Problem($"A handler of a session event failed: {failure.Message}"));
         onStop = stop.Register(queue.Wake);
     }
 
-    /// <summary>What a session that ended so is to the shell. That states differ, or accepted events are lost, counts whatever else there is.</summary>
+    /// <summary>Returns the exit code for the way a session ended. A desync or a lost event outranks every other reason.</summary>
     internal static int ExitCodeOf(SessionEnd by, bool isTimeReached, long statesDiffered, long eventsLost, bool hasFailedAction, bool isInterrupted)
     {
         bool isOrderly = by is SessionEnd.Left || (by == SessionEnd.HostEnded && isTimeReached);
@@ -75,10 +77,10 @@ internal sealed class SessionRunner : IDisposable
             : ExitCode.Input;
     }
 
-    /// <summary>Takes part until the end.</summary>
+    /// <summary>Runs the session to its end.</summary>
     /// <returns>The exit code.</returns>
-    /// <exception cref="UsageException">Something is to be done to a body that the scene has not.</exception>
-    /// <exception cref="OperationCanceledException">It was asked to stop before there was a session.</exception>
+    /// <exception cref="UsageException">An action names a body that the scene does not have.</exception>
+    /// <exception cref="OperationCanceledException">The run was cancelled before the session began.</exception>
     internal int Run()
     {
         thread.Start();
@@ -99,7 +101,7 @@ internal sealed class SessionRunner : IDisposable
         }
         catch (InvalidOperationException fault) when (fault.InnerException is not null)
         {
-            throw new InputException(fault.Message, fault); // the session's thread ended by an exception, of which a force is the likeliest source
+            throw new InputException(fault.Message, fault); // an exception ended the session's thread, most likely one from a force
         }
 
         bool isTimeReached = request.Seconds is null || (session.World is not null && Passed(session.World.Simulation.Start) >= request.Seconds);
@@ -124,7 +126,7 @@ internal sealed class SessionRunner : IDisposable
         }
         else if (isInterrupted)
         {
-            throw new OperationCanceledException(stop); // as of any command that has no result yet
+            throw new OperationCanceledException(stop); // as for any command that has no result yet
         }
         else
         {
@@ -134,7 +136,7 @@ internal sealed class SessionRunner : IDisposable
         return code == ExitCode.Done && recorder?.Failure is not null ? ExitCode.Input : code;
     }
 
-    /// <summary>Has the session's thread do something, and prints what it says of it; from any thread, at any time.</summary>
+    /// <summary>Runs a function on the session's thread and prints the text it returns. Safe on any thread, at any time.</summary>
     internal void Have(Func<Session, string> what)
     {
         try
@@ -148,13 +150,13 @@ internal sealed class SessionRunner : IDisposable
         }
         catch (Exception gone) when (gone is InvalidOperationException or ObjectDisposedException)
         {
-            // The session is over; nobody prints any more.
+            // The session has ended, and so has printing.
         }
     }
 
     public void Dispose()
     {
-        SayGoodbye(); // where something went wrong, the others are told even so
+        SayGoodbye(); // also after an exception, so that the other peers know
         onStop.Dispose();
         thread.Dispose();
         recorder?.Dispose();
@@ -163,8 +165,8 @@ internal sealed class SessionRunner : IDisposable
 
     private double Passed(SimTime start) => (session.SharedTime.Now - start).ToSeconds();
 
-    /// <summary>Does what is due.</summary>
-    /// <returns>How long there is nothing to do; null at the end.</returns>
+    /// <summary>Performs whatever is due.</summary>
+    /// <returns>The time until the next call; null at the end.</returns>
     private TimeSpan? Tend(SimTime start)
     {
         double passed = Passed(start);
@@ -188,8 +190,8 @@ internal sealed class SessionRunner : IDisposable
     }
 
     /// <summary>
-    /// Whether all has been said, once the time is up: what happened until then is committed here, and a host has waited, but not for long, until its
-    /// clients have heard of it and left.
+    /// Whether the session may end once its time is up: every state until then is committed here. A host also waits a short time for its
+    /// clients to receive that and leave.
     /// </summary>
     private bool HasSettled(SimTime start)
     {
@@ -240,7 +242,7 @@ internal sealed class SessionRunner : IDisposable
         }
         catch (Exception failure) when (failure is AggregateException or InvalidOperationException)
         {
-            // The thread has ended; so does the session for everybody else, by their time-out.
+            // The session's thread has ended, so the other peers will notice by their timeouts.
         }
 
         static bool Goodbye(Session peer)
@@ -250,14 +252,14 @@ internal sealed class SessionRunner : IDisposable
         }
     }
 
-    /// <summary>Says goodbye, stops the thread, and ends the recording.</summary>
+    /// <summary>Leaves the session, stops its thread, and closes the recording.</summary>
     private void Leave()
     {
         SayGoodbye();
         thread.Dispose();
         if (session.State != SessionState.Ended)
         {
-            session.Leave(); // its thread was stopped in the middle of its work, so this one may
+            session.Leave(); // its thread was stopped in mid-work, so this thread may call it
         }
 
         watch.TellDifference();

@@ -6,11 +6,11 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>Tells what happens in a session: who comes and goes, what is committed, how links are, and what is wrong.</summary>
-/// <remarks>Its methods are for the printing thread. What the session's thread tells it comes by the queue.</remarks>
+/// <summary>A reporter of session events for the terminal: clients, committed states, links and problems.</summary>
+/// <remarks>Methods are for the printing thread. Results from the session's thread arrive through the queue.</remarks>
 internal sealed class SessionWatch
 {
-    /// <summary>After so long without an answer it is told that there is none.</summary>
+    /// <summary>The time without an answer after which a client reports that no host answers.</summary>
     private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(450);
 
     private readonly Session session;
@@ -18,7 +18,7 @@ internal sealed class SessionWatch
     private readonly SessionPrinter printer;
     private readonly PrintQueue queue;
     private readonly PaceWatch pace = new();
-    private bool hasToldDifference; // the session's thread's
+    private bool hasToldDifference; // owned by the session's thread
     private bool hasToldSilence;
     private bool isLooking;
 
@@ -47,7 +47,7 @@ internal sealed class SessionWatch
         }
     }
 
-    /// <summary>Has the session's thread say how its links are; what it said before of who came and went is printed before.</summary>
+    /// <summary>Requests the state of the links from the session's thread. Clients that came and went before are printed first.</summary>
     internal void LookAtLinks(PeerThread thread)
     {
         if (!isLooking)
@@ -66,12 +66,12 @@ internal sealed class SessionWatch
         }
     }
 
-    /// <summary>Tells, once, of a world that this machine cannot simulate as fast as time passes.</summary>
+    /// <summary>Reports, once, that this machine cannot simulate the world in real time.</summary>
     internal void LookAtPace()
     {
         if (session.World is not { } world || session.State != SessionState.Running)
         {
-            return; // there is no shared time yet, or the world waits for a host that is silent
+            return; // there is no shared time yet, or the world waits for a silent host
         }
 
         SimTime now = session.SharedTime.Now;
@@ -83,7 +83,7 @@ internal sealed class SessionWatch
         }
     }
 
-    /// <summary>Tells, once and soon, that no host answers, and for how long it will be asked: with a pass that is minutes.</summary>
+    /// <summary>Reports, once and early, that no host answers and how long it will be tried. With a pass that is minutes.</summary>
     internal void LookAtSilence(TimeSpan asked)
     {
         bool isUnanswered = session is ClientSession { State: SessionState.Joining } && session.Counters.DatagramsReceived == 0;
@@ -98,8 +98,8 @@ internal sealed class SessionWatch
     }
 
     /// <summary>
-    /// Tells of the first committed state that was not the host's, and what is known of it. For the session's thread, and for the
-    /// printing one once that has stopped.
+    /// Reports the first committed state that differs from the host's. For the session's thread, or for the printing thread once that has
+    /// stopped.
     /// </summary>
     internal void TellDifference()
     {

@@ -12,15 +12,17 @@ using LagSim.Harness.Verification.Stalls;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim stalls</c>: drawn sessions in which peers stand still, are killed and started again, and change their addresses.</summary>
+/// <summary>
+/// <c>lagsim stalls</c>: random sessions in which peers stall, are killed and restarted, and change address.
+/// </summary>
 internal static class StallsCommand
 {
-    /// <summary>Each has up to seven processes, which rest most of the time.</summary>
+    /// <summary>A session has up to seven processes, which are idle most of the time.</summary>
     private const int ProcessSessionsAtOnce = 4;
 
-    /// <param name="console">Where it writes.</param>
-    /// <param name="change">For tests: has the check meet a fault.</param>
-    /// <param name="tool">For tests: what is started as the processes; null for this very program.</param>
+    /// <param name="console">The console to write to.</param>
+    /// <param name="change">For tests: injects a fault.</param>
+    /// <param name="tool">For tests: the program to start for each process; null for this one.</param>
     internal static Command Create(ToolConsole console, Func<StallOptions, StallOptions>? change = null, string[]? tool = null)
     {
         CommonOptions common = new();
@@ -98,7 +100,9 @@ internal static class StallsCommand
             : ExitCode.CheckFailed;
     }
 
-    /// <summary>How long all of them take together, in seconds, when so many are played at a time and each worker takes the next as it is done.</summary>
+    /// <summary>
+    /// Returns the total duration of all sessions, in seconds, with a number of workers that each take the next session when done.
+    /// </summary>
     internal static double SecondsOfAll(IEnumerable<double> each, int workers)
     {
         double[] busyUntil = new double[workers];
@@ -110,7 +114,9 @@ internal static class StallsCommand
         return busyUntil.Max();
     }
 
-    /// <summary>Plays sessions with processes: which begins, what happens in it, and how far it is, stands on the error stream.</summary>
+    /// <summary>
+    /// Plays sessions with processes. Reports which session begins, what happens in it and its progress on the error stream.
+    /// </summary>
     private static IReadOnlyList<StallProcessOutcome> PlayAgain(ToolConsole console, StallOutcome[] chosen, string[] tool)
     {
         double[] lengths = [.. chosen.Select(o => StallProcessRun.SecondsOf(o.Case, o.WorstSeconds))];
@@ -172,7 +178,7 @@ internal static class StallsCommand
         });
     }
 
-    /// <summary>How this very program is started: by itself, or by the runtime's host.</summary>
+    /// <summary>Returns the command that starts this program: its own executable, or the runtime's host.</summary>
     internal static string[] ThisTool()
     {
         string program = Environment.ProcessPath ?? throw new InputException("--processes needs to know where this program is, and the system does not say.");

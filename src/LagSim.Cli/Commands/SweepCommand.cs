@@ -9,7 +9,7 @@ using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary><c>lagsim sweep</c>: sessions on links that are full, or nearly.</summary>
+/// <summary><c>lagsim sweep</c>: sessions on links that are full, or nearly full.</summary>
 internal static class SweepCommand
 {
     internal static Command Create(ToolConsole console)
@@ -62,7 +62,7 @@ internal static class SweepCommand
     {
         if (folder is not null)
         {
-            OutputFolder.ThrowIfNotWritable(folder); // to be said before some minutes have gone by
+            OutputFolder.ThrowIfNotWritable(folder); // report this before minutes of work
         }
 
         int count = options.Cells().Count();
@@ -81,7 +81,7 @@ internal static class SweepCommand
         bool isStopped = outcomes.Count < count;
         if (outcomes.Count == 0)
         {
-            console.Stop.ThrowIfCancellationRequested(); // there is nothing to tell
+            console.Stop.ThrowIfCancellationRequested(); // nothing to report
         }
 
         if (folder is not null && outcomes.Count > 0)
@@ -101,12 +101,12 @@ internal static class SweepCommand
         return !outcomes.All(outcome => outcome.IsGood) ? ExitCode.CheckFailed : isStopped ? ExitCode.Interrupted : ExitCode.Done;
     }
 
-    /// <summary>The numbers that were given, or the default.</summary>
+    /// <summary>Returns the given numbers, or the default.</summary>
     private static IReadOnlyList<double> Given(ParseResult parsed, Option<double[]> option, IEnumerable<double> byDefault) =>
         parsed.GetResult(option) is null ? [.. byDefault] : parsed.GetValue(option)!;
 
-    /// <summary>An option that takes numbers, with commas between them.</summary>
-    /// <remarks>Its default is in the description: the parser would print it as <c>3|8</c>, which is not how it is written.</remarks>
+    /// <summary>An option with comma-separated numbers.</summary>
+    /// <remarks>The default is in the description, since the parser would print it as <c>3|8</c>.</remarks>
     private static Option<double[]> Numbers(string name, string description, IEnumerable<double> byDefault, double least, double most)
     {
         string text = string.Join(",", byDefault.Select(n => n.ToString("0.###", CultureInfo.InvariantCulture)));

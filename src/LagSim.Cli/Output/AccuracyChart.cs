@@ -10,13 +10,13 @@ namespace LagSim.Cli.Output;
 /// <summary>Speed against error as charts: error against CPU time, and error against step.</summary>
 internal static class AccuracyChart
 {
-    /// <summary>Error against CPU time, a curve a method; null where there is nothing to draw.</summary>
+    /// <summary>Draws error against CPU time, a curve for each method; null if there is nothing to draw.</summary>
     internal static LineChart? OfWork(AccuracyReport report, WorkScene scene) => Of(
         scene, $"{scene.Name}: speed against error", "CPU time for all of it (s); left and below is better",
         method => [.. PointsOf(report, scene, method)], point => point.CpuSeconds, isJoined: (_, _) => true, note: (_, _) => "");
 
-    /// <summary>Error against step, a curve a method with its measured order; null where no method has steps.</summary>
-    /// <remarks>Points that may be rounding are not joined: there is no slope to see between them.</remarks>
+    /// <summary>Draws error against step, a curve for each method with its measured order; null if no method has steps.</summary>
+    /// <remarks>Points that may be rounding are not joined, since they have no meaningful slope.</remarks>
     internal static LineChart? OfSteps(AccuracyReport report, WorkScene scene) => Of(
         scene, $"{scene.Name}: error against step", "step (s)",
         method => [.. PointsOf(report, scene, method).Where(point => point.StepSeconds > 0)], point => point.StepSeconds,
@@ -67,7 +67,7 @@ internal static class AccuracyChart
             };
     }
 
-    /// <summary>A curve through the points, with a break between two that are not joined.</summary>
+    /// <summary>Returns a curve through the points, with a break between two that are not joined.</summary>
     private static ChartSeries Series(
         string name, AccuracyStyle style, WorkPoint[] points, Func<WorkPoint, double> x, Func<WorkPoint, WorkPoint, bool> isJoined, string note)
     {

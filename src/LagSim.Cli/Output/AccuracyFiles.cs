@@ -5,7 +5,9 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Speed against error as files: a CSV with a row a point and kind of error, two charts a scene, and a page that shows them.</summary>
+/// <summary>
+/// Speed against error as files: a CSV with a row for each point and kind of error, two charts for each scene, and a page that shows them.
+/// </summary>
 internal static class AccuracyFiles
 {
     internal static void Write(string folder, AccuracyReport report)

@@ -3,10 +3,12 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>How a method is drawn, the same in every chart: a colour and a shape of its own. LagSim's are cool and filled, all others warm or grey and open.</summary>
+/// <summary>
+/// The style of a method, the same in every chart: its colour and shape. LagSim's are cool and filled, all others warm or grey and open.
+/// </summary>
 /// <param name="Colour">The palette slot.</param>
-/// <param name="Shape">What marks its points.</param>
-/// <param name="IsOwn">Whether it is LagSim's, and so drawn through and strong.</param>
+/// <param name="Shape">The marker of its points.</param>
+/// <param name="IsOwn">Whether it is LagSim's, and so drawn with a strong, solid line.</param>
 internal sealed record AccuracyStyle(int Colour, PointShape Shape, bool IsOwn)
 {
     // In the order of the methods: Ballistic, ClosedForm, RungeKutta4, DormandPrince54, the same with fixed steps; MathNet, ODE by either
@@ -19,7 +21,7 @@ internal sealed record AccuracyStyle(int Colour, PointShape Shape, bool IsOwn)
         PointShape.OpenTriangleDown, PointShape.Cross, PointShape.OpenTriangle, PointShape.OpenDiamond, PointShape.Circle,
     ];
 
-    /// <summary>The style of the method with that place among <see cref="WorkMethods.All"/>.</summary>
+    /// <summary>Returns the style of the method with an index in <see cref="WorkMethods.All"/>.</summary>
     internal static AccuracyStyle Of(int method) => new(
         Colours[method], Shapes[method], WorkMethods.All[method].Engine == WorkMethods.All[0].Engine);
 }

@@ -7,7 +7,7 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Speed against error as tables for a person.</summary>
+/// <summary>Speed against error as tables for a terminal.</summary>
 internal static class AccuracyTables
 {
     private const string Time = "CPU s";
@@ -43,7 +43,10 @@ internal static class AccuracyTables
         }
     }
 
-    /// <summary>A table of which only the methods' names are broken into lines; in a window each stands once, and in a narrow one time stands only as speed.</summary>
+    /// <summary>
+    /// Returns a table in which only the methods' names are wrapped. In a window each name appears once; in a narrow one the time appears
+    /// only as speed.
+    /// </summary>
     private static Table AsTable(ToolConsole console, AccuracyReport report, WorkScene scene)
     {
         string[] headings = Headings(scene);
@@ -61,15 +64,15 @@ internal static class AccuracyTables
         return table;
     }
 
-    /// <summary>What the errors are, and what they are held against.</summary>
+    /// <summary>Describes the errors and their references.</summary>
     internal static string Title(WorkScene scene) =>
         $"{scene.Name}: the {string.Join(", the ", scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Sentence))}; held against: {scene.Reference}";
 
-    /// <summary>The columns of a scene's table; one for each kind of error.</summary>
+    /// <summary>Returns the columns of a scene's table, one for each kind of error.</summary>
     internal static string[] Headings(WorkScene scene) =>
         ["method", "setting", .. scene.ErrorKinds.Select(kind => WorkErrorKinds.Of(kind).Heading), "simulated s per CPU s", Time, "events", "order"];
 
-    /// <summary>A row for each method and setting.</summary>
+    /// <summary>Returns a row for each method and setting.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Rows(AccuracyReport report, WorkScene scene)
     {
         foreach (IGrouping<(string Method, string Setting), WorkPoint> at in report.Work.Points.Where(p => p.Scene == scene.Name)
@@ -86,13 +89,13 @@ internal static class AccuracyTables
         }
     }
 
-    /// <summary>Heaps that were drawn, as a spread.</summary>
+    /// <summary>Returns the random heaps, as a spread.</summary>
     internal const string SpreadTitle = "heaps drawn at random: the least, the median and the greatest";
 
-    /// <summary>Its columns.</summary>
+    /// <summary>Returns the columns of the random heaps.</summary>
     internal static readonly string[] SpreadHeadings = ["method", "setting", "heaps", "error", "of what", "simulated s per CPU s"];
 
-    /// <summary>A row for each method, setting and kind of error.</summary>
+    /// <summary>Returns a row for each method, setting and kind of error.</summary>
     internal static IEnumerable<IReadOnlyList<string>> SpreadRows(AccuracyReport report) =>
         report.Spread.Select(spread => (IReadOnlyList<string>)
         [

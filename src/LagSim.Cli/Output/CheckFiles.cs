@@ -7,7 +7,7 @@ using LagSim.Harness.Verification.Check;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A check as files: a CSV with a row a session, and a page with the sums and the failures.</summary>
+/// <summary>A check as files: a CSV with a row for each session, and a page with the totals and the failures.</summary>
 internal static class CheckFiles
 {
     private static readonly string[] Columns =
@@ -65,7 +65,7 @@ internal static class CheckFiles
         page.Save(Path.Combine(folder, "report.html"));
     }
 
-    /// <summary>What came out, in one sentence.</summary>
+    /// <summary>Returns the result in one sentence.</summary>
     internal static string Finding(CheckReport report)
     {
         string sessions = NumberText.Count(report.Outcomes.Count, "session", "N0");

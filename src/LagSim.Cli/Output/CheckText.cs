@@ -27,7 +27,7 @@ internal static class CheckText
                     + " plays the first");
         }
 
-        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, heard late {Count(report.LateEvents, "time")};"
+        output.WriteLine(string.Create(culture, $"{Count(report.ExternalEvents, "external event")}, late {Count(report.LateEvents, "time")};"
             + $" {Count(report.Events, "event")} in all worlds"));
         double changed = report.Heals == 0 ? 0 : 100.0 * report.HealsThatChangedAnImpact / report.Heals;
         output.WriteLine(string.Create(culture, $"{Count(report.Heals, "heal")}, of which {report.HealsThatChangedAnImpact:N0} ({changed:0.0} %) changed an"
@@ -71,7 +71,7 @@ internal static class CheckText
 
     private static string Count(long number, string thing, string? many = null) => NumberText.Count(number, thing, "N0", many);
 
-    /// <summary>Of which failing sessions the least that fails was looked for, where that is not all of them.</summary>
+    /// <summary>Returns which failing sessions were shrunk, if not all of them were.</summary>
     internal static string? Shrunk(CheckReport report)
     {
         string[] shrunk = [.. report.Failures.Where(f => f.IsShrunk).Select(f => $"{f.Whole.Seed}")];

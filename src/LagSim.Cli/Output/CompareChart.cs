@@ -6,15 +6,17 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The pictures of a comparison: a panel a strategy, all of one scale, since strategies that agree have the same curve.</summary>
+/// <summary>
+/// The charts of a comparison: a panel for each strategy, all on one scale, since strategies that agree have the same curve.
+/// </summary>
 internal static class CompareChart
 {
     private const double ErrorFloor = 1e-9;
-    private const double LargestFloor = 1e-3; // the largest errors of a run lie in a decade or two: what is below is agreement to the eye
+    private const double LargestFloor = 1e-3; // the largest errors of a run lie in a decade or two: smaller ones look like agreement
     private const double LatenessFloor = 0.01;
     private const double PanelHeight = 96;
 
-    /// <summary>One link: how far apart the peers were, over time.</summary>
+    /// <summary>Draws one link: the distance between peers over time.</summary>
     internal static LineChart OfLink(IReadOnlyList<CompareRun> runs)
     {
         double[] all = runs.SelectMany(run => new[] { Largest(run.Trace.SeenError), Largest(run.Trace.SeenFromTruth) }).ToArray();
@@ -42,7 +44,7 @@ internal static class CompareChart
         };
     }
 
-    /// <summary>All links, by how late their latest event came.</summary>
+    /// <summary>Draws all links, by the lateness of their latest event.</summary>
     internal static LineChart OfLinks(IReadOnlyList<CompareRun> runs)
     {
         string[] strategies = runs.Select(run => run.Options.Strategy).Distinct().ToArray();

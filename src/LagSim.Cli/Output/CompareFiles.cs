@@ -8,7 +8,9 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A comparison as files: the plan, a row a run, the samples and a chart of each link, and a page that shows them.</summary>
+/// <summary>
+/// A comparison as files: the plan, a row for each run, the samples and a chart of each link, and a page that shows them.
+/// </summary>
 internal static class CompareFiles
 {
     internal static void Write(string folder, IReadOnlyList<CompareRun> runs)

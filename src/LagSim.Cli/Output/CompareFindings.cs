@@ -7,13 +7,13 @@ using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What the runs say of healing beside the others, found by comparing them, link by link.</summary>
+/// <summary>The findings about healing against the other strategies, computed link by link.</summary>
 internal sealed class CompareFindings
 {
     private const string Healing = "healing";
     private const string Interpolation = CommonOptions.Interpolating;
 
-    /// <summary>What is less than 1 % smaller is not called better.</summary>
+    /// <summary>A difference of less than 1 % does not count as better.</summary>
     private const double Noticeable = 0.99;
 
     private readonly bool hasBoth;
@@ -36,16 +36,18 @@ internal sealed class CompareFindings
             others.Where(other => healed.Any(healing => healing.Options.Link.Name == other.Options.Link.Name && isSo(other, healing)));
     }
 
-    /// <summary>The links on which interpolation has the smaller largest error as seen while an event is on its way, by 1 % or more.</summary>
+    /// <summary>
+    /// Returns the links on which interpolation has the smaller largest error as seen while an event is in transit, by 1 % or more.
+    /// </summary>
     internal IReadOnlyList<string> BetterDuring { get; }
 
-    /// <summary>The links on which the largest jump that interpolation shows is smaller, by 1 % or more.</summary>
+    /// <summary>Returns the links on which the largest jump that interpolation shows is smaller, by 1 % or more.</summary>
     internal IReadOnlyList<string> SmootherThanHealing { get; }
 
-    /// <summary>Where healing shows larger or more errors than another strategy once no event is on its way any more.</summary>
+    /// <summary>Returns where healing shows larger or more errors than another strategy once no event is in transit.</summary>
     internal IReadOnlyList<(string Profile, string Strategy)> HealingWorseAfter { get; }
 
-    /// <summary>The same in sentences.</summary>
+    /// <summary>Returns the same in sentences.</summary>
     internal IEnumerable<string> Sentences()
     {
         if (hasHealing)

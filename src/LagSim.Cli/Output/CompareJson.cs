@@ -9,7 +9,7 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Every strategy on every link as JSON.</summary>
+/// <summary>The results of every strategy on every link, as JSON.</summary>
 internal static class CompareJson
 {
     internal static void Write(TextWriter output, IReadOnlyList<CompareRun> runs)
@@ -43,14 +43,14 @@ internal static class CompareJson
         });
     }
 
-    /// <summary>An action's kind, as on the command line of <c>join --do</c>.</summary>
+    /// <summary>Returns the kind of an action, as on the command line of <c>join --do</c>.</summary>
     internal static string KindOf(PlannedAction action) => action.Kind switch
     {
         Events.EventKind.SetVelocity => "set-velocity",
         _ => action.Kind.ToString().ToLowerInvariant(),
     };
 
-    /// <summary>The name of the body that an action is about; of a new one its identity.</summary>
+    /// <summary>Returns the name of the body that an action is about; for a new one its identity.</summary>
     internal static string BodyOf(Scene scene, PlannedAction action) =>
         action.Kind == Events.EventKind.Spawn ? action.Body.ToString() : scene.Bodies[action.Body.Index].Name;
 

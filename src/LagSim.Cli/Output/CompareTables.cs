@@ -7,7 +7,7 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Every strategy on every link as one table for a person.</summary>
+/// <summary>Every strategy on every link as one table for a terminal.</summary>
 internal static class CompareTables
 {
     /// <summary>The columns after link and strategy. Errors, distances and jumps are in metres.</summary>
@@ -40,7 +40,7 @@ internal static class CompareTables
         $"{options.Scene.Name}, {options.Peers} peers, {NumberText.Count(options.Plan.Count, "event")} in"
             + $" {NumberText.Short(CompareOptions.Length.ToSeconds())} s of virtual time, the same for all";
 
-    /// <summary>The cells of a run under <see cref="Columns"/>.</summary>
+    /// <summary>Returns the cells of a run under <see cref="Columns"/>.</summary>
     internal static string[] Row(CompareRun run) =>
     [
         NumberText.Short(run.Seen.During.ToStatistics().MaxMetres),

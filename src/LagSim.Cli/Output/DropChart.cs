@@ -7,21 +7,21 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The pictures of a drop test: height against time, and the error below it.</summary>
+/// <summary>The charts of a drop test: height against time, and the error below it.</summary>
 internal static class DropChart
 {
     private const double ErrorFloor = 1e-12;
 
-    /// <summary>How much of the case before it a picture begins with, so that what marks the lift does not lie on the frame.</summary>
+    /// <summary>The lead before the lift in a chart, so that the marker is not on the frame.</summary>
     private const double LeadSeconds = 0.5;
 
-    /// <summary>The least that the picture of an event's milliseconds shows before and after them.</summary>
+    /// <summary>The least time before and after an event in its chart.</summary>
     private const double MinMarginSeconds = 0.02;
 
     private const string Time = "shared time since the start of the scene (s)";
 
-    /// <param name="run">What is shown.</param>
-    /// <param name="before">The case before it in the same run, of which the end is shown too; null for none.</param>
+    /// <param name="run">The run to show.</param>
+    /// <param name="before">The case before it in the same run, whose end is shown too; null for none.</param>
     internal static LineChart Of(DropRun run, DropRun? before = null)
     {
         DropTrace trace = before is null ? run.Trace : WithLead(run.Trace, before.Trace);
@@ -51,8 +51,8 @@ internal static class DropChart
         };
     }
 
-    /// <summary>The milliseconds that matter: from just before the lift until just after the last peer knows of it.</summary>
-    /// <param name="run">What is shown.</param>
+    /// <summary>Draws the milliseconds around the lift: from just before it until just after the last peer received it.</summary>
+    /// <param name="run">The run to show.</param>
     /// <param name="before">The case before it in the same run; null for none.</param>
     /// <returns>The chart; null for a case without a lift.</returns>
     internal static LineChart? OfEvent(DropRun run, DropRun? before = null)
@@ -82,9 +82,12 @@ internal static class DropChart
         };
     }
 
-    /// <summary>A panel a strategy, all of one scale: strategies that agree have the same curve, and in one panel all but the last drawn would be hidden.</summary>
-    /// <param name="runs">A run a strategy.</param>
-    /// <param name="shown">The runs of the charts above. All times here are moved so that the ball is lifted when it is there.</param>
+    /// <summary>
+    /// Draws a panel for each strategy, all on one scale. Strategies that agree have the same curve, and in one panel only the last drawn
+    /// would be visible.
+    /// </summary>
+    /// <param name="runs">A run for each strategy.</param>
+    /// <param name="shown">The runs of the charts above. All times here are shifted to their lift.</param>
     internal static LineChart OfStrategies(IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> shown)
     {
         double? lift = shown.Select(run => run.Trace.Lift).FirstOrDefault(at => at is not null);
@@ -110,7 +113,7 @@ internal static class DropChart
 
     private static string Peer(int peer) => peer == 0 ? "host" : $"client {peer}";
 
-    /// <summary>The same at later times.</summary>
+    /// <summary>Returns the same run shifted to later times.</summary>
     private static DropTrace Moved(DropTrace trace, double later) => later == 0 ? trace : trace with
     {
         Seconds = Array.ConvertAll(trace.Seconds, at => at + later),
@@ -134,12 +137,12 @@ internal static class DropChart
         double[] Joined(double[] earlier, double[] own) => [.. earlier[from..], .. own];
     }
 
-    /// <summary>When the ball was lifted, and when the last peer showed it; none where it was not.</summary>
+    /// <summary>Returns markers of the lift, and of when the last peer showed it; none without a lift.</summary>
     private static List<ChartMarker> Known(DropRun run) => run.Trace.Lift is double lifted && run.Trace.Dealt is double dealt
         ? [new ChartMarker(lifted, "lifted here"), new ChartMarker(dealt, "known to all")]
         : [];
 
-    /// <summary>The thesis's figure, where it compares.</summary>
+    /// <summary>Returns the thesis's figure, where it is comparable.</summary>
     private static ReferenceLine[] Thesis(DropRun run) =>
         run.Case == DropCase.Teleport && run.Options.IsThesisSetting ? [new ReferenceLine(ThesisFigures.TeleportRms, "thesis, rms 0.029 m")] : [];
 }

@@ -8,7 +8,7 @@ using LagSim.Harness.SceneFiles;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A drop test as files: a CSV and an SVG a case, one CSV of all strategies, and a page that shows them.</summary>
+/// <summary>A drop test as files: a CSV and an SVG for each case, one CSV of all strategies, and a page that shows them.</summary>
 internal static class DropFiles
 {
     internal static void Write(string folder, IReadOnlyList<DropRun> runs, IReadOnlyList<DropRun> strategies)
@@ -32,7 +32,7 @@ internal static class DropFiles
             report.AddHeading(name);
             if (n < runs.Count - 1)
             {
-                report.AddParagraph(DropFindings.Of(run)); // the last case's stands at the top
+                report.AddParagraph(DropFindings.Of(run)); // the last case's paragraph is at the top
             }
 
             report.AddChart(chart);

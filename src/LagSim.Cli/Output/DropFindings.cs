@@ -5,7 +5,7 @@ using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What came out of a drop test, in one sentence.</summary>
+/// <summary>The result of a drop test in one sentence.</summary>
 internal static class DropFindings
 {
     internal static string Of(DropRun run)

@@ -12,7 +12,7 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A drop test as tables for a person.</summary>
+/// <summary>A drop test as tables for a terminal.</summary>
 internal static class DropTables
 {
     internal static void Write(
@@ -46,7 +46,9 @@ internal static class DropTables
         }
     }
 
-    /// <summary>The heights of all peers over one another, and below them their distance, which is blank where it is exactly zero.</summary>
+    /// <summary>
+    /// Draws the heights of all peers over one another, and below them their distance, which is blank where it is exactly zero.
+    /// </summary>
     private static void WritePicture(ToolConsole console, DropRun run)
     {
         int columns = Math.Clamp(console.Rich.Profile.Width - 13, 40, 120);
@@ -145,7 +147,7 @@ internal static class DropTables
         return table;
     }
 
-    /// <summary>A table that fits a terminal of 80 columns: no frame, the first column a text, the others numbers.</summary>
+    /// <summary>Returns a table that fits a terminal of 80 columns: no frame, the first column text, the others numbers.</summary>
     internal static Table NewTable(string title, params string[] columns)
     {
         Table table = new Table { Border = TableBorder.Horizontal }.Title(title).LeftAligned();

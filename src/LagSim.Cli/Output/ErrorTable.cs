@@ -8,7 +8,7 @@ namespace LagSim.Cli.Output;
 /// <summary>A run's errors between peers by phase, as a table of a report.</summary>
 internal static class ErrorTable
 {
-    /// <summary>What the table's words mean.</summary>
+    /// <summary>Explains the words of the table.</summary>
     internal static readonly IReadOnlyList<(string Word, string Meaning)> Terms =
     [
         ("seen", "What each peer showed when its shared clock read T, compared at the same T."),

@@ -1,6 +1,6 @@
 namespace LagSim.Cli.Output;
 
-/// <summary>What the tool's exit codes mean; scripts rely on them.</summary>
+/// <summary>The exit codes of the tool. Scripts rely on them.</summary>
 internal static class ExitCode
 {
     internal const int Done = 0;
@@ -10,15 +10,15 @@ internal static class ExitCode
 
     internal const int Usage = 2;
 
-    /// <summary>Something could not be read, written, reached or done, or is not valid.</summary>
+    /// <summary>An input is invalid, or could not be read, written, reached or processed.</summary>
     internal const int Input = 3;
 
     /// <summary>Ctrl-C, as shells report it: 128 and the number of the signal.</summary>
     internal const int Interrupted = 130;
 
-    /// <summary>Nobody reads the results any more.</summary>
+    /// <summary>The reader of the results has closed the pipe.</summary>
     internal const int ClosedPipe = 141;
 
-    /// <summary>Asked to terminate.</summary>
+    /// <summary>A request to terminate.</summary>
     internal const int Terminated = 143;
 }

@@ -10,12 +10,12 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What the engine makes of a scene, as tables and as JSON.</summary>
+/// <summary>The explanation of a scene, as tables and as JSON.</summary>
 internal static class ExplainOutput
 {
     private const int MaxNames = 3;
 
-    /// <summary>So long that what is named besides the first body leaves room for the sentence.</summary>
+    /// <summary>The most characters of names in a row, so that there is room for the sentence.</summary>
     private const int LongestNames = 40;
 
     internal static void WriteTables(ToolConsole console, Scene scene, SceneExplanation explanation)
@@ -93,7 +93,7 @@ internal static class ExplainOutput
         }
     }
 
-    /// <summary>A table whose last column is a sentence: it alone is broken into lines.</summary>
+    /// <summary>Returns a table of which only the last column, a sentence, is wrapped.</summary>
     private static Table NewTable(string title, string[] columns)
     {
         Table table = DropTables.NewTable(title, columns);

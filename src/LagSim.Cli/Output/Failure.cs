@@ -6,10 +6,10 @@ using LagSim.Cli.Commands;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A command that failed, for who reads JSON: one document there too, with the sentence that stands on stderr.</summary>
+/// <summary>A failed command as a JSON document, with the message that is also on stderr.</summary>
 internal static class Failure
 {
-    /// <summary>Writes the document if JSON was asked for, and hands the exit code on.</summary>
+    /// <summary>Writes the document if JSON was requested, and returns the exit code.</summary>
     internal static int Tell(TextWriter output, ParseResult parsed, string sentence, int exitCode)
     {
         Command command = parsed.CommandResult.Command;
@@ -26,13 +26,13 @@ internal static class Failure
         }
         catch (IOException)
         {
-            // Nobody reads it; the sentence stands on stderr.
+            // The reader has gone; the message is on stderr.
         }
 
         return exitCode;
     }
 
-    /// <summary>The document.</summary>
+    /// <summary>Writes the document.</summary>
     internal static void Write(TextWriter output, string command, ulong? seed, string sentence, int exitCode) =>
         JsonDocumentWriter.Write(output, command, seed, null, null, null, json =>
         {

@@ -6,7 +6,7 @@ using LagSim.Harness.Verification.Hard;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The hard cases as files: a CSV with a row a check, and a page with the argument for each bound.</summary>
+/// <summary>The hard cases as files: a CSV with a row for each check, and a page with the derivation of each bound.</summary>
 internal static class HardFiles
 {
     internal static void Write(string folder, HardReport report)

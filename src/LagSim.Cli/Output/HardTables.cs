@@ -9,7 +9,7 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The hard cases as a table for a person.</summary>
+/// <summary>The hard cases as a table for a terminal.</summary>
 internal static class HardTables
 {
     internal static IReadOnlyList<string> Headings { get; } = ["case", "error", "bound", "outcome", "of what"];
@@ -68,7 +68,7 @@ internal static class HardTables
         }
     }
 
-    /// <summary>A line a row, however long: the long text last, so that a narrow window breaks nothing else.</summary>
+    /// <summary>Writes a line for each row, of any length, with the long text last, so that a narrow window breaks nothing else.</summary>
     private static void WriteLines(TextWriter output, HardReport report)
     {
         string[][] rows = [[.. Headings], .. report.Rows.Select(row => Cells(report, row))];
@@ -80,7 +80,7 @@ internal static class HardTables
         }
     }
 
-    /// <summary>A table of which only the last column, a text, is broken into lines.</summary>
+    /// <summary>Returns a table of which only the last column, a text, is wrapped.</summary>
     private static Table AsTable(HardReport report)
     {
         Table table = DropTables.NewTable(Title(report), [.. Headings]);
@@ -94,7 +94,7 @@ internal static class HardTables
         return table;
     }
 
-    /// <summary>An error's kind in words, with its unit in brackets: <c>speed_m_per_s</c> is speed (m/s).</summary>
+    /// <summary>Returns a kind of error in words, with its unit in brackets: <c>speed_m_per_s</c> is speed (m/s).</summary>
     private static string Kind(string kind)
     {
         foreach ((string suffix, string unit) in new[]

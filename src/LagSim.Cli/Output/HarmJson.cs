@@ -7,7 +7,7 @@ using LagSim.Harness.Verification.Harm;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Attacks, and what honest players cost, as a JSON document.</summary>
+/// <summary>Attacks, and the cost of honest players, as a JSON document.</summary>
 internal static class HarmJson
 {
     internal static void Write(

@@ -8,10 +8,10 @@ using LagSim.Harness.Verification.Harm;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Attacks, and what honest players cost, as text.</summary>
+/// <summary>Attacks, and the cost of honest players, as text.</summary>
 internal static class HarmText
 {
-    /// <summary>The command that plays one of them, and no other.</summary>
+    /// <summary>Returns the command that plays only one attack.</summary>
     internal static string Replay(HarmCase drawn, bool hasProcesses = false) =>
         string.Create(CultureInfo.InvariantCulture, $"lagsim harm --attacks 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
 

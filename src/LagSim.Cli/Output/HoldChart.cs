@@ -8,7 +8,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The pictures of a hand: what another peer saw of the held ball and of the throw, the errors by delay, how well the hand can be predicted, and its motion.</summary>
+/// <summary>
+/// The charts of a hand: the held ball and the throw as another peer saw them, the errors by delay, the prediction errors, and the motion.
+/// </summary>
 internal static class HoldChart
 {
     private const double ErrorFloor = 1e-4;
@@ -17,7 +19,9 @@ internal static class HoldChart
     private const string TimeLabel = "shared time since the start of the scene (s)";
     private const int Hand = 6, Simulated = 0, Predicted = 1, Own = 2, Best = 3, Last = 4;
 
-    /// <summary>Some seconds from the middle of every hold, a panel a link: the hand, and the ball as another peer saw it (Fig 4, 5).</summary>
+    /// <summary>
+    /// Draws some seconds from the middle of every hold, a panel for each link: the hand, and the ball as another peer saw it (Fig 4, 5).
+    /// </summary>
     internal static LineChart OfViews(HandMotion motion, IReadOnlyList<HoldRun> runs)
     {
         Func<Vector3D, double> axis = Axis(runs[0], out string name);
@@ -33,7 +37,7 @@ internal static class HoldChart
         };
     }
 
-    /// <summary>One link: the same, larger, and below it how far off the ball was.</summary>
+    /// <summary>Draws one link at a larger size, with the error of the ball below it.</summary>
     internal static LineChart OfHold(HandMotion motion, HoldRun run)
     {
         HoldTrace trace = run.Trace;
@@ -59,7 +63,7 @@ internal static class HoldChart
         };
     }
 
-    /// <summary>One link: the throw, as every peer saw it.</summary>
+    /// <summary>Draws the throw on one link, as every peer saw it.</summary>
     internal static LineChart OfThrow(HandMotion motion, HoldRun run)
     {
         HoldTrace trace = run.Trace;
@@ -94,7 +98,7 @@ internal static class HoldChart
         };
     }
 
-    /// <summary>What delay does: the errors of the held ball, and what telling of the hand costs.</summary>
+    /// <summary>The charts over delay: the errors of the held ball, and the bandwidth of its keyframes.</summary>
     internal static LineChart OfDelays(HoldReport report)
     {
         HoldRun[] runs = report.Runs.Where(run => run.Options.DelayMilliseconds is not null).OrderBy(run => run.Options.DelayMilliseconds).ToArray();
@@ -160,7 +164,7 @@ internal static class HoldChart
             [new ChartPanel("Position of the hand", "position (m)", [Axis("x", at => at.X), Axis("y", at => at.Y), Axis("z", at => at.Z)])]);
     }
 
-    /// <summary>The hand, and the ball as the first of the others saw it.</summary>
+    /// <summary>Returns the hand, and the ball as the first other peer saw it.</summary>
     private static ChartSeries[] Lines(HoldRun run, Func<Vector3D, double> axis)
     {
         HoldTrace trace = run.Trace;
@@ -176,7 +180,7 @@ internal static class HoldChart
     private static ChartSeries Series(HoldRun run, string name, int[] shown, Func<int, double> of, SeriesStyle style, int colour) =>
         new(name, Array.ConvertAll(shown, n => run.Trace.Seconds[n]), Array.ConvertAll(shown, n => of(n)), style, colour);
 
-    /// <summary>The samples of some seconds from the middle of the hold, or of all of it.</summary>
+    /// <summary>Returns the samples of some seconds from the middle of the hold, or of all of it.</summary>
     private static int[] Middle(HoldRun run)
     {
         double middle = (run.Trace.MotionStart + run.Trace.ThrowStart) / 2;
@@ -186,7 +190,7 @@ internal static class HoldChart
     private static int[] Shown(HoldRun run, double from, double to) =>
         Enumerable.Range(0, run.Trace.Seconds.Length).Where(n => run.Trace.Seconds[n] >= from && run.Trace.Seconds[n] <= to).ToArray();
 
-    /// <summary>The coordinate in which the hand goes furthest there.</summary>
+    /// <summary>Returns the coordinate in which the hand moves furthest there.</summary>
     private static Func<Vector3D, double> Axis(HoldRun run, out string name)
     {
         int[] shown = Middle(run);

@@ -11,10 +11,13 @@ using LagSim.Scenes;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A hand that holds and throws a ball as files: a row a link, samples and two pictures of each link, what delay does, the prediction, and a page that shows them.</summary>
+/// <summary>
+/// The files of a hand that holds and throws a ball: a row for each link, its samples and two charts, the errors by delay, the prediction,
+/// and a page that shows all.
+/// </summary>
 internal static class HoldFiles
 {
-    /// <summary>What came out, in one sentence.</summary>
+    /// <summary>Returns the result in one sentence.</summary>
     internal static string Finding(IReadOnlyList<HoldRun> runs)
     {
         long differing = runs.SelectMany(run => new[] { run.Settled.Before, run.Settled.During, run.Settled.After })
@@ -71,7 +74,7 @@ internal static class HoldFiles
         }
     }
 
-    /// <summary>A row a link and peer that looks on.</summary>
+    /// <summary>Writes a row for each link and watching peer.</summary>
     private static void Runs(string path, IReadOnlyList<HoldRun> runs)
     {
         using StreamWriter file = new(path);
@@ -93,7 +96,9 @@ internal static class HoldFiles
         }
     }
 
-    /// <summary>Where the hand was, where each peer showed the ball, and where the predictor would have drawn it for those who look on.</summary>
+    /// <summary>
+    /// The samples: where the hand was, where each peer showed the ball, and where the predictor would have drawn it for the other peers.
+    /// </summary>
     private static void Samples(string path, HoldRun run)
     {
         HoldTrace trace = run.Trace;
@@ -118,7 +123,7 @@ internal static class HoldFiles
         static object?[] Cells(Vector3D at) => [at.X, at.Y, at.Z];
     }
 
-    /// <summary>A row a horizon: what the JSON has, and each candidate.</summary>
+    /// <summary>Writes a row for each horizon: the values of the JSON, and each candidate.</summary>
     private static void Errors(string path, IReadOnlyList<PredictionError> errors)
     {
         using StreamWriter file = new(path);

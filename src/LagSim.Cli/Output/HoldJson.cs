@@ -58,7 +58,7 @@ internal static class HoldJson
         {
             json.WriteStartObject();
             json.WriteNumber("peer", view.Peer);
-            bool isMeasured = view.Predicted.Samples > 0; // the candidates are, where the mix of them is
+            bool isMeasured = view.Predicted.Samples > 0; // the candidates are measured where their mix is
             RunJson.Errors(json, "simulated", view.Simulated, without: null);
             RunJson.Errors(json, "predicted", view.Predicted, without: null);
             JsonDocumentWriter.Number(json, "hold_last_m", isMeasured ? view.HoldLastMetres : null);

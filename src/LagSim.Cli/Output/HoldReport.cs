@@ -4,9 +4,9 @@ using LagSim.Harness.Experiments.Hold;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>All that <c>lagsim hold</c> found out, however it is told. Immutable.</summary>
-/// <param name="Motion">How the hand moved.</param>
+/// <summary>The results of <c>lagsim hold</c>. Immutable.</summary>
+/// <param name="Motion">The motion of the hand.</param>
 /// <param name="Runs">The sessions, one for each link.</param>
-/// <param name="Predictions">How well that motion can be predicted from all of its samples, by how old they are.</param>
-/// <param name="Seed">The luck of all of it.</param>
+/// <param name="Predictions">The prediction errors of that motion from all of its samples, by their age.</param>
+/// <param name="Seed">The seed of all random numbers.</param>
 internal sealed record HoldReport(HandMotion Motion, IReadOnlyList<HoldRun> Runs, IReadOnlyList<PredictionError> Predictions, ulong Seed);

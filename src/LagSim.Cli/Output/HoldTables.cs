@@ -13,7 +13,7 @@ using Spectre.Console;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A hand that holds and throws a ball, and its prediction, as tables for a person.</summary>
+/// <summary>A hand that holds and throws a ball, and its prediction, as tables for a terminal.</summary>
 internal static class HoldTables
 {
     internal static IReadOnlyList<string> ViewHeadings { get; } = ["link", "seen by", "simulated", "max", "predicted", "max", "of best", "hold", "velocity", "own"];
@@ -46,7 +46,7 @@ internal static class HoldTables
 
     internal const string SessionTitle = "the sessions: error between the peers as seen, m; bytes/s of the holder";
 
-    internal const string PredictionTitle = "the hand told from all of its samples, by delay in ms: rms error in mm";
+    internal const string PredictionTitle = "the hand predicted from all of its samples, by delay in ms: rms error in mm";
 
     internal const string PredictionFootnote = "best: of what the adaptive one mixes, in hindsight; linear: 20 taps, fitted to the other nine tenths of this"
         + " very motion";
@@ -76,7 +76,7 @@ internal static class HoldTables
         }
     }
 
-    /// <summary>A row for each link and each peer that looks on.</summary>
+    /// <summary>Returns a row for each link and each watching peer.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Views(IReadOnlyList<HoldRun> runs) => runs.SelectMany(run => run.Views.Select(view => new[]
     {
         run.Options.Link.Name, PeerName(view.Peer), Millimetres(view.Simulated.RmsMetres), Millimetres(view.Simulated.MaxMetres), Predicted(view, view.Predicted.RmsMetres),
@@ -85,7 +85,7 @@ internal static class HoldTables
 
     private static string Predicted(HeldView view, double metres) => view.Predicted.Samples == 0 ? "-" : Millimetres(metres);
 
-    /// <summary>A row for each link.</summary>
+    /// <summary>Returns a row for each link.</summary>
     internal static IEnumerable<IReadOnlyList<string>> Sessions(IReadOnlyList<HoldRun> runs) => runs.Select(run =>
     {
         ErrorStatistics[] settled = [run.Settled.Before.ToStatistics(), run.Settled.During.ToStatistics(), run.Settled.After.ToStatistics()];
@@ -110,7 +110,7 @@ internal static class HoldTables
 
     internal static string Time(HoldOptions options) => options.IsVirtual ? "virtual" : "real";
 
-    /// <summary>What carried the datagrams: no socket has a part in virtual time.</summary>
+    /// <summary>The name of the carrier. In virtual time there is no socket.</summary>
     internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : Carrier.Udp.Name;
 
     internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"client {place}");

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What the command line names cannot be read, used or reached; the message says what and why.</summary>
+/// <summary>An input named on the command line cannot be read, used or reached; the message says which and why.</summary>
 internal sealed class InputException : Exception
 {
     public InputException(string message, Exception? cause = null)

@@ -7,7 +7,7 @@ using System.Text.Json;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Writes a command's one JSON document, with the keys that every document begins with.</summary>
+/// <summary>Writes a command's JSON document, with the keys that every document begins with.</summary>
 internal static class JsonDocumentWriter
 {
     internal static void Write(
@@ -26,7 +26,7 @@ internal static class JsonDocumentWriter
             }
             else
             {
-                json.WriteNull("seed"); // what was given is none
+                json.WriteNull("seed"); // the given value is no seed
             }
 
             json.WriteString("scene", scene);
@@ -39,10 +39,10 @@ internal static class JsonDocumentWriter
         output.WriteLine(Encoding.UTF8.GetString(bytes.ToArray()));
     }
 
-    /// <summary>16 hexadecimal digits; null for none.</summary>
+    /// <summary>Writes 16 hexadecimal digits; null for none.</summary>
     internal static string? Hash(ulong? hash) => hash?.ToString("x16", CultureInfo.InvariantCulture);
 
-    /// <summary>A number, or null where there is none: JSON has no NaN.</summary>
+    /// <summary>Writes a number, or null for NaN, which JSON does not have.</summary>
     internal static void Number(Utf8JsonWriter json, string key, double? value)
     {
         if (value is double number && double.IsFinite(number))

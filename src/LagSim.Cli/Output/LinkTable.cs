@@ -7,24 +7,24 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Every link there has been, as it was looked at from time to time.</summary>
+/// <summary>Every link of the session so far, with samples of its traffic.</summary>
 internal sealed class LinkTable
 {
     private readonly List<LinkRow> rows = [];
 
-    /// <summary>The links, those that are gone included, in the order in which they came.</summary>
+    /// <summary>The links, including those that are gone, in the order of arrival.</summary>
     internal IReadOnlyList<LinkRow> Rows => rows;
 
-    /// <summary>How many there are now.</summary>
+    /// <summary>The number of present links.</summary>
     internal int Present => rows.Count(row => row.IsPresent);
 
-    /// <summary>The longest there and back of those that there are; zero without one.</summary>
+    /// <summary>The longest round trip of the present links; zero without one.</summary>
     internal SimDuration LongestRoundTrip => rows.Where(row => row.IsPresent).Select(row => row.Last.RoundTrip).DefaultIfEmpty().Max();
 
-    /// <summary>A link that is new.</summary>
+    /// <summary>Adds a new link.</summary>
     internal void Add(LinkTraffic link) => rows.Add(new LinkRow(link, Stopwatch.GetTimestamp()));
 
-    /// <summary>Takes in what went over a link so far; false if there is none to that peer now.</summary>
+    /// <summary>Updates the traffic of a link; returns false if there is none to that peer now.</summary>
     internal bool LookAt(LinkTraffic link)
     {
         LinkRow? known = rows.Find(row => row.IsPresent && row.Is(link));
@@ -32,7 +32,7 @@ internal sealed class LinkTable
         return known is not null;
     }
 
-    /// <summary>A link that is no more, with all that went over it.</summary>
+    /// <summary>Closes a link, with its final traffic.</summary>
     internal void End(LinkTraffic link)
     {
         if (rows.Find(row => row.IsPresent && row.Is(link)) is LinkRow known)
@@ -43,7 +43,7 @@ internal sealed class LinkTable
     }
 }
 
-/// <summary>A link to one other peer.</summary>
+/// <summary>A link to one peer.</summary>
 internal sealed class LinkRow
 {
     private readonly LinkTraffic first;
@@ -59,21 +59,21 @@ internal sealed class LinkRow
 
     internal byte Peer => first.Peer;
 
-    /// <summary>Where it was last.</summary>
+    /// <summary>The latest address.</summary>
     internal PeerAddress Address => Last.Address;
 
     internal bool IsPresent { get; set; } = true;
 
-    /// <summary>As it was last looked at.</summary>
+    /// <summary>The latest sample.</summary>
     internal LinkTraffic Last { get; private set; }
 
-    /// <summary>Bytes a second of datagrams alone, since it was first looked at; NaN if that was just now.</summary>
+    /// <summary>Bytes per second of datagrams without headers, since the first sample; NaN if that was just now.</summary>
     internal double SentPerSecond => PerSecond(Last.BytesSent - first.BytesSent);
 
-    /// <summary>The same of what came.</summary>
+    /// <summary>The same for received bytes.</summary>
     internal double ReceivedPerSecond => PerSecond(Last.BytesReceived - first.BytesReceived);
 
-    /// <summary>Whether a link is this one: to the same peer, wherever that is now, and with all that went over it before.</summary>
+    /// <summary>Whether a sample is of this link: to the same peer, at any address, and with all traffic so far.</summary>
     internal bool Is(LinkTraffic link) => link.Peer == Peer && link.BytesSent >= Last.BytesSent && link.BytesReceived >= Last.BytesReceived;
 
     internal void LookAt(LinkTraffic link, long at)

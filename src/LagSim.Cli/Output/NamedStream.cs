@@ -3,7 +3,7 @@ using System.IO;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A stream whose failures say what cannot be written: the system's own sentence names only the cause.</summary>
+/// <summary>A stream whose write failures name the file; the system's own message names only the cause.</summary>
 internal sealed class NamedStream(string name, Stream inner) : Stream
 {
     public override bool CanRead => false;

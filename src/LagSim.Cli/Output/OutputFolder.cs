@@ -3,11 +3,13 @@ using System.IO;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The folder that <c>--out</c> names: whether it can be written is known before a long run, and yet it is made only when there is something to put in.</summary>
+/// <summary>
+/// The folder of <c>--out</c>. It is checked before a long run, but only created when there is something to write.
+/// </summary>
 internal static class OutputFolder
 {
-    /// <summary>Tries it out, and leaves everything as it was.</summary>
-    /// <exception cref="IOException">The folder cannot be made, or nothing can be written to it.</exception>
+    /// <summary>Checks that the folder can be written, and changes nothing.</summary>
+    /// <exception cref="IOException">The folder cannot be created, or nothing can be written to it.</exception>
     internal static void ThrowIfNotWritable(string folder)
     {
         string path = Path.TrimEndingDirectorySeparator(Path.GetFullPath(folder));
@@ -33,7 +35,9 @@ internal static class OutputFolder
         }
     }
 
-    /// <summary>Removes a folder and those it lies in up to one that was there before; one in which somebody has put something stays.</summary>
+    /// <summary>
+    /// Removes a folder, and its parents up to one that existed before. A folder that holds anything stays.
+    /// </summary>
     private static void RemoveEmpty(string? path, string? upTo)
     {
         try

@@ -11,7 +11,7 @@ namespace LagSim.Cli.Output;
 /// <summary>Comparisons and replays of recordings as JSON.</summary>
 internal static class RecordingOutput
 {
-    /// <summary>Says on stderr of a recording that is not whole what it lacks, and up to where it counts; of any other nothing.</summary>
+    /// <summary>Reports on stderr what an incomplete recording lacks, and up to where it is valid.</summary>
     internal static void WarnUnlessWhole(TextWriter error, string file, Recording recording)
     {
         if (!recording.IsWhole)
@@ -99,10 +99,10 @@ internal static class RecordingOutput
         json.WriteString("damage", recording.Damage?.Reason);
     }
 
-    /// <summary>Seconds since the recorded session's start.</summary>
+    /// <summary>Returns the seconds since the recorded session's start.</summary>
     private static double? Since(Recording recording, SimTime? time) => recording.Header is RecordingHeader header ? (time - header.Start)?.ToSeconds() : null;
 
-    /// <summary>The state of the last time that both hold, if they agree.</summary>
+    /// <summary>Returns the state of the last time in both recordings, if they agree.</summary>
     private static ulong? LastCommon(IReadOnlyList<Recording> recordings, RecordingComparison found)
     {
         if (found.Outcome != ComparisonOutcome.Agrees)

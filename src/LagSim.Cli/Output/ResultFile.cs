@@ -3,7 +3,7 @@ using System.IO;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Where a command writes a result: a file, or stdout, which stays open.</summary>
+/// <summary>The destination of a result: a file, or stdout, which stays open.</summary>
 internal sealed class ResultFile : IDisposable
 {
     internal const string StandardOutput = "-";
@@ -20,8 +20,8 @@ internal sealed class ResultFile : IDisposable
 
     internal TextWriter Writer { get; }
 
-    /// <summary>Opens what the option names; null for none.</summary>
-    /// <exception cref="IOException">It cannot be written; the message names the option, the file and the cause.</exception>
+    /// <summary>Opens the file of an option; null for none.</summary>
+    /// <exception cref="IOException">The file cannot be written; the message names the option, the file and the cause.</exception>
     internal static ResultFile? Open(ToolConsole console, string option, string? name)
     {
         if (name is null or StandardOutput)
@@ -39,8 +39,8 @@ internal sealed class ResultFile : IDisposable
         }
     }
 
-    /// <summary>Tries out whether a file can be written, and leaves everything as it was.</summary>
-    /// <exception cref="IOException">It cannot; the message names the option, the file and the cause.</exception>
+    /// <summary>Checks that a file can be written, and changes nothing.</summary>
+    /// <exception cref="IOException">The file cannot be written; the message names the option, the file and the cause.</exception>
     internal static void ThrowIfNotWritable(string option, string name)
     {
         bool isThere = File.Exists(name);
@@ -67,7 +67,7 @@ internal sealed class ResultFile : IDisposable
         }
         else
         {
-            Writer.Flush(); // whatever ended the run, its rows so far are results
+            Writer.Flush(); // however the run ended, its rows so far are results
         }
     }
 }

@@ -6,10 +6,10 @@ using LagSim.Harness.Experiments.Peers;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What the runs of every command that compares peers have in common, as JSON.</summary>
+/// <summary>The JSON keys that the runs of every peer comparison have in common.</summary>
 internal static class RunJson
 {
-    /// <summary>What was run: the keys that every run begins with.</summary>
+    /// <summary>The keys that every run begins with: what was run.</summary>
     internal static void Setting(
         Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay, int peers)
     {
@@ -23,7 +23,7 @@ internal static class RunJson
         json.WriteNumber("peers", peers);
     }
 
-    /// <summary>What came of it: the keys that follow on those.</summary>
+    /// <summary>The keys that follow: the results.</summary>
     internal static void Figures(Utf8JsonWriter json, IPeerRun run, double? cpuCoresAtRest)
     {
         Phases(json, "seen", run.Seen);
@@ -59,11 +59,12 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    /// <summary>One error of the contract.</summary>
-    /// <param name="json">Where to.</param>
-    /// <param name="key">Its key.</param>
-    /// <param name="errors">The error.</param>
-    /// <param name="without">What stands for the figures of no sample: 0 where a phase may be empty, null where nothing could be measured.</param>
+    /// <summary>Writes one error.</summary>
+    /// <param name="json">The destination.</param>
+    /// <param name="key">The key.</param>
+    /// <param name="errors">The statistics of the error.</param>
+    /// <param name="without">The value in place of the figures of no sample: 0 where a phase may be empty, null where nothing could be
+    /// measured.</param>
     internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors, double? without = 0)
     {
         double? Figure(double metres, long samples) => samples == 0 ? without : metres;
@@ -105,7 +106,7 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    /// <summary>The one hash that all have; null where there are several.</summary>
+    /// <summary>Returns the hash that all have in common; null if they differ.</summary>
     internal static ulong? Common(IEnumerable<ulong> hashes)
     {
         ulong[] different = hashes.Distinct().ToArray();

@@ -81,10 +81,10 @@ internal static class RunOutput
         console.Write(table);
     }
 
-    /// <summary>Whether anything of the scene can turn: it was given a spin, or friction may give it one.</summary>
+    /// <summary>Whether any body of the scene can turn: by its initial spin, or by friction.</summary>
     internal static bool CanTurn(Scene scene) => scene.Bodies.Any(body => body.Spin != Vector3D.Zero || body.Spec.Friction > 0);
 
-    /// <summary>What the time went into: the simulation alone, and all that was done for the report.</summary>
+    /// <summary>The time spent: on the simulation alone, and on the report.</summary>
     private static string Times(RunSummary run)
     {
         if (run.Timed == 0)

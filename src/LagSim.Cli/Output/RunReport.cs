@@ -11,7 +11,7 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A run as a picture, and a page that shows it.</summary>
+/// <summary>A run as a chart, and a page that shows it.</summary>
 internal static class RunReport
 {
     private const int Samples = 2000;

@@ -2,23 +2,24 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>How a run ended.</summary>
+/// <summary>The end of a run.</summary>
 /// <param name="End">The world at the end.</param>
-/// <param name="Until">The end.</param>
-/// <param name="StartEnergy">Energy at the start, in joules.</param>
-/// <param name="EndEnergy">Energy at the end, in joules.</param>
-/// <param name="WallSeconds">The least time that the simulation alone took; if none was timed, what the one that was written took.</param>
+/// <param name="Until">The time of the end.</param>
+/// <param name="StartEnergy">The energy at the start, in joules.</param>
+/// <param name="EndEnergy">The energy at the end, in joules.</param>
+/// <param name="WallSeconds">The least time of the simulation alone, in seconds; if no run was timed, the time of the one that was
+/// written.</param>
 internal sealed record RunSummary(Simulation End, SimTime Until, double StartEnergy, double EndEnergy, double WallSeconds)
 {
-    /// <summary>How many runs were timed, after the one that was written; 0 for none.</summary>
+    /// <summary>The number of timed runs, after the one that was written; 0 for none.</summary>
     internal int Timed { get; init; }
 
-    /// <summary>The wall clock of the run that was written, with its writing.</summary>
+    /// <summary>The wall-clock time of the run that was written, including the writing.</summary>
     internal double WritingSeconds { get; init; }
 
-    /// <summary>The wall clock of all runs that were timed.</summary>
+    /// <summary>The wall-clock time of all timed runs.</summary>
     internal double TimingSeconds { get; init; }
 
-    /// <summary>The wall clock of the picture: one more run, and its drawing; zero without one.</summary>
+    /// <summary>The wall-clock time of the chart: one more run, and drawing; zero without one.</summary>
     internal double PictureSeconds { get; init; }
 }

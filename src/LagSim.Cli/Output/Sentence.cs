@@ -4,14 +4,16 @@ using System.Text;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>What went wrong as a sentence for a terminal.</summary>
+/// <summary>Formats failures as sentences for a terminal.</summary>
 internal static class Sentence
 {
-    /// <summary>A failure's message, without the name of a parameter that only a programmer knows.</summary>
+    /// <summary>Returns a failure's message, without the parameter name, which only a programmer knows.</summary>
     internal static string Of(Exception failure) =>
         failure is ArgumentException { ParamName: string name } ? failure.Message.Replace($" (Parameter '{name}')", "", StringComparison.Ordinal) : failure.Message;
 
-    /// <summary>The same text, in which control characters, that what was read may have brought along, are spelled out; lines stay lines.</summary>
+    /// <summary>
+    /// Returns the text with control characters from input spelled out; line breaks stay.
+    /// </summary>
     internal static string Printable(string text)
     {
         StringBuilder printable = new(text.Length);

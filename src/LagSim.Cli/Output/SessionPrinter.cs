@@ -12,8 +12,8 @@ using LagSim.Time;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>A session as it goes by, line by line, and its summary, as text or as JSON.</summary>
-/// <remarks>With JSON the lines are progress, and go to the error stream.</remarks>
+/// <summary>A printer of a running session, line by line, and of its summary, as text or as JSON.</summary>
+/// <remarks>With JSON the lines are progress and go to the error stream.</remarks>
 internal sealed class SessionPrinter
 {
     private readonly ToolConsole console;
@@ -25,12 +25,12 @@ internal sealed class SessionPrinter
     private readonly List<(double Seconds, CommittedState State)> states = [];
     private ClockReading? clock;
 
-    /// <param name="console">Where to print.</param>
+    /// <param name="console">The console to print to.</param>
     /// <param name="json">Whether the summary is JSON.</param>
-    /// <param name="command">The command that runs, <c>host</c> or <c>join</c>.</param>
+    /// <param name="command">The current command, <c>host</c> or <c>join</c>.</param>
     /// <param name="seed">The seed of the run.</param>
-    /// <param name="seconds">How long to take part; null until asked to stop.</param>
-    /// <param name="recordFile">Where the session is recorded; null for nowhere.</param>
+    /// <param name="seconds">The duration, in seconds; null until cancelled.</param>
+    /// <param name="recordFile">The file of the recording; null for none.</param>
     internal SessionPrinter(ToolConsole console, bool json, string command, ulong seed, double? seconds, string? recordFile)
     {
         this.console = console;
@@ -41,12 +41,12 @@ internal sealed class SessionPrinter
         this.recordFile = recordFile;
     }
 
-    /// <summary>Where a host can be reached; null for a client.</summary>
+    /// <summary>The address at which a host can be reached; null for a client.</summary>
     internal string? ListeningOn { get; init; }
 
     internal LinkTable Links { get; } = new();
 
-    /// <summary>A line for whoever watches, at once.</summary>
+    /// <summary>Prints a line and flushes it.</summary>
     internal void Line(string text)
     {
         TextWriter to = json ? console.Error : console.Output;
@@ -54,10 +54,10 @@ internal sealed class SessionPrinter
         to.Flush();
     }
 
-    /// <summary>A line about something that is not as it should be.</summary>
+    /// <summary>Prints a problem.</summary>
     internal void Problem(string sentence) => console.Error.WriteLine(sentence);
 
-    /// <summary>There is no summary, since there was never a world; why stands on the error stream.</summary>
+    /// <summary>Reports that there is no summary, since there was no world. The reason is on the error stream.</summary>
     internal void Failed(string why, int exitCode)
     {
         if (json)
@@ -81,21 +81,21 @@ internal sealed class SessionPrinter
         }
     }
 
-    /// <summary>A client came to this host.</summary>
+    /// <summary>Prints that a client joined this host.</summary>
     internal void Came(LinkTraffic link)
     {
         Links.Add(link);
         Progress($"peer {link.Peer} at {link.Address} came");
     }
 
-    /// <summary>One is gone.</summary>
+    /// <summary>Prints that a client is gone.</summary>
     internal void Gone(LinkTraffic link)
     {
         Links.End(link);
         Progress($"peer {link.Peer} at {link.Address} is gone");
     }
 
-    /// <summary>Takes in how the links are, and tells a client's that there is one.</summary>
+    /// <summary>Takes a sample of the links, and reports a client's first one.</summary>
     internal void LookAt(IReadOnlyList<LinkTraffic> links)
     {
         foreach (LinkTraffic link in links)
@@ -108,7 +108,7 @@ internal sealed class SessionPrinter
         }
     }
 
-    /// <summary>What it came to. The session's thread must have stopped.</summary>
+    /// <summary>Prints the summary. The session's thread must have stopped.</summary>
     internal void Summary(Session session, UdpPort port, SessionRecorder? recorder)
     {
         if (json)

@@ -11,11 +11,14 @@ namespace LagSim.Cli.Output;
 /// <summary>Sessions with stalls as text.</summary>
 internal static class StallsText
 {
-    /// <summary>The command that plays one of them, and no other.</summary>
+    /// <summary>Returns the command that plays only one session.</summary>
     internal static string Replay(StallCase drawn, bool hasProcesses = false) =>
         string.Create(CultureInfo.InvariantCulture, $"lagsim stalls --sessions 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
 
-    /// <summary>How many events hosts refused, and why, where it is the link's doing: else "0 of 0 lost" of a slow link would have no reason.</summary>
+    /// <summary>
+    /// Returns the number of refused events, and why, where the link is the reason: else "0 of 0 lost" on a slow link would have no
+    /// explanation.
+    /// </summary>
     private static string Refused(IReadOnlyList<StallOutcome> outcomes)
     {
         long refused = outcomes.Sum(o => o.Refused), late = outcomes.Sum(o => o.RefusedTooLate);

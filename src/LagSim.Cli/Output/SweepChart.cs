@@ -6,12 +6,12 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The sweep over full links as a chart: what was delivered, the round trip and the refusals against what was offered.</summary>
+/// <summary>A chart of the sweep over full links: what was delivered, the round trip and the refusals against the load offered.</summary>
 internal static class SweepChart
 {
-    /// <summary>Null where there is nothing to draw: no cell in which anything happened.</summary>
-    /// <param name="outcomes">What was played.</param>
-    /// <param name="beside">Another run, drawn dashed; null for none.</param>
+    /// <summary>Draws the chart; null if no cell has any result.</summary>
+    /// <param name="outcomes">The outcomes to show.</param>
+    /// <param name="beside">The outcomes of another run, drawn dashed; null for none.</param>
     internal static LineChart? Of(IReadOnlyList<SweepOutcome> outcomes, IReadOnlyList<SweepOutcome>? beside)
     {
         SweepOutcome[] drawn = Drawn(outcomes), dashed = Drawn(beside ?? []);

@@ -7,7 +7,7 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The sweep over full links as files: a row a cell, charts, and a page that shows them.</summary>
+/// <summary>The sweep over full links as files: a row for each cell, charts, and a page that shows them.</summary>
 internal static class SweepFiles
 {
     internal static void Write(string folder, SweepOptions options, IReadOnlyList<SweepOutcome> outcomes, IReadOnlyList<SweepOutcome>? beside)

@@ -7,7 +7,7 @@ using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>All cells of the sweep over full links as a table for a page of documents, beside another run if there is one.</summary>
+/// <summary>All cells of the sweep over full links as a Markdown table, beside another run if there is one.</summary>
 internal static class SweepMarkdown
 {
     internal static void Write(TextWriter output, IReadOnlyList<SweepOutcome> outcomes, IReadOnlyList<SweepOutcome>? beside)

@@ -6,11 +6,12 @@ using LagSim.Harness.Experiments.Sweep;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Reads back what <see cref="SweepJson"/> wrote, so that one run can be drawn beside another.</summary>
+/// <summary>Reads the output of <see cref="SweepJson"/>, so that one run can be drawn beside another.</summary>
 internal static class SweepReader
 {
-    /// <summary>The cells of a sweep's JSON document, as far as a chart needs them.</summary>
-    /// <exception cref="InputException">The file cannot be read, or is none of <c>lagsim sweep --json</c>; the sentence says which.</exception>
+    /// <summary>Returns the cells of a sweep's JSON document, as far as a chart needs them.</summary>
+    /// <exception cref="InputException">The file cannot be read, or is not from <c>lagsim sweep --json</c>; the message says
+    /// which.</exception>
     internal static IReadOnlyList<SweepOutcome> Read(string path)
     {
         try

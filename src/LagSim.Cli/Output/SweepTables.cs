@@ -11,17 +11,17 @@ namespace LagSim.Cli.Output;
 /// <summary>The sweep over full links as a table.</summary>
 internal static class SweepTables
 {
-    /// <summary>What the columns are called.</summary>
+    /// <summary>The names of the columns.</summary>
     internal static readonly string[] Headings =
     [
         "clients", "kbit/s", "queue ms", "dips", "events/s each", "load", "offered B/s", "delivered B/s", "sent B/s", "idle ms", "p50 ms", "p99 ms", "refused", "lost", "differ",
         "compared", "copies", "too slow",
     ];
 
-    /// <summary>So many of them, from the first on, say which cell a row is of.</summary>
+    /// <summary>The number of leading columns that identify the cell of a row.</summary>
     private const int CellColumns = 5;
 
-    /// <summary>What stands between two columns, and at both edges.</summary>
+    /// <summary>The blanks between two columns, and at both edges.</summary>
     private const int Gap = 2;
 
     internal static void Write(ToolConsole console, IReadOnlyList<SweepOutcome> outcomes, string? folder, int count)
@@ -49,8 +49,8 @@ internal static class SweepTables
     }
 
     /// <summary>
-    /// Which columns stand in which table. Where all of them are wider than the window, there are several tables one below the other, each beginning with the columns
-    /// that say which cell it is, so that no heading is cut. On a terminal of less than 80 columns the rows are lists anyway.
+    /// Splits the columns into tables. If they do not fit the window together, there are several tables one below the other, each beginning
+    /// with the columns that identify the cell, so that no heading is cut. On a terminal of less than 80 columns the rows are lists anyway.
     /// </summary>
     private static List<int[]> Parts(ToolConsole console, string[][] rows)
     {
@@ -77,7 +77,9 @@ internal static class SweepTables
         return [.. parts, part];
     }
 
-    /// <summary>The longest word of the heading, which is broken at blanks, and the longest cell, which is not.</summary>
+    /// <summary>
+    /// Returns the larger of the longest word of the heading, which is wrapped at blanks, and the longest cell, which is not.
+    /// </summary>
     private static int WidthOf(int column, string[][] rows) =>
         Headings[column].Split(' ').Concat(rows.Select(row => row[column])).Max(text => text.Length);
 

@@ -6,22 +6,22 @@ using System.Text;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Curves in a terminal, in Braille patterns: two dots by four a character. What needs a closer look is in the SVG.</summary>
+/// <summary>Curves in a terminal, in Braille patterns of two by four dots a character. Details are in the SVG.</summary>
 internal static class TextChart
 {
     private const int DotsAcross = 2;
     private const int DotsDown = 4;
     private const int LabelWidth = 10;
 
-    /// <summary>The bit of a Braille pattern for the dot in a column (left, right) and a row (from the top).</summary>
+    /// <summary>Returns the bit of a Braille pattern for the dot in a column (left, right) and a row (from the top).</summary>
     private static readonly int[,] Dot = { { 0x01, 0x02, 0x04, 0x40 }, { 0x08, 0x10, 0x20, 0x80 } };
 
-    /// <summary>The curves over one another; NaN leaves a gap.</summary>
-    /// <param name="x">Ascending.</param>
-    /// <param name="curves">Each as long as <paramref name="x"/>.</param>
-    /// <param name="columns">Characters across, the labels not counted.</param>
-    /// <param name="rows">Characters down.</param>
-    /// <param name="label">What stands at the axis for a value of y.</param>
+    /// <summary>Draws curves over one another; NaN leaves a gap.</summary>
+    /// <param name="x">The x values, ascending.</param>
+    /// <param name="curves">The curves, each as long as <paramref name="x"/>.</param>
+    /// <param name="columns">The width in characters, without the labels.</param>
+    /// <param name="rows">The height in characters.</param>
+    /// <param name="label">Returns the label of a value on the y axis.</param>
     internal static string Draw(double[] x, IReadOnlyList<double[]> curves, int columns, int rows, Func<double, string> label)
     {
         double[] values = curves.SelectMany(curve => curve).Where(double.IsFinite).ToArray();

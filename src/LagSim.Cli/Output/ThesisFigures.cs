@@ -1,6 +1,6 @@
 namespace LagSim.Cli.Output;
 
-/// <summary>What the thesis's published logs give for the height error of its drop tests, in metres (Zonnenberg, TU Delft 2024).</summary>
+/// <summary>The height errors of drop tests in the thesis's published logs, in metres (Zonnenberg, TU Delft 2024).</summary>
 internal static class ThesisFigures
 {
     internal const double SameStart = 0;

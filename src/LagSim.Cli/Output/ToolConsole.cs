@@ -7,7 +7,7 @@ using Spectre.Console.Rendering;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Where results and progress go.</summary>
+/// <summary>The destination of results and progress.</summary>
 internal sealed class ToolConsole
 {
     private const int WidthOfAFile = 150;
@@ -29,35 +29,37 @@ internal sealed class ToolConsole
         });
         if (!IsTerminal)
         {
-            Rich.Profile.Width = WidthOfAFile; // else a table in a file is broken to 80 columns
+            Rich.Profile.Width = WidthOfAFile; // else a table in a file is broken at 80 columns
         }
     }
 
-    /// <summary>Whether lines may be as long as they like: nothing says how wide what reads the results is.</summary>
+    /// <summary>Whether lines may have any length, since the output is a file or pipe.</summary>
     internal bool IsEndless => !IsTerminal && Rich.Profile.Width == WidthOfAFile;
 
-    /// <summary>Whether somebody's window is as wide as usual at least, and yet has an edge.</summary>
+    /// <summary>Whether output goes to a terminal of at least the usual width.</summary>
     internal bool IsWindow => !IsEndless && Rich.Profile.Width >= UsualWidth;
 
-    /// <summary>Asks for an end of what takes long.</summary>
+    /// <summary>Cancels long work.</summary>
     internal CancellationToken Stop { get; }
 
-    /// <summary>Whether somebody watches the results as they come.</summary>
+    /// <summary>Whether results are shown live.</summary>
     internal bool IsTerminal { get; }
 
-    /// <summary>What somebody types, or pipes in.</summary>
+    /// <summary>The standard input.</summary>
     internal TextReader Input => Console.In;
 
-    /// <summary>Results, as plain text.</summary>
+    /// <summary>The results, as plain text.</summary>
     internal TextWriter Output { get; }
 
     /// <summary>Progress and log.</summary>
     internal TextWriter Error { get; }
 
-    /// <summary>Results, as tables.</summary>
+    /// <summary>The results, as tables.</summary>
     internal IAnsiConsole Rich { get; }
 
-    /// <summary>Writes a table; on a terminal of less than 80 columns that has no room for it each row as a list, so that no cell is broken into pieces.</summary>
+    /// <summary>
+    /// Writes a table. A terminal of less than 80 columns without room for it gets each row as a list, so that no cell is broken.
+    /// </summary>
     internal void Write(Table table)
     {
         bool isTooWide = Rich.Profile.Width < UsualWidth
@@ -84,11 +86,14 @@ internal sealed class ToolConsole
         return new Rows(parts);
     }
 
-    /// <summary>Runs something long, with a bar on the error stream where that is a terminal, else a line at the start and one for each part that it names.</summary>
-    /// <param name="title">What runs.</param>
-    /// <param name="length">How much there is to do, in simulated seconds.</param>
-    /// <param name="work">Does it, and says from time to time how much is done.</param>
-    /// <param name="isBarShown">Whether there may be a bar: not over results that scroll by on the same terminal.</param>
+    /// <summary>
+    /// Runs long work, with a progress bar on the error stream if that is a terminal, else with a line at the start and for each named
+    /// part.
+    /// </summary>
+    /// <param name="title">The name of the work.</param>
+    /// <param name="length">The amount of work, in simulated seconds.</param>
+    /// <param name="work">The work. It reports its progress from time to time.</param>
+    /// <param name="isBarShown">Whether a bar is allowed: not over results that scroll on the same terminal.</param>
     /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
     internal T WithProgress<T>(string title, double length, Func<Action<double>, T> work, bool isBarShown = true)
     {
@@ -116,10 +121,10 @@ internal sealed class ToolConsole
             });
     }
 
-    /// <summary>Names the part of what runs that begins now: on the bar, or as a line of the error stream where there is none.</summary>
+    /// <summary>Names the part of the work that begins now: on the bar, or as a line of the error stream where there is none.</summary>
     internal void Begin(string part) => tellPart(part);
 
-    /// <summary>Puts back what a progress bar hides.</summary>
+    /// <summary>Restores what a progress bar hides.</summary>
     internal static void ShowCursor()
     {
         if (!Console.IsErrorRedirected)
@@ -128,7 +133,9 @@ internal sealed class ToolConsole
         }
     }
 
-    /// <summary>Between two pieces of work: stops if asked to, and hands on what has been written, so that a reader that has gone is noticed.</summary>
+    /// <summary>
+    /// Between two units of work: stops if cancelled, and flushes the output, so that a closed pipe is noticed.
+    /// </summary>
     private void Pause()
     {
         Stop.ThrowIfCancellationRequested();

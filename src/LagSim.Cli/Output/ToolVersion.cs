@@ -2,7 +2,7 @@ using System.Reflection;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The tool's version as it was built, without the source revision.</summary>
+/// <summary>The version of the tool, without the source revision.</summary>
 internal static class ToolVersion
 {
     internal static string Text { get; } =

@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>The command line asks for what cannot be; the message names the option and what is allowed.</summary>
+/// <summary>The command line is invalid; the message names the option and what is allowed.</summary>
 internal sealed class UsageException : Exception
 {
     public UsageException(string message)

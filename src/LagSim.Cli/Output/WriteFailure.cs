@@ -3,13 +3,13 @@ using System.IO;
 
 namespace LagSim.Cli.Output;
 
-/// <summary>Why a file or folder cannot be written, in words for who named it.</summary>
+/// <summary>Formats why a file or folder cannot be written, for the user who named it.</summary>
 internal static class WriteFailure
 {
-    /// <summary>Whether a failure is one of writing.</summary>
+    /// <summary>Whether a failure is a write failure.</summary>
     internal static bool Is(Exception failure) => failure is IOException or UnauthorizedAccessException or NotSupportedException or ArgumentException;
 
-    /// <summary>A sentence that names the option, what it is, what it must be, and why it is not.</summary>
+    /// <summary>Formats a message that names the option, its value, what it must be, and why it is not.</summary>
     internal static IOException Of(string option, string name, string must, Exception failure) =>
         new($"{option} is '{name}'; it must be {must}. {Cause(name, failure)}", failure);
 

@@ -4,15 +4,15 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>A port that counts what goes through another one.</summary>
+/// <summary>A port that counts the traffic of another one.</summary>
 /// <remarks>Sends and receives on the thread that the inner port allows; <see cref="Traffic"/> may be read from any thread.</remarks>
 public sealed class CountingPort : IDatagramPort
 {
     private readonly IDatagramPort inner;
-    private readonly object gate = new(); // four counters that belong together; taken only to add to or copy them
+    private readonly object gate = new(); // guards four counters that belong together
     private PortTraffic traffic;
 
-    /// <summary>Counts what goes through <paramref name="inner"/>, which it then owns and disposes.</summary>
+    /// <summary>Wraps <paramref name="inner"/>, which it then owns and disposes.</summary>
     public CountingPort(IDatagramPort inner)
     {
         ArgumentNullException.ThrowIfNull(inner);
@@ -29,7 +29,7 @@ public sealed class CountingPort : IDatagramPort
     /// <inheritdoc/>
     public PeerAddress LocalAddress => inner.LocalAddress;
 
-    /// <summary>What was sent and taken so far.</summary>
+    /// <summary>The traffic so far.</summary>
     public PortTraffic Traffic
     {
         get

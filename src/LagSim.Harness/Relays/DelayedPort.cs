@@ -7,45 +7,50 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>A port that makes a fast link look like a slow one in real time: what comes in by another port is held, lost or doubled first.</summary>
+/// <summary>
+/// A port that simulates a slow link in real time: incoming datagrams of another port are delayed, lost or duplicated.
+/// </summary>
 /// <remarks>
-/// <para>Only what comes in is touched, so a link that is slow both ways has one of these at each end. Each sender has its own
-/// <see cref="LinkModel"/>.</para>
-/// <para>A thread of its own waits, without spinning, for the next datagram that falls due and raises <see cref="Arrived"/>, late by the
-/// operating system's timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. <see cref="TryReceive"/> goes by the clock alone.</para>
-/// <para>The inner port is called from that thread and the session's, but never at once. <see cref="Arrived"/> is raised outside all
-/// locks. Which luck a datagram meets depends on the seed and the order of arrival; when it is due also on the clock.</para>
+/// <para>Only incoming datagrams are affected, so a link that is slow in both directions has one of these at each end. Each sender has its
+/// own <see cref="LinkModel"/>.</para>
+/// <para>A background thread waits, without spinning, for the next datagram that falls due and raises <see cref="Arrived"/>, late by the
+/// operating system's timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. <see cref="TryReceive"/> depends only on the
+/// clock.</para>
+/// <para>The inner port is called from that thread and the session's, but never at once. <see cref="Arrived"/> is raised outside all locks.
+/// What happens to a datagram depends on the seed and the order of arrival; when it is due also depends on the clock.</para>
 /// </remarks>
 public sealed class DelayedPort : IDatagramPort
 {
     private readonly IDatagramPort inner;
     private readonly IClock clock;
-    private readonly object gate = new(); // guards the inner port's calls and all fields below
+    private readonly object gate = new(); // guards calls of the inner port and all fields below
     private readonly HeldDatagrams held;
-    private readonly Queue<(byte[] Datagram, PeerAddress From)> due = new(); // was held, and Arrived raised for it
-    private readonly WorldThread? waiter; // woken without the gate: a port may raise Arrived under a lock of its own
+    private readonly Queue<(byte[] Datagram, PeerAddress From)> due = new(); // due datagrams for which Arrived was raised
+    private readonly WorldThread? waiter; // woken outside the gate: a port may raise Arrived under a lock of its own
     private volatile bool disposed;
 
-    /// <summary>Holds what comes in by <paramref name="inner"/>, from every sender by a link of that leg.</summary>
-    /// <param name="inner">The port to slow down; it is owned, and disposed with this one.</param>
-    /// <param name="clock">Real time, read from two threads.</param>
-    /// <param name="leg">What each link does.</param>
-    /// <param name="seed">The luck of all links; senders get theirs in the order in which they are first heard of.</param>
+    /// <summary>Wraps <paramref name="inner"/>, with the same leg for the link of every sender.</summary>
+    /// <param name="inner">The port to delay, which is owned and disposed with this one.</param>
+    /// <param name="clock">The real-time clock, read from two threads.</param>
+    /// <param name="leg">The leg of each link.</param>
+    /// <param name="seed">The seed of all links. Senders get theirs in the order of their first datagrams.</param>
     public DelayedPort(IDatagramPort inner, IClock clock, LinkLeg leg, ulong seed)
         : this(inner, clock, HeldDatagrams.SameLegs(leg, seed), waits: true)
     {
     }
 
-    /// <summary>Holds what comes in by <paramref name="inner"/>, from each sender by the link that <paramref name="linkFrom"/> makes for it.</summary>
-    /// <param name="inner">The port to slow down; it is owned, and disposed with this one.</param>
-    /// <param name="clock">Real time, read from two threads.</param>
-    /// <param name="linkFrom">Called once for each sender.</param>
+    /// <summary>
+    /// Wraps <paramref name="inner"/>, with a link for each sender from <paramref name="linkFrom"/>.
+    /// </summary>
+    /// <param name="inner">The port to delay, which is owned and disposed with this one.</param>
+    /// <param name="clock">The real-time clock, read from two threads.</param>
+    /// <param name="linkFrom">Called once for each new sender to get its link.</param>
     internal DelayedPort(IDatagramPort inner, IClock clock, Func<PeerAddress, LinkModel> linkFrom)
         : this(inner, clock, linkFrom, waits: true)
     {
     }
 
-    /// <summary>As the others; without a thread, <see cref="Poll"/> does what it would.</summary>
+    /// <summary>As the others. Without a thread, the caller has to call <see cref="Poll"/>.</summary>
     internal DelayedPort(IDatagramPort inner, IClock clock, Func<PeerAddress, LinkModel> linkFrom, bool waits)
     {
         ArgumentNullException.ThrowIfNull(inner);
@@ -93,10 +98,10 @@ public sealed class DelayedPort : IDatagramPort
             SimTime now = clock.Now;
             if (held.TakeFrom(inner, now))
             {
-                waiter?.Wake(); // it may not know of what was taken, and how long it must wait has changed
+                waiter?.Wake(); // its wait may have changed because of what was taken
             }
 
-            // What is in the queue was due before anything that is still held.
+            // Everything in the queue was due before anything that is still held.
             if (!due.TryDequeue(out (byte[] Datagram, PeerAddress From) next) && !held.TryDequeueDue(now, out next))
             {
                 return false;
@@ -109,7 +114,7 @@ public sealed class DelayedPort : IDatagramPort
         }
     }
 
-    /// <summary>Stops at once; what is still held is lost.</summary>
+    /// <summary>Stops at once. Held datagrams are lost.</summary>
     public void Dispose()
     {
         lock (gate)
@@ -125,14 +130,14 @@ public sealed class DelayedPort : IDatagramPort
         if (waiter is not null)
         {
             inner.Arrived -= waiter.Wake;
-            waiter.Dispose(); // from a handler of Arrived too
+            waiter.Dispose(); // also from a handler of Arrived
         }
 
         inner.Dispose();
     }
 
-    /// <summary>Takes in what the inner port has and raises <see cref="Arrived"/> if something fell due.</summary>
-    /// <returns>When the next held datagram is due; null when none is held.</returns>
+    /// <summary>Takes what the inner port has, and raises <see cref="Arrived"/> if a datagram fell due.</summary>
+    /// <returns>The time at which the next held datagram is due; null when none is held.</returns>
     internal SimTime? Poll()
     {
         bool announce = false;

@@ -6,11 +6,13 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>Datagrams on the last part of their way: taken from a port, not yet due. Each sender has its own link. Not thread-safe.</summary>
-/// <remarks>At most <see cref="MaxHeld"/> are held; what comes beyond that is lost, as in any queue that is full.</remarks>
+/// <summary>
+/// A queue of datagrams that were taken from a port and are not yet due. Each sender has its own link. Not thread-safe.
+/// </summary>
+/// <remarks>Holds at most <see cref="MaxHeld"/> datagrams; further ones are lost, as in any full queue.</remarks>
 internal sealed class HeldDatagrams
 {
-    /// <summary>The most that are held at a time: some 80 MB if all are as long as they may be.</summary>
+    /// <summary>The most datagrams held at a time: some 80 MB at their largest size.</summary>
     internal const int MaxHeld = 1 << 16;
 
     private readonly Func<PeerAddress, LinkModel?> linkFrom;
@@ -21,17 +23,18 @@ internal sealed class HeldDatagrams
     private long sequence;
     private int undecided;
 
-    /// <summary>Nothing held yet.</summary>
-    /// <param name="linkFrom">Called once for each sender; null refuses a datagram, and the sender is asked about again.</param>
+    /// <summary>Creates an empty queue.</summary>
+    /// <param name="linkFrom">Called once for each new sender to get its link. If it returns null, the datagram is refused, and the next
+    /// one asks again.</param>
     internal HeldDatagrams(Func<PeerAddress, LinkModel?> linkFrom) => this.linkFrom = linkFrom;
 
-    /// <summary>How many were lost on the way.</summary>
+    /// <summary>The number of datagrams lost on the link.</summary>
     internal long Lost { get; private set; }
 
-    /// <summary>How many came from a sender that has no link.</summary>
+    /// <summary>The number of datagrams from senders without a link.</summary>
     internal long Refused { get; private set; }
 
-    /// <summary>When the next is due, or a queue decides on one; null when none is held.</summary>
+    /// <summary>The time at which the next datagram is due or a queue decides on one; null when none is held.</summary>
     internal SimTime? NextDue
     {
         get
@@ -46,7 +49,9 @@ internal sealed class HeldDatagrams
         }
     }
 
-    /// <summary>A link maker that gives each sender the same leg and its own luck, in the order in which they are first heard of.</summary>
+    /// <summary>
+    /// Returns a link factory that gives each sender the same leg with its own seed, in the order of their first datagrams.
+    /// </summary>
     internal static Func<PeerAddress, LinkModel> SameLegs(LinkLeg leg, ulong seed)
     {
         ArgumentNullException.ThrowIfNull(leg);
@@ -55,7 +60,7 @@ internal sealed class HeldDatagrams
         return _ => new LinkModel(leg, random.Fork(senders++));
     }
 
-    /// <summary>Takes all that the port has, as sent at <paramref name="now"/>; true if it had any.</summary>
+    /// <summary>Takes every datagram from the port, as sent at <paramref name="now"/>. Returns true if there was any.</summary>
     internal bool TakeFrom(IDatagramPort port, SimTime now)
     {
         bool any = false;
@@ -91,7 +96,7 @@ internal sealed class HeldDatagrams
         return any;
     }
 
-    /// <summary>The earliest datagram that is due by <paramref name="now"/>; of those due at one tick the one that came first.</summary>
+    /// <summary>Returns the earliest datagram due by <paramref name="now"/>; at one tick the one that arrived first.</summary>
     internal bool TryDequeueDue(SimTime now, out (byte[] Datagram, PeerAddress From) datagram)
     {
         foreach (LinkModel link in deciding)

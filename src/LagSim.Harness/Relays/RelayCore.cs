@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Relays;
 
-/// <summary>A relay without threads or a clock of its own: who goes where, and when. Not thread-safe, but for <see cref="Traffic"/>.</summary>
+/// <summary>
+/// A relay without threads or a clock of its own. It forwards datagrams when polled. Not thread-safe, except <see cref="Traffic"/>.
+/// </summary>
 internal sealed class RelayCore : IDisposable
 {
     private readonly IDatagramPort front;
@@ -20,22 +22,23 @@ internal sealed class RelayCore : IDisposable
     private readonly SimDuration? change;
     private readonly HeldDatagrams toHost;
     private readonly Dictionary<PeerAddress, Client> clients = [];
-    private readonly object gate = new(); // seven counters that belong together; taken only to replace or copy them
+    private readonly object gate = new(); // guards seven counters that belong together
     private SimTime polled;
-    private int changesAsked; // 1 if so
+    private int changesAsked; // 1 if a change is requested
     private RelayTraffic traffic;
     private long forwardedToHost;
     private long forwardedFromHost;
     private long portChanges;
 
-    /// <summary>A relay without clients.</summary>
-    /// <param name="front">Where clients send to; owned from now on.</param>
-    /// <param name="host">Whom they mean.</param>
-    /// <param name="profile">What each client's link does.</param>
-    /// <param name="seed">The luck of all links; clients get theirs in the order in which they are first heard of.</param>
-    /// <param name="maxClients">How many there can be.</param>
-    /// <param name="openPort">Opens the port by which the host knows one client, owned from then on; null if there is none to be had.</param>
-    /// <param name="change">After how long the host sees each client at another port, again and again; null for never.</param>
+    /// <summary>Creates a relay without clients.</summary>
+    /// <param name="front">The port for clients, which the relay owns.</param>
+    /// <param name="host">The address of the host.</param>
+    /// <param name="profile">The profile of each client's link.</param>
+    /// <param name="seed">The seed of all links. Clients get theirs in the order of their first datagrams.</param>
+    /// <param name="maxClients">The most clients.</param>
+    /// <param name="openPort">Opens the port towards the host for one client, which the relay owns; returns null if none is
+    /// available.</param>
+    /// <param name="change">The interval after which the host sees each client at another port, repeatedly; null for never.</param>
     internal RelayCore(
         IDatagramPort front,
         PeerAddress host,
@@ -55,7 +58,7 @@ internal sealed class RelayCore : IDisposable
         toHost = new HeldDatagrams(LinkOf);
     }
 
-    /// <summary>What went through so far. From any thread.</summary>
+    /// <summary>The traffic so far. Safe on any thread.</summary>
     internal RelayTraffic Traffic
     {
         get
@@ -67,11 +70,11 @@ internal sealed class RelayCore : IDisposable
         }
     }
 
-    /// <summary>Has the next poll give every client another port. From any thread.</summary>
+    /// <summary>Requests another port for every client, on the next poll. Safe on any thread.</summary>
     internal void ChangePorts() => Interlocked.Exchange(ref changesAsked, 1);
 
-    /// <summary>Takes in what came, as sent now, and hands on what is due by now.</summary>
-    /// <returns>When the next datagram is due; null when none is on its way.</returns>
+    /// <summary>Accepts what arrived, as sent now, and forwards what is due.</summary>
+    /// <returns>The time at which the next datagram is due; null when none is in transit.</returns>
     internal SimTime? Poll(SimTime now)
     {
         polled = now;
@@ -115,7 +118,7 @@ internal sealed class RelayCore : IDisposable
         }
     }
 
-    /// <summary>A new client's way to the host; null if there can be no more.</summary>
+    /// <summary>Adds a client; null if there can be no more.</summary>
     private LinkModel? LinkOf(PeerAddress client)
     {
         if (clients.Count == maxClients || openPort() is not IDatagramPort port)
@@ -136,8 +139,8 @@ internal sealed class RelayCore : IDisposable
     }
 
     /// <summary>
-    /// Closes the port by which the host knows a client, when it is time, and opens another one: what the host still sends to the former is lost, as with a
-    /// translator of addresses that forgets.
+    /// Replaces the port towards the host for a client when it is time. What the host still sends to the former port is lost, as behind a
+    /// NAT that forgets a mapping.
     /// </summary>
     private void ChangePort(Client client, bool isAsked, SimTime now)
     {
@@ -172,10 +175,10 @@ internal sealed class RelayCore : IDisposable
 
         internal HeldDatagrams FromHost { get; } = fromHost;
 
-        /// <summary>By which the host knows it.</summary>
+        /// <summary>The port towards the host.</summary>
         internal required IDatagramPort Port { get; set; }
 
-        /// <summary>When that is to be another one; null for never.</summary>
+        /// <summary>The time of the next port change; null for never.</summary>
         internal required SimTime? NextChange { get; set; }
     }
 }

@@ -10,22 +10,24 @@ using LagSim.Time;
 namespace LagSim.Harness.Relays;
 
 /// <summary>
-/// A link profile between real processes: clients send to this relay as if it were the host, and it passes their datagrams on to the host, and the
-/// host's answers back, as late and with as many losses as the profile says.
+/// A relay that simulates a link profile between real processes. Clients send to it as if it were the host; it forwards datagrams in both
+/// directions with the profile's delays and losses.
 /// </summary>
 /// <remarks>
-/// <para>Each client has a socket of its own towards the host, so that the host tells them apart as it would without a relay, and a link of its
-/// own: its luck depends on the seed and on how many clients were heard of before it. What the profile has in periods befalls both
-/// directions of a client's link at once. Datagrams are handed on as they are, whatever is in them.</para>
-/// <para>A thread of its own waits, without spinning, for the next datagram that comes in or falls due; it is late by the operating system's
-/// timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. Which luck a datagram meets depends on the seed and the order of arrival;
-/// when it is due also on the clock. The profile's <see cref="LinkProfile.ReceiverClockOffset"/> is no matter of a relay. A bulk transfer of
-/// the profile's is simulated beside what is real, from a client's first datagram on, for each client on a link of its own.</para>
+/// <para>Each client has its own socket towards the host, so the host sees separate clients as it would without a relay. Each client also
+/// has its own link, with random numbers that depend on the seed and on the number of clients before it. Periodic disturbances in the
+/// profile affect both directions of a link at once. Datagrams are forwarded unchanged, whatever they contain.</para>
+/// <para>A background thread waits, without spinning, for the next datagram that arrives or falls due. It is late by the operating system's
+/// timer: about 1 ms on Linux and macOS, up to 16 ms on Windows. What happens to a datagram depends on the seed and the order of arrival;
+/// when it is due also depends on the clock. The profile's <see cref="LinkProfile.ReceiverClockOffset"/> is ignored. A bulk transfer in the
+/// profile is simulated beside the real traffic, from a client's first datagram on, with its own link for each client.</para>
 /// <para>Safe on any thread.</para>
 /// </remarks>
 public sealed class UdpRelay : IDisposable
 {
-    /// <summary>The most clients there can be, ever: one that has left keeps its place. Datagrams of others are refused and counted.</summary>
+    /// <summary>
+    /// The most clients ever, since one that has left keeps its place. Datagrams of further ones are refused and counted.
+    /// </summary>
     public const int MaxClients = 64;
 
     private readonly IClock clock;
@@ -33,15 +35,17 @@ public sealed class UdpRelay : IDisposable
     private readonly WorldThread thread;
     private readonly IPEndPoint towardsHost;
 
-    /// <summary>Opens the relay and begins to pass on.</summary>
-    /// <param name="listen">Where clients send to; port 0 takes any free one, which <see cref="LocalAddress"/> then tells.</param>
-    /// <param name="host">Where the host listens.</param>
-    /// <param name="profile">What each client's link does.</param>
-    /// <param name="seed">The luck of all links.</param>
-    /// <param name="clock">Real time, read from the relay's thread.</param>
-    /// <param name="change">After how long the host sees each client at another port, again and again; null, the default, for never.</param>
-    /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on, or is the relay's own.</exception>
-    /// <exception cref="IOException">The system does not give <paramref name="listen"/>, for instance because its port is in use.</exception>
+    /// <summary>Opens the relay and starts forwarding.</summary>
+    /// <param name="listen">The endpoint for clients. Port 0 takes any free one; read it from <see cref="LocalAddress"/>.</param>
+    /// <param name="host">The endpoint of the host.</param>
+    /// <param name="profile">The profile of each client's link.</param>
+    /// <param name="seed">The seed of all links.</param>
+    /// <param name="clock">The real-time clock, read from the relay's thread.</param>
+    /// <param name="change">The interval after which the host sees each client at another port, repeatedly; null, the default, for
+    /// never.</param>
+    /// <exception cref="ArgumentException"><paramref name="host"/> is not the address of one machine and a port from 1 on, or is the
+    /// relay's own.</exception>
+    /// <exception cref="IOException">The system refuses <paramref name="listen"/>, for instance because its port is in use.</exception>
     public UdpRelay(IPEndPoint listen, IPEndPoint host, LinkProfile profile, ulong seed, IClock clock, SimDuration? change = null)
     {
         ArgumentNullException.ThrowIfNull(listen);
@@ -70,11 +74,11 @@ public sealed class UdpRelay : IDisposable
         thread.Start();
     }
 
-    /// <summary>Where clients reach the relay; on this machine only, if it listens on every address there is.</summary>
+    /// <summary>The address for clients. It is on this machine only, if the relay listens on all addresses.</summary>
     public PeerAddress LocalAddress { get; }
 
-    /// <summary>What went through so far; all of it once the relay is disposed, a moment less while it works.</summary>
-    /// <exception cref="InvalidOperationException">The relay's thread ended by an exception, the inner one.</exception>
+    /// <summary>The traffic so far. Complete once the relay is disposed; a moment behind while it works.</summary>
+    /// <exception cref="InvalidOperationException">The relay's thread ended with an exception, the inner one.</exception>
     public RelayTraffic Traffic
     {
         get
@@ -84,21 +88,26 @@ public sealed class UdpRelay : IDisposable
         }
     }
 
-    /// <summary>Has the host see every client at another port from now on; what it still sends to the former is lost. From any thread.</summary>
+    /// <summary>
+    /// Moves every client to another port towards the host. What the host still sends to the former port is lost. Safe on any thread.
+    /// </summary>
     public void ChangePorts()
     {
         core.ChangePorts();
         thread.Wake();
     }
 
-    /// <summary>Stops at once and closes all sockets; what is still on its way is lost. Safe to call twice.</summary>
+    /// <summary>Stops at once and closes all sockets. Datagrams in transit are lost. Safe to call twice.</summary>
     public void Dispose()
     {
         thread.Dispose();
         core.Dispose();
     }
 
-    /// <summary>Whether what is sent to an address of the right port comes to who listens at one: at that very address, or at any of this machine.</summary>
+    /// <summary>
+    /// Whether a datagram to an address with the right port reaches the listener: it listens on that very address, or on any of this
+    /// machine.
+    /// </summary>
     private static bool IsReachedAt(IPAddress listening, IPAddress to)
     {
         bool listensOnAll = listening.Equals(IPAddress.Any) || listening.Equals(IPAddress.IPv6Any);
@@ -107,7 +116,7 @@ public sealed class UdpRelay : IDisposable
         static IPAddress Plain(IPAddress address) => address.IsIPv4MappedToIPv6 ? address.MapToIPv4() : address;
     }
 
-    /// <summary>A socket can be bound to addresses of this machine, and to no others.</summary>
+    /// <summary>Whether an address belongs to this machine: only then can a socket be bound to it.</summary>
     private static bool IsOfThisMachine(IPAddress address)
     {
         try
@@ -134,7 +143,7 @@ public sealed class UdpRelay : IDisposable
         }
         catch (IOException)
         {
-            return null; // the system has no more; the client's next datagram asks again
+            return null; // the system has no more sockets; the client's next datagram tries again
         }
     }
 }

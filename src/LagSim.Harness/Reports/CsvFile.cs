@@ -5,10 +5,12 @@ using System.IO;
 
 namespace LagSim.Harness.Reports;
 
-/// <summary>Writes comma-separated values as RFC 4180 has them: a header, rows that end in CR LF, quotes only where a value needs them.</summary>
+/// <summary>
+/// A writer of comma-separated values by RFC 4180: a header, rows that end in CR LF, and quotes only where a value needs them.
+/// </summary>
 /// <remarks>
-/// Streams: a row is with the <see cref="TextWriter"/> once <see cref="WriteRow"/> returns. The writer stays the caller's to flush and
-/// close. Invariant culture; floating-point numbers read back as the very same number. Not thread-safe.
+/// It streams: a row is with the <see cref="TextWriter"/> once <see cref="WriteRow"/> returns. The caller flushes and closes the writer.
+/// Invariant culture; floating-point numbers read back exactly. Not thread-safe.
 /// </remarks>
 public sealed class CsvFile
 {
@@ -16,8 +18,8 @@ public sealed class CsvFile
     private readonly int _columns;
 
     /// <summary>Starts a file by writing its header.</summary>
-    /// <param name="output">Where the file goes.</param>
-    /// <param name="header">The names of the columns, with their unit: <c>time_s</c>.</param>
+    /// <param name="output">The destination.</param>
+    /// <param name="header">The names of the columns, with their units: <c>time_s</c>.</param>
     /// <exception cref="ArgumentException">There is no column, or two have the same name.</exception>
     public CsvFile(TextWriter output, params string[] header)
     {
@@ -33,8 +35,8 @@ public sealed class CsvFile
         WriteFields(header);
     }
 
-    /// <summary>Writes one row; null is an empty field, <c>true</c> and <c>false</c> are lower case.</summary>
-    /// <exception cref="ArgumentException">There are not as many values as columns.</exception>
+    /// <summary>Writes one row. Null is an empty field; <c>true</c> and <c>false</c> are lower case.</summary>
+    /// <exception cref="ArgumentException">The number of values is not that of the columns.</exception>
     public void WriteRow(params object?[] values)
     {
         ArgumentNullException.ThrowIfNull(values);

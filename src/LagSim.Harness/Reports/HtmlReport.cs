@@ -8,7 +8,7 @@ using LagSim.Harness.Reports.Charts;
 
 namespace LagSim.Harness.Reports;
 
-/// <summary>One self-contained web page: headings, text, tables and charts in the order they were added.</summary>
+/// <summary>A self-contained web page: headings, text, tables and charts in the order they were added.</summary>
 /// <remarks>
 /// No script, nothing loaded from elsewhere (a content policy in the page forbids it). Light and dark as the reader's system is.
 /// All text is escaped. The page is well-formed XML too. Not thread-safe.
@@ -20,11 +20,11 @@ public sealed class HtmlReport
     private readonly string _introduction;
     private readonly ReportFooter _footer;
 
-    /// <summary>An empty report.</summary>
+    /// <summary>Creates an empty report.</summary>
     /// <param name="title">The title of page and text.</param>
-    /// <param name="introduction">What the reader is about to see, in a few sentences.</param>
-    /// <param name="footer">What it takes to make the report again.</param>
-    /// <exception cref="ArgumentException">There is no title.</exception>
+    /// <param name="introduction">A few sentences on the contents.</param>
+    /// <param name="footer">The information needed to reproduce the report.</param>
+    /// <exception cref="ArgumentException">The title is empty.</exception>
     public HtmlReport(string title, string introduction, ReportFooter footer)
     {
         ArgumentException.ThrowIfNullOrEmpty(title);
@@ -41,12 +41,12 @@ public sealed class HtmlReport
     /// <summary>Adds a paragraph.</summary>
     public HtmlReport AddParagraph(string text) => Add(html => Element(html, "p", text));
 
-    /// <summary>Adds a sentence that says what came out, set to be read first.</summary>
+    /// <summary>Adds a sentence with the result, set to be read first.</summary>
     public HtmlReport AddFinding(string text) => Add(html => Element(html, "p", text, "finding"));
 
-    /// <summary>Adds a table, with the meaning of its words below it where there are any.</summary>
+    /// <summary>Adds a table, with explanations of its words below it if there are any.</summary>
     /// <param name="table">The table.</param>
-    /// <param name="terms">Words that the table uses, each with what it means; null for none.</param>
+    /// <param name="terms">The words that the table uses, each with its meaning; null for none.</param>
     public HtmlReport AddTable(ReportTable table, IReadOnlyList<(string Word, string Meaning)>? terms = null)
     {
         ArgumentNullException.ThrowIfNull(table);
@@ -85,7 +85,7 @@ public sealed class HtmlReport
         Write(file);
     }
 
-    /// <summary>Writes the page; the writer stays open.</summary>
+    /// <summary>Writes the page. The writer stays open.</summary>
     public void Write(TextWriter output)
     {
         ArgumentNullException.ThrowIfNull(output);
@@ -201,7 +201,7 @@ public sealed class HtmlReport
         html.WriteEndElement();
     }
 
-    /// <summary>An element of text; always with an end tag, since HTML knows no short form of one.</summary>
+    /// <summary>Writes a text element, always with an end tag, since HTML has no short form of one.</summary>
     private static void Element(XmlWriter html, string name, string text, string? cssClass = null)
     {
         html.WriteStartElement(name);

@@ -5,13 +5,13 @@ using System.Linq;
 
 namespace LagSim.Harness.Reports;
 
-/// <summary>A table of a report, of ready-made texts. Columns of nothing but numbers are set flush right.</summary>
+/// <summary>A table of a report, with formatted cells. Columns that hold only numbers are set flush right.</summary>
 public sealed class ReportTable
 {
-    /// <summary>A table.</summary>
-    /// <param name="caption">What the table shows; may be empty.</param>
+    /// <summary>Creates a table.</summary>
+    /// <param name="caption">The caption; may be empty.</param>
     /// <param name="columns">The headings, with units.</param>
-    /// <param name="rows">As many cells each as there are columns; an empty cell or a dash is fine.</param>
+    /// <param name="rows">The rows, with as many cells as columns; an empty cell or a dash is fine.</param>
     /// <exception cref="ArgumentException">There is no column, or a row has another number of cells.</exception>
     public ReportTable(string caption, IReadOnlyList<string> columns, IReadOnlyList<IReadOnlyList<string>> rows)
     {
@@ -37,7 +37,7 @@ public sealed class ReportTable
         IsNumeric = columns.Select((_, column) => rows.Count > 0 && rows.All(row => IsNumberOrBlank(row[column]))).ToArray();
     }
 
-    /// <summary>What the table shows.</summary>
+    /// <summary>The caption.</summary>
     public string Caption { get; }
 
     /// <summary>The headings.</summary>
@@ -46,7 +46,7 @@ public sealed class ReportTable
     /// <summary>The cells, row by row.</summary>
     public IReadOnlyList<IReadOnlyList<string>> Rows { get; }
 
-    /// <summary>For each column, whether it holds numbers alone.</summary>
+    /// <summary>Whether each column holds only numbers.</summary>
     internal IReadOnlyList<bool> IsNumeric { get; }
 
     private static bool IsNumberOrBlank(string cell) => cell.Length == 0 || cell is "-" or "\u2013" or "\u2014"

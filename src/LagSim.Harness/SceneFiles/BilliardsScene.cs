@@ -3,9 +3,13 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Pool: fifteen balls in a rack that touch one another, a cue ball on its way to them, a table, four cushions, no pockets, no friction.</summary>
-/// <remarks>A table of nine feet, 100 by 50 inches between the cushions; balls of 2 1/4 inches and 6 ounces. The cue ball comes a little off the middle, as
-/// in a real break: a mirror-symmetrical one would stay so.</remarks>
+/// <summary>
+/// Pool: fifteen balls in a rack that touch one another, a cue ball on its way to them, a table, four cushions, no pockets, no friction.
+/// </summary>
+/// <remarks>
+/// A table of nine feet, 100 by 50 inches between the cushions; balls of 2 1/4 inches and 6 ounces. The cue ball comes a little off the
+/// middle, as in a real break: a mirror-symmetrical one would stay so.
+/// </remarks>
 internal static class BilliardsScene
 {
     internal const string Name = "billiards";

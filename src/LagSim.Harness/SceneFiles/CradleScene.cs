@@ -4,9 +4,9 @@ namespace LagSim.Harness.SceneFiles;
 
 /// <summary>Newton's cradle without strings.</summary>
 /// <remarks>
-/// The balls stand on a frictionless floor and touch: so the rule for many contacts at one instant is at work, which passes the push on from ball
-/// to ball, and with it the laws of rest and of sliding. Two walls stand in for the strings. Every place and time is a whole multiple of a
-/// power of two, so nothing is rounded, and after each period of 4 s the world is what it was, to the bit.
+/// The balls stand on a frictionless floor and touch, so the rule for several contacts at one instant passes the push from ball to ball,
+/// and the laws of rest and sliding apply. Two walls stand in for the strings. Every position and time is a multiple of a power of two, so
+/// nothing is rounded, and after each period of 4 s the world is the same to the bit.
 /// </remarks>
 internal static class CradleScene
 {

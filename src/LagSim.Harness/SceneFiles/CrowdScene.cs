@@ -7,8 +7,8 @@ namespace LagSim.Harness.SceneFiles;
 
 /// <summary>Many balls of many sizes in a box with elastic walls, in flight for ever.</summary>
 /// <remarks>
-/// There is no gravity: it would make a crowd of any other number another thing, taller, faster and denser at the bottom. So every ball meets as many
-/// others a second whatever their number, and what grows with it is what the engine adds.
+/// There is no gravity, which would make crowds of different size differ in height, speed and density. So every ball meets as many others a
+/// second whatever their number, and any growth of cost is the engine's.
 /// </remarks>
 internal static class CrowdScene
 {
@@ -23,7 +23,7 @@ internal static class CrowdScene
     private const double SpeedDeviation = 1; // m/s along each axis
     private const ulong Seed = 1;
 
-    /// <summary>The number in <c>crowd</c> or <c>crowd-N</c>, written as a number is; false for any other text or number.</summary>
+    /// <summary>Reads the number in <c>crowd</c> or <c>crowd-N</c>, written as a plain number; false for any other text.</summary>
     internal static bool TryParse(string name, out int bodies)
     {
         bodies = DefaultBodies;
@@ -34,7 +34,7 @@ internal static class CrowdScene
                 && name == NameOf(bodies));
     }
 
-    /// <summary>What to write in place of a name that means a crowd and is not one; empty for any other.</summary>
+    /// <summary>Returns the correct form of a name that means a crowd but is not valid; empty for any other name.</summary>
     internal static string Hint(string name)
     {
         if (!name.StartsWith($"{Name}-", StringComparison.Ordinal))
@@ -49,7 +49,7 @@ internal static class CrowdScene
 
     internal static string NameOf(int bodies) => string.Create(CultureInfo.InvariantCulture, $"{Name}-{bodies}");
 
-    /// <summary>How many cells the box has along each edge; each ball starts within a cell of its own.</summary>
+    /// <summary>Returns the number of cells along each edge of the box. Each ball starts within its own cell.</summary>
     internal static int CellsPerEdge(int bodies)
     {
         int cells = 1;

@@ -5,7 +5,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>What the kinds of forces are called in scene files and tables, and which keys a file has for each.</summary>
+/// <summary>The names of the kinds of forces in scene files and tables, and the keys of each.</summary>
 internal static class ForceKindNames
 {
     private static readonly (ForceKind Kind, string Name, Keys Keys)[] All =
@@ -18,7 +18,7 @@ internal static class ForceKindNames
         (ForceKind.Central, "central", new(["centre_m", "strength_m_per_s2"], ["power"])),
     ];
 
-    /// <summary>The kinds a file can have as they stand in an error.</summary>
+    /// <summary>Returns the kinds that a file can have, as listed in an error.</summary>
     internal static string Quoted => "\"" + string.Join("\", \"", All.Select(each => each.Name)) + "\"";
 
     internal static string Of(ForceKind kind) => kind == ForceKind.Supplied ? "supplied" : All.First(each => each.Kind == kind).Name;
@@ -32,6 +32,6 @@ internal static class ForceKindNames
         return at >= 0;
     }
 
-    /// <summary>The keys of a kind besides name and kind.</summary>
+    /// <summary>Returns the keys of a kind besides name and kind.</summary>
     internal readonly record struct Keys(IReadOnlyList<string> Required, IReadOnlyList<string> Optional);
 }

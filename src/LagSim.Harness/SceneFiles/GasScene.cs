@@ -5,10 +5,11 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Equal elastic balls in a periodic box: the same density everywhere and no edge, whatever their number.</summary>
+/// <summary>Equal elastic balls in a periodic box, with the same density everywhere and no edge, whatever their number.</summary>
 /// <remarks>
-/// They start on a lattice and forget it after a few impacts each. At a volume fraction of 0.2 each has about five impacts a second: in a gas of hard spheres
-/// of diameter d and mean speed v that is sqrt(2) pi d^2 v n times the contact value of the pair correlation, (1 - f/2) / (1 - f)^3 (Carnahan and Starling).
+/// They start on a lattice and forget it after a few impacts each. At a volume fraction of 0.2 each has about five impacts a second: in a
+/// gas of hard spheres of diameter d and mean speed v, the rate is sqrt(2) pi d^2 v n times the contact value of the pair correlation, (1 -
+/// f/2) / (1 - f)^3 (Carnahan and Starling).
 /// </remarks>
 internal static class GasScene
 {

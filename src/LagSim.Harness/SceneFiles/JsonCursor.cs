@@ -5,10 +5,12 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Walks a JSON document once, knows where in it it is, and turns whatever is wrong into a <see cref="SceneFileException"/>.</summary>
+/// <summary>
+/// A forward-only cursor over a JSON document that tracks its position and turns every error into a <see cref="SceneFileException"/>.
+/// </summary>
 internal ref struct JsonCursor
 {
-    /// <summary>Deeper than any scene; what nests deeper is refused before it can cost anything.</summary>
+    /// <summary>The deepest nesting, deeper than any scene. Deeper documents are refused before they can cost anything.</summary>
     internal const int MaxDepth = 16;
 
     private readonly ReadOnlySpan<byte> json;
@@ -23,7 +25,7 @@ internal ref struct JsonCursor
         reader = new Utf8JsonReader(json, new JsonReaderOptions { MaxDepth = MaxDepth, CommentHandling = JsonCommentHandling.Disallow });
     }
 
-    /// <summary>Reads the next token; the first one and the end of the document are the caller's to ask for.</summary>
+    /// <summary>Reads the next token. The caller requests the first one and the end of the document.</summary>
     internal bool Read()
     {
         try
@@ -37,19 +39,19 @@ internal ref struct JsonCursor
         }
     }
 
-    /// <summary>Goes into the object that stands here.</summary>
+    /// <summary>Enters the object at the current position.</summary>
     internal void EnterObject()
     {
         Expect(JsonTokenType.StartObject, "an object");
         path.Enter();
     }
 
-    /// <summary>Goes on to the value of the object's next key, or leaves the object and gives null.</summary>
-    /// <param name="known">The keys it may have.</param>
-    /// <param name="seen">The keys it had so far, a bit each; none at first.</param>
+    /// <summary>Moves to the value of the object's next key, or leaves the object and returns null.</summary>
+    /// <param name="known">The keys that the object may have.</param>
+    /// <param name="seen">The keys so far, as bits; none at first.</param>
     internal string? NextKey(JsonKeys known, ref uint seen)
     {
-        Read(); // what fails here follows the value of the key before
+        Read(); // an error here follows the value of the key before
         path.AtKey("");
         if (reader.TokenType == JsonTokenType.EndObject)
         {
@@ -84,14 +86,14 @@ internal ref struct JsonCursor
         return known.Names[key];
     }
 
-    /// <summary>Goes into the array that stands here.</summary>
+    /// <summary>Enters the array at the current position.</summary>
     internal void EnterArray(string what)
     {
         Expect(JsonTokenType.StartArray, what);
         path.Enter();
     }
 
-    /// <summary>Goes on to the array's next element, or leaves the array and gives false.</summary>
+    /// <summary>Moves to the array's next element, or leaves the array and returns false.</summary>
     internal bool NextElement()
     {
         path.AtNextElement();
@@ -105,7 +107,7 @@ internal ref struct JsonCursor
         return false;
     }
 
-    /// <summary>The finite number that stands here.</summary>
+    /// <summary>Reads a finite number.</summary>
     internal double Number()
     {
         Expect(JsonTokenType.Number, "a number");
@@ -117,7 +119,7 @@ internal ref struct JsonCursor
         return value;
     }
 
-    /// <summary>The vector that stands here, as an array of three numbers.</summary>
+    /// <summary>Reads a vector, as an array of three numbers.</summary>
     internal Vector3D Vector()
     {
         const string What = "an array of three numbers [x, y, z]";
@@ -137,18 +139,18 @@ internal ref struct JsonCursor
         return count == 3 ? new Vector3D(values[0], values[1], values[2]) : throw Fail($"has {count} elements; it must be {What}");
     }
 
-    /// <summary>The string that stands here.</summary>
+    /// <summary>Reads a string.</summary>
     internal string String()
     {
         Expect(JsonTokenType.String, "a string");
         return Text("the string");
     }
 
-    /// <summary>An error about what stands here.</summary>
+    /// <summary>Creates an error about the value at the current position.</summary>
     internal readonly SceneFileException Fail(string problem, Exception? cause = null) =>
         new(file, path.ToString(), JsonFault.LineOf(json, reader.TokenStartIndex), problem, cause);
 
-    /// <summary>An error about a key of the object that is being read, whatever was read last.</summary>
+    /// <summary>Creates an error about a key of the current object, whatever was read last.</summary>
     internal readonly SceneFileException FailAt(string key, string problem)
     {
         string here = path.ToString();
@@ -175,7 +177,7 @@ internal ref struct JsonCursor
         _ => JsonFault.Clip(Raw(), 40),
     };
 
-    // The bytes as they stand, escapes included: the document was checked to be UTF-8.
+    // The raw bytes, escapes included: the document was checked to be UTF-8.
     private readonly string Raw() => Encoding.UTF8.GetString(reader.ValueSpan[..Math.Min(reader.ValueSpan.Length, 200)]);
 
     private string Text(string what)

@@ -4,12 +4,12 @@ using System.Text.Json;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Sentences for what is not JSON, and texts from a file made fit for a message.</summary>
+/// <summary>Error messages for invalid JSON, and quoting of text from a file.</summary>
 internal static class JsonFault
 {
     private const int MaxShown = 40;
 
-    /// <summary>What is wrong with a document that the JSON reader refused, and the line.</summary>
+    /// <summary>Returns the error in a document that the JSON reader refused, and its line.</summary>
     internal static string Describe(ReadOnlySpan<byte> json, JsonException failure, out int line)
     {
         line = (int)Math.Min(failure.LineNumber ?? 0, int.MaxValue - 1) + 1;
@@ -35,16 +35,16 @@ internal static class JsonFault
             return "a comma stands before a closing bracket; trailing commas are not allowed";
         }
 
-        // What follows in the library's own message is the place, which is named already.
+        // The rest of the library's message is the position, which is already named.
         string message = failure.Message;
         int place = message.IndexOf(" LineNumber:", StringComparison.Ordinal);
         return $"this is not valid JSON at byte {at + 1}: {Clip(place < 0 ? message : message[..place], 300)}";
     }
 
-    /// <summary>The line of a byte, counted from 1.</summary>
+    /// <summary>Returns the line of a byte, counted from 1.</summary>
     internal static int LineOf(ReadOnlySpan<byte> json, long at) => json[..(int)Math.Min(at, json.Length)].Count((byte)'\n') + 1;
 
-    /// <summary>Where a text stops to be UTF-8.</summary>
+    /// <summary>Returns the offset at which a text stops being UTF-8.</summary>
     internal static int FirstInvalid(ReadOnlySpan<byte> text)
     {
         int at = 0;
@@ -56,10 +56,10 @@ internal static class JsonFault
         return at;
     }
 
-    /// <summary>A text from a file on one line, in quotation marks, without control characters and not too long.</summary>
+    /// <summary>Quotes a text from a file on one line, without control characters and of limited length.</summary>
     internal static string Quote(string text) => "\"" + Clip(text, MaxShown) + "\"";
 
-    /// <summary>Whether a text is one of the usual spellings of what is no finite number.</summary>
+    /// <summary>Whether a text is a usual spelling of NaN or infinity.</summary>
     internal static bool IsNotANumber(ReadOnlySpan<byte> json, int at)
     {
         // The reader stops at the word, behind its sign, or at the second letter where the first could begin "null".

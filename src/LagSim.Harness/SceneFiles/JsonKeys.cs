@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>The keys that one kind of JSON object may have; the first ones it must have.</summary>
+/// <summary>The keys of one kind of JSON object. The first ones are required.</summary>
 internal sealed class JsonKeys
 {
     internal JsonKeys(string[] required, string[] optional)
@@ -17,6 +17,6 @@ internal sealed class JsonKeys
 
     internal string Listed => string.Join(", ", Names);
 
-    /// <summary>The place of a key that is one of these.</summary>
+    /// <summary>Returns the index of a key.</summary>
     internal int IndexOf(string name) => Array.IndexOf(Names, name);
 }

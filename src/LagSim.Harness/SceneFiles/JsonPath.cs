@@ -3,7 +3,7 @@ using System.Text;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Where in a JSON document a reader is, kept as cheaply as it is needed rarely; it becomes text only in an error.</summary>
+/// <summary>The position of a reader in a JSON document. It becomes text only in an error, so it is cheap to keep.</summary>
 internal sealed class JsonPath
 {
     private readonly string[] keys; // the key at each depth; empty in an array, and in an object before its first
@@ -15,7 +15,7 @@ internal sealed class JsonPath
         indices = new int[maxDepth];
     }
 
-    /// <summary>How many objects and arrays are open.</summary>
+    /// <summary>The number of open objects and arrays.</summary>
     internal int Depth { get; private set; }
 
     internal void Enter()
@@ -31,7 +31,7 @@ internal sealed class JsonPath
 
     internal void AtNextElement() => indices[Depth - 1]++;
 
-    /// <summary>For example <c>bodies[2].radius_m</c>; empty for the document itself.</summary>
+    /// <summary>Returns the text, for example <c>bodies[2].radius_m</c>; empty for the document itself.</summary>
     public override string ToString()
     {
         StringBuilder path = new();

@@ -4,18 +4,18 @@ using LagSim.Testing.Text;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>What the motion laws are called in scene files, tables and on the command line.</summary>
+/// <summary>The names of the motion laws in scene files, tables and on the command line.</summary>
 public static class MotionNames
 {
     private static readonly string[] FlightNames = ["ballistic", "rk4", "closed-form", "dp54", "auto"];
 
-    /// <summary>The laws that a scene can choose for a body's flight.</summary>
+    /// <summary>The laws that a scene can choose for a body.</summary>
     public static IReadOnlyList<string> Flight => FlightNames;
 
-    /// <summary>The name of any law, those a scene cannot choose included.</summary>
+    /// <summary>Returns the name of any law, including those that a scene cannot choose.</summary>
     public static string Of(MotionLaw law) => MotionText.Of(law);
 
-    /// <summary>The law of flight of that name; false if there is none.</summary>
+    /// <summary>Finds the law of a name; false if there is none.</summary>
     public static bool TryParseFlight(string name, out MotionLaw law)
     {
         law = name switch
@@ -30,6 +30,6 @@ public static class MotionNames
         return law != MotionLaw.Absent;
     }
 
-    /// <summary>The laws of flight as they stand in an error: <c>"ballistic", "rk4"</c>.</summary>
+    /// <summary>Returns the laws as listed in an error: <c>"ballistic", "rk4"</c>.</summary>
     internal static string Quoted => "\"" + string.Join("\", \"", FlightNames) + "\"";
 }

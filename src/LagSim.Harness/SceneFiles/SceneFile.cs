@@ -7,11 +7,14 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Scenes as JSON files; docs/SCENES.md says what stands in one.</summary>
-/// <remarks>Strict: what is unknown, missing, given twice, of the wrong type or out of range is refused, with its place. Safe on any thread.</remarks>
+/// <summary>Reads and writes scenes as JSON files; docs/SCENES.md describes the format.</summary>
+/// <remarks>
+/// It is strict: anything unknown, missing, duplicated, of the wrong type or out of range is refused, with its position. Safe on any
+/// thread.
+/// </remarks>
 public static class SceneFile
 {
-    /// <summary>What the key <c>format</c> must say.</summary>
+    /// <summary>The required value of the key <c>format</c>.</summary>
     public const string Format = "lagsim-scene-1";
 
     /// <summary>The largest file that is read or written, in bytes: 64 MiB.</summary>
@@ -26,9 +29,9 @@ public static class SceneFile
     }
 
     /// <summary>Reads a scene from the bytes of a file.</summary>
-    /// <param name="utf8">The document; a byte order mark may stand before it.</param>
-    /// <param name="file">What to call it in errors.</param>
-    /// <exception cref="SceneFileException">There is no valid scene in it.</exception>
+    /// <param name="utf8">The document, with or without a byte order mark.</param>
+    /// <param name="file">The name for error messages.</param>
+    /// <exception cref="SceneFileException">The document holds no valid scene.</exception>
     public static Scene Parse(ReadOnlySpan<byte> utf8, string file)
     {
         ArgumentNullException.ThrowIfNull(file);
@@ -57,15 +60,15 @@ public static class SceneFile
         }
     }
 
-    /// <summary>The scene as the text of a file, ready to edit; it reads back as a scene with the same hash.</summary>
-    /// <exception cref="SceneFileException">It supplies accelerations written in C#.</exception>
+    /// <summary>Returns the scene as the text of a file, ready to edit. It reads back as a scene with the same hash.</summary>
+    /// <exception cref="SceneFileException">The scene supplies accelerations written in C#.</exception>
     public static string ToJson(Scene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);
         return Encoding.UTF8.GetString(ToBytes(scene, $"scene '{JsonFault.Clip(scene.Name, 64)}'"));
     }
 
-    /// <summary>Writes the scene to a file; one that is there is replaced.</summary>
+    /// <summary>Writes the scene to a file, and replaces an existing one.</summary>
     /// <exception cref="SceneFileException">The scene cannot be written as JSON, or the file cannot be written.</exception>
     public static void Write(Scene scene, string path)
     {
@@ -105,11 +108,11 @@ public static class SceneFile
         }
         catch (SceneException)
         {
-            // Every part is fine by itself; the caller reports what is wrong with them together.
+            // Every part is valid by itself; the caller reports what is wrong with them together.
         }
     }
 
-    // A length is not to be relied on: a pipe has none, and a file may grow while it is read.
+    // A length is unreliable: a pipe has none, and a file may grow during the read.
     private static byte[] ReadBytes(string path)
     {
         try

@@ -2,7 +2,9 @@ using System;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>A scene file cannot be read or written. The message names the file, the place in it, what is wrong and what is allowed.</summary>
+/// <summary>
+/// A scene file cannot be read or written. The message names the file, the position in it, what is wrong and what is allowed.
+/// </summary>
 public sealed class SceneFileException : Exception
 {
     /// <summary>No message; prefer the one with a sentence.</summary>
@@ -22,12 +24,12 @@ public sealed class SceneFileException : Exception
     {
     }
 
-    /// <summary>What is wrong, and where.</summary>
+    /// <summary>Creates an exception for a position in a file.</summary>
     /// <param name="file">The file, as the user named it.</param>
-    /// <param name="path">The place in the document, such as <c>bodies[2].radius_m</c>; empty for the whole of it.</param>
-    /// <param name="line">The line, counted from 1; 0 where there is none to name.</param>
-    /// <param name="problem">What is wrong and what is allowed.</param>
-    /// <param name="innerException">What caused it, if anything did.</param>
+    /// <param name="path">The position in the document, such as <c>bodies[2].radius_m</c>; empty for all of it.</param>
+    /// <param name="line">The line, counted from 1; 0 if none applies.</param>
+    /// <param name="problem">The problem, and what is allowed.</param>
+    /// <param name="innerException">The cause, if there is one.</param>
     public SceneFileException(string file, string path, int line, string problem, Exception? innerException = null)
         : base(Sentence(file, path, line, problem), innerException)
     {
@@ -39,10 +41,10 @@ public sealed class SceneFileException : Exception
     /// <summary>The file, as the user named it.</summary>
     public string File { get; } = "";
 
-    /// <summary>The place in the document, such as <c>bodies[2].radius_m</c>; empty for the whole of it.</summary>
+    /// <summary>The position in the document, such as <c>bodies[2].radius_m</c>; empty for all of it.</summary>
     public string Path { get; } = "";
 
-    /// <summary>The line in the file, counted from 1; 0 where there is none to name.</summary>
+    /// <summary>The line in the file, counted from 1; 0 if none applies.</summary>
     public int Line { get; }
 
     private static string Sentence(string file, string path, int line, string problem)

@@ -99,14 +99,14 @@ internal ref partial struct SceneJsonReader
         return names;
     }
 
-    /// <summary>The set of these forces, once all are known.</summary>
+    /// <summary>Returns the set of named forces, once all are known.</summary>
     private static ForceSet SetOf(List<string> names, List<string> known)
     {
         ForceSet set = ForceSet.None;
         foreach (string name in names)
         {
             int at = known.IndexOf(name);
-            set |= at is >= 0 and < ForceSet.MaxForces ? ForceSet.Of(at) : ForceSet.None; // too many forces are the builder's to refuse
+            set |= at is >= 0 and < ForceSet.MaxForces ? ForceSet.Of(at) : ForceSet.None; // the builder refuses too many forces
         }
 
         return set;

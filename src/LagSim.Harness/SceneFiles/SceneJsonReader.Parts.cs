@@ -153,7 +153,7 @@ internal ref partial struct SceneJsonReader
         }
 
         List<string> known = forceNames;
-        bool isAlone = locate is not null; // and no force is there
+        bool isAlone = locate is not null; // and no force exists
         Add(b =>
         {
             ForceSet set = isAlone ? ForceSet.None : SetOf(forces, known);

@@ -5,7 +5,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>The grammar of a scene file: which keys there are, what they mean to a <see cref="SceneBuilder"/>, and which may be left out.</summary>
+/// <summary>
+/// The parser of scene files: the keys, their meaning to a <see cref="SceneBuilder"/>, and which may be left out.
+/// </summary>
 internal ref partial struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
@@ -19,29 +21,28 @@ internal ref partial struct SceneJsonReader
         new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
 
     private readonly string? locate;
-    private readonly List<Action<SceneBuilder>> parts = new(); // what to build, once the name is known
+    private readonly List<Action<SceneBuilder>> parts = new(); // parts to build once the name is known
     private readonly List<string> forceNames = new();
-    private readonly List<(string Name, SceneFileException Where)> namedForces = new(); // a body may stand before the forces that it names
+    private readonly List<(string Name, SceneFileException Where)> namedForces = new(); // a body may come before the forces that it names
     private JsonCursor cursor;
 
     /// <param name="json">The document, known to be UTF-8.</param>
-    /// <param name="file">What errors call it.</param>
-    /// <param name="locate">
-    /// The scene's name, or null. With it builds every part by itself too, so that what is wrong with one is reported at its place. The limits stand in the builder alone, and
-    /// it names a part but cannot know where in the file that is; so a document that does not build is read once more like this.
-    /// </param>
+    /// <param name="file">The name for error messages.</param>
+    /// <param name="locate">The scene's name, or null. With a name, every part is also built by itself, so that an error is reported at its
+    /// position: the limits are in the builder, which names a part but does not know its position in the file. A document that does not
+    /// build is read again like this.</param>
     internal SceneJsonReader(ReadOnlySpan<byte> json, string file, string? locate)
     {
         cursor = new JsonCursor(json, file);
         this.locate = locate;
     }
 
-    /// <summary>What the document calls the scene, as far as it was read.</summary>
+    /// <summary>The scene's name in the document, as far as it was read.</summary>
     internal string SceneName { get; private set; } = "";
 
-    /// <summary>The scene that the document says.</summary>
-    /// <exception cref="SceneFileException">It says none; the message names the place.</exception>
-    /// <exception cref="SceneException">Every part can be read, but what they make up is no scene.</exception>
+    /// <summary>Reads the scene.</summary>
+    /// <exception cref="SceneFileException">The document holds no scene; the message names the position.</exception>
+    /// <exception cref="SceneException">Every part can be read, but together they make no scene.</exception>
     internal Scene Read()
     {
         cursor.Read();
@@ -131,7 +132,7 @@ internal ref partial struct SceneJsonReader
             return;
         }
 
-        SceneBuilder alone = new SceneBuilder(locate).WithGravity(Vector3D.Zero); // with which anything goes that is right in itself
+        SceneBuilder alone = new SceneBuilder(locate).WithGravity(Vector3D.Zero); // accepts every part that is valid by itself
         try
         {
             part(alone);
@@ -189,7 +190,7 @@ internal ref partial struct SceneJsonReader
         return PeerSet.Of(peers.ToArray());
     }
 
-    // Zero would mean the default to a BodySpec, and what is far out of range is no duration at all: both are refused here.
+    // A BodySpec takes zero as the default, and a number far out of range is no duration: both are refused here.
     private SimDuration Step()
     {
         double seconds = cursor.Number();

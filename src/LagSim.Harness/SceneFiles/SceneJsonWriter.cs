@@ -11,7 +11,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>Writes a scene so that it is ready to edit and reads back as the same world, to the bit.</summary>
+/// <summary>A writer of scenes as JSON that is ready to edit and reads back as the same world, to the bit.</summary>
 internal static class SceneJsonWriter
 {
     private static readonly JsonWriterOptions Options = new()
@@ -31,7 +31,7 @@ internal static class SceneJsonWriter
         json.WriteNumber("resolution_m", scene.RestitutionThreshold);
         json.WriteNumber("contact_tolerance_m", scene.ContactTolerance);
 
-        // Where it is what the bodies say anyway it stays open, so that someone who edits a radius need not think of it.
+        // Left out where it equals the default for the bodies, so that changing a radius also changes the default.
         if (scene.SmallestRadius != MinRadius(scene))
         {
             json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
@@ -81,7 +81,9 @@ internal static class SceneJsonWriter
         json.WriteEndArray();
     }
 
-    /// <summary>The fewest digits that read back as the same number of ticks: 0.005, where the span itself is a sum of powers of two.</summary>
+    /// <summary>
+    /// Returns the fewest digits that read back as the same number of ticks: 0.005, where the span itself is a sum of powers of two.
+    /// </summary>
     internal static double Seconds(SimDuration span)
     {
         double exact = span.ToSeconds();
@@ -97,7 +99,7 @@ internal static class SceneJsonWriter
         return exact;
     }
 
-    /// <summary>The smallest radius of a scene that promises none.</summary>
+    /// <summary>Returns the smallest radius of a scene that does not set one.</summary>
     private static double MinRadius(Scene scene)
     {
         double least = 1e9;
@@ -119,7 +121,7 @@ internal static class SceneJsonWriter
         Vector(json, "velocity_m_per_s", body.Velocity);
         json.WriteString("motion", MotionNames.Of(body.Spec.Flight));
 
-        // A closed form ignores the step, but the scene's hash sees it.
+        // A closed form ignores the step, but the scene's hash includes it.
         if (body.Spec.Flight is MotionLaw.RungeKutta4 or MotionLaw.DormandPrince54 || body.Spec.Step != BodySpec.DefaultStep)
         {
             json.WriteNumber("step_s", Seconds(body.Spec.Step));
@@ -193,7 +195,7 @@ internal static class SceneJsonWriter
         }
     }
 
-    /// <summary>The numbers of those who have a right, where not everyone has it.</summary>
+    /// <summary>Writes the numbers of the peers that have a right, unless all have it.</summary>
     private static void Peers(Utf8JsonWriter json, string key, PeerSet peers)
     {
         if (peers != PeerSet.Everyone)
@@ -203,7 +205,7 @@ internal static class SceneJsonWriter
         }
     }
 
-    // On one line; the writer's own indentation would spread it over five.
+    // On one line; the writer's own indentation would take five.
     private static void Vector(Utf8JsonWriter json, string key, in Vector3D v)
     {
         json.WritePropertyName(key);

@@ -4,12 +4,12 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <summary>What a user names as a scene: a built-in one, or a JSON file.</summary>
+/// <summary>The scene that a user names: a built-in one, or a JSON file.</summary>
 public static class SceneSource
 {
-    /// <summary>The built-in scene of that name, else the scene in that file.</summary>
+    /// <summary>Returns the built-in scene of a name, else reads the file.</summary>
     /// <remarks>A built-in name wins; a file of the same name is reached as <c>./drop</c>.</remarks>
-    /// <exception cref="SceneFileException">It is neither, or the file holds no valid scene.</exception>
+    /// <exception cref="SceneFileException">The name is no built-in scene, and the file does not exist or holds no valid scene.</exception>
     public static Scene Load(string nameOrPath)
     {
         ArgumentNullException.ThrowIfNull(nameOrPath);

@@ -18,7 +18,7 @@ public sealed class PlayerExpulsion
         BodiesRemoved = removed;
         BodiesStopped = stopped;
         From = from;
-        string what = wasThere ? $"Player {player} is sent away: what it did"
+        string what = wasThere ? $"Player {player} is disconnected: what it did"
             : player == 0 ? "What players who are gone had left is removed: it" : $"What player {player}, who is gone, had left is removed: it";
         Sentence = what + FormattableString.Invariant($" took {work / 1000:0} ms of work within {seconds:0.0##} s, more than one player may cost.")
             + $" As of {from.ToShortString()} of the simulation, {removed} of its bodies {(removed == 1 ? "is" : "are")} removed"
@@ -28,7 +28,7 @@ public sealed class PlayerExpulsion
     /// <summary>The player's number; 0 for departed players whose number has another holder by now.</summary>
     public byte Player { get; }
 
-    /// <summary>Whether a client had that number, and was sent away.</summary>
+    /// <summary>Whether a client had that number, and was disconnected.</summary>
     public bool WasThere { get; }
 
     /// <summary>The work of the player's actions since it last was within its budget for long, in units of about a microsecond.</summary>

@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>What a host said of every event of its session.</summary>
+/// <summary>A recorder of the host's verdicts on every event of a session.</summary>
 internal sealed class HostLog
 {
     private readonly List<ExternalEvent> accepted = [];
@@ -16,23 +16,23 @@ internal sealed class HostLog
     /// <summary>The accepted events, in the order of the log.</summary>
     internal IReadOnlyList<ExternalEvent> Accepted => accepted;
 
-    /// <summary>The numbers of their entries.</summary>
+    /// <summary>The log indices of <see cref="Accepted"/>, in the same order.</summary>
     internal IReadOnlyList<uint> AcceptedEntries => acceptedEntries;
 
-    /// <summary>How many events were not accepted, whatever the reason.</summary>
+    /// <summary>The number of refused events, whatever the reason.</summary>
     internal long Refused { get; private set; }
 
-    /// <summary>How many of them were too late.</summary>
+    /// <summary>The number of events refused because they were too late.</summary>
     internal long TooLate { get; private set; }
 
-    /// <summary>Listens to the host, from before it is stepped.</summary>
+    /// <summary>Subscribes to the host. Call it before the first step.</summary>
     internal void Follow(Session host) => host.Logged += Take;
 
-    /// <summary>The world that had every accepted event before it began.</summary>
+    /// <summary>Simulates the reference: a world that has every accepted event from the start, as without latency.</summary>
     /// <param name="scene">The session's scene.</param>
-    /// <param name="options">What it is run with.</param>
-    /// <param name="end">How far it is simulated.</param>
-    /// <exception cref="SimulationException">It cannot be simulated as far.</exception>
+    /// <param name="options">The options of the reference.</param>
+    /// <param name="end">The time to simulate to.</param>
+    /// <exception cref="SimulationException">The reference cannot be simulated to <paramref name="end"/>.</exception>
     internal Simulation Replay(Scene scene, SimulationOptions options, SimTime end)
     {
         Simulation alone = new(scene, options);

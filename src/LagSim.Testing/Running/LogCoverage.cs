@@ -19,7 +19,7 @@ internal sealed class LogCoverage
     private readonly Func<SimTime, IEnumerable<uint>> accepted;
     private readonly Func<uint, bool>? isOverlooked;
     private readonly List<Session> sessions = [];
-    private readonly HashSet<uint> heard = []; // entries of the log since it last began
+    private readonly HashSet<uint> heard = []; // entries received since the log last began
     private SimTime world; // the start of the world that it is in
     private uint copied; // the last entry included in its snapshot
     private uint reached; // the last entry that it has

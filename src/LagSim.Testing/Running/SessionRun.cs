@@ -322,7 +322,7 @@ internal sealed class SessionRun
 
         internal TestPlayer Player { get; }
 
-        /// <summary>What is to be compared of it.</summary>
+        /// <summary>The recorded states and worlds.</summary>
         internal SessionTrace Trace { get; }
 
         internal long Frames { get; private set; }

@@ -4,17 +4,17 @@ using LagSim.Testing.Invariant;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>What one session of a run leaves behind to be compared: what it committed, and its worlds.</summary>
+/// <summary>A recorder of what one session produces for comparison: its committed states and its worlds.</summary>
 internal sealed class SessionTrace
 {
     private readonly Session session;
     private readonly LogCoverage? coverage; // null for the host
     private readonly List<CommittedState> committed = [];
-    private readonly List<Simulation> wrong = []; // its worlds that turned out to differ, and were replaced
+    private readonly List<Simulation> wrong = []; // worlds replaced after a desync
 
-    /// <summary>Follows a session, from before it is stepped.</summary>
+    /// <summary>Subscribes to a session. Call it before the first step.</summary>
     /// <param name="session">The host, or a client.</param>
-    /// <param name="log">What the host says; the host itself is followed by it.</param>
+    /// <param name="log">The host's log. A host is recorded into it, a client is compared with it.</param>
     internal SessionTrace(Session session, HostLog log)
     {
         this.session = session;
@@ -31,19 +31,21 @@ internal sealed class SessionTrace
         }
     }
 
-    /// <summary>Its worlds that turned out to differ, and were replaced.</summary>
+    /// <summary>The worlds that diverged and were replaced.</summary>
     internal IReadOnlyList<Simulation> Wrong => wrong;
 
-    /// <summary>How many accepted events a client was to hear of and did not, or too late; of the host how many it lost itself.</summary>
+    /// <summary>
+    /// For a client, the number of accepted events that never arrived or arrived too late. For the host, the number it lost itself.
+    /// </summary>
     internal long Lost => coverage?.Count().Lost ?? session.Counters.EventsLost;
 
-    /// <summary>Holds all that was committed against the world that never had a delay.</summary>
+    /// <summary>Compares every committed state with the reference, which has all events on time.</summary>
     internal void CompareCommitted(int peer, Comparison comparison) => committed.ForEach(state => comparison.Take(peer, state));
 
-    /// <summary>Holds the worlds that were replaced against it.</summary>
+    /// <summary>Compares the replaced worlds with the reference.</summary>
     internal void CompareWrong(int peer, Comparison comparison) => wrong.ForEach(world => comparison.Take(peer, world));
 
-    /// <summary>What is repaired still counts: the world as it was is held against the one that never had a delay.</summary>
+    /// <summary>Keeps a diverged world before it is replaced, so that a repaired desync still counts.</summary>
     private void Keep(ClientSession client)
     {
         if (client.Counters.StatesDiffered > 0 && client.World is not null)

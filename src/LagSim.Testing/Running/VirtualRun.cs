@@ -7,7 +7,7 @@ using LagSim.Time;
 
 namespace LagSim.Testing.Running;
 
-/// <summary>One run of sessions in virtual time: its clock and its network, who is stepped, and how time passes.</summary>
+/// <summary>One run of sessions in virtual time: the clock, the network, and the sessions that are stepped.</summary>
 internal sealed class VirtualRun
 {
     private const double FramesPerSecond = 60;
@@ -16,10 +16,10 @@ internal sealed class VirtualRun
     private Action? frame;
     private SimTime nextFrame = SimTime.MaxValue; // true time
 
-    /// <summary>A run without sessions.</summary>
-    /// <param name="originSeconds">What true time begins with: more than any machine's clock is behind.</param>
-    /// <param name="seed">What the network's luck comes from.</param>
-    /// <param name="cancellation">Stops it.</param>
+    /// <summary>Creates a run without sessions.</summary>
+    /// <param name="originSeconds">The true time at which the run begins, in seconds. Larger than the lag of any machine's clock.</param>
+    /// <param name="seed">The seed of the network's random numbers.</param>
+    /// <param name="cancellation">Stops the run.</param>
     internal VirtualRun(double originSeconds, ulong seed, CancellationToken cancellation)
     {
         this.cancellation = cancellation;
@@ -28,23 +28,23 @@ internal sealed class VirtualRun
         Steps = new VirtualSteps(Network);
     }
 
-    /// <summary>True time.</summary>
+    /// <summary>The clock that reads true time.</summary>
     internal VirtualClock Clock { get; }
 
     internal VirtualNetwork Network { get; }
 
     internal VirtualSteps Steps { get; }
 
-    /// <summary>The address of the host; clients have those from 1 on.</summary>
+    /// <summary>The address of the host. Clients have the addresses from 1 on.</summary>
     internal static PeerAddress HostAddress => PeerAddress.Virtual(0);
 
-    /// <summary>Opens a session on a machine of its own.</summary>
+    /// <summary>Creates a session on a machine with its own port and clock.</summary>
     /// <param name="address">0 for the host.</param>
     /// <param name="link">A client's link to the host; null for the host.</param>
-    /// <param name="clockPartsPerMillion">How much too fast the machine's clock runs.</param>
-    /// <param name="clockOffset">How far that is ahead.</param>
-    /// <param name="make">Makes the session.</param>
-    /// <returns>The session, and its number among those that are stepped.</returns>
+    /// <param name="clockPartsPerMillion">How much faster than true time the machine's clock runs, in parts per million.</param>
+    /// <param name="clockOffset">How far the machine's clock is ahead of true time.</param>
+    /// <param name="make">Creates the session on that port and clock.</param>
+    /// <returns>The session, and its index among the stepped sessions.</returns>
     internal (Session Session, int Number) Open(
         int address,
         LinkProfile? link,
@@ -62,18 +62,18 @@ internal sealed class VirtualRun
         return (session, Steps.Add(session, port));
     }
 
-    /// <summary>From now on has that called for each frame that somebody at a screen sees, until <see cref="EndFrames"/>.</summary>
+    /// <summary>Calls <paramref name="each"/> once per rendered frame, 60 times a second, until <see cref="EndFrames"/>.</summary>
     internal void BeginFrames(Action each)
     {
         frame = each;
         nextFrame = Clock.Now;
     }
 
-    /// <summary>Nobody looks any more.</summary>
+    /// <summary>Stops the calls of <see cref="BeginFrames"/>.</summary>
     internal void EndFrames() => nextFrame = SimTime.MaxValue;
 
-    /// <summary>Goes to the next moment at which anything is due, at most to <paramref name="limit"/>, and lets it happen.</summary>
-    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    /// <summary>Advances to the next instant at which anything is due, at most to <paramref name="limit"/>, and processes it.</summary>
+    /// <exception cref="OperationCanceledException">The run was cancelled.</exception>
     internal void Advance(SimTime limit)
     {
         cancellation.ThrowIfCancellationRequested();
@@ -85,8 +85,8 @@ internal sealed class VirtualRun
         }
     }
 
-    /// <summary>Lets time pass until then; not at all if that is past.</summary>
-    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    /// <summary>Advances to a time. Does nothing if the time is past.</summary>
+    /// <exception cref="OperationCanceledException">The run was cancelled.</exception>
     internal void AdvanceTo(SimTime time)
     {
         while (Clock.Now < time)
@@ -95,12 +95,12 @@ internal sealed class VirtualRun
         }
     }
 
-    /// <summary>Lets time pass until something is so.</summary>
-    /// <param name="isSo">Whether it is.</param>
-    /// <param name="isInVain">Whether it cannot come about any more.</param>
-    /// <param name="timeoutSeconds">How long at most.</param>
-    /// <returns>How it ended.</returns>
-    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    /// <summary>Advances until a condition holds.</summary>
+    /// <param name="isSo">The condition.</param>
+    /// <param name="isInVain">Whether the condition can no longer come true.</param>
+    /// <param name="timeoutSeconds">The longest wait, in seconds of virtual time.</param>
+    /// <returns>Why the wait ended.</returns>
+    /// <exception cref="OperationCanceledException">The run was cancelled.</exception>
     internal WaitEnd RunUntil(Func<bool> isSo, Func<bool> isInVain, double timeoutSeconds)
     {
         SimTime deadline = Clock.Now + SimDuration.FromSeconds(timeoutSeconds);

@@ -118,7 +118,7 @@ internal sealed class VirtualSteps
         }
     }
 
-    /// <summary>Goes to the next moment at which anything is due, at most to <paramref name="limit"/>, and lets it happen.</summary>
+    /// <summary>Advances to the next instant at which anything is due, at most to <paramref name="limit"/>, and processes it.</summary>
     public void Advance(SimTime limit)
     {
         SimTime next = network.NextDelivery is SimTime delivery ? SimTime.Min(limit, delivery) : limit;

@@ -1,14 +1,14 @@
 namespace LagSim.Testing.Running;
 
-/// <summary>How a wait for something ended.</summary>
+/// <summary>Why a wait ended.</summary>
 internal enum WaitEnd
 {
-    /// <summary>It came about.</summary>
+    /// <summary>The condition holds.</summary>
     IsSo,
 
-    /// <summary>It did not in the time that there was.</summary>
+    /// <summary>The timeout passed.</summary>
     TimeIsUp,
 
-    /// <summary>It cannot any more.</summary>
+    /// <summary>The condition can no longer come true.</summary>
     InVain,
 }

@@ -13,7 +13,7 @@ using Xunit;
 
 namespace LagSim.Tests.Budgets;
 
-/// <summary>What one player may cost: who takes more is sent away, with what it brought, and the others' worlds go on in real time.</summary>
+/// <summary>What one player may cost: a player that takes more is disconnected, with what it brought, and the others' worlds go on in real time.</summary>
 public sealed class BudgetTests
 {
     private const double MicrosecondsASecond = 1e6;
@@ -118,7 +118,7 @@ public sealed class BudgetTests
         group.Run(1);
         Assert.NotNull(said);
         Assert.Equal((0, 1, true), (said.BodiesRemoved, said.BodiesStopped, said.WasThere));
-        Assert.StartsWith($"Player {said.Player} is sent away: what it did took 1", said.Sentence, StringComparison.Ordinal);
+        Assert.StartsWith($"Player {said.Player} is disconnected: what it did took 1", said.Sentence, StringComparison.Ordinal);
         group.Run(2.5);
         foreach (Session session in new[] { group.Sessions[0], group.Sessions[2] })
         {
@@ -129,7 +129,7 @@ public sealed class BudgetTests
         Assert.True(group.Sessions[2].Counters.StatesAgreed > 0);
     }
 
-    /// <summary>Before it is sent away a player has its acts refused, and only with a budget.</summary>
+    /// <summary>Before it is disconnected a player has its acts refused, and only with a budget.</summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]

@@ -42,7 +42,7 @@ public sealed class HoldTests
     public void Hold_WhoseRightIsLostByALateEvent_IsTakenFromWhoHadItForAWhile()
     {
         SessionGroup group = Group(3);
-        group.Network.SetLink(1, 0, new LinkLeg(400)); // what peer 1 does is heard late
+        group.Network.SetLink(1, 0, new LinkLeg(400)); // events of peer 1 arrive late
         group.Do(1, PlayerAction.Grab(First));
         group.Run(0.1);
         group.Do(2, PlayerAction.Grab(First));

@@ -6,11 +6,11 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>The break at pool: where the balls are soon after it, against LagSim's closed-form flight.</summary>
+/// <summary>The break at pool. Measures the positions of the balls soon after, against LagSim's closed-form flight.</summary>
 /// <remarks>
-/// Every impact of balls magnifies an error, so the time is short. Closed-form flight is its own reference; what it is off by is told by the same scene whose
-/// cue ball starts a unit in the last place further on. Of balls that touch at once in the rack the engines make something else each, since rules for that
-/// differ; that is in the figures too.
+/// The time is short, since every impact of balls magnifies an error. Closed-form flight is its own reference. Its own error is estimated
+/// by the same scene with the cue ball moved by one unit in the last place. Engines differ in their rules for the simultaneous contacts in
+/// the rack, which is in the figures too.
 /// </remarks>
 internal sealed class BilliardsWork : WorkScene
 {
@@ -38,7 +38,7 @@ internal sealed class BilliardsWork : WorkScene
     public override Scene Build(MotionLaw law, SimDuration step, double tolerance) =>
         law == MotionLaw.Ballistic ? BuiltInScenes.Billiards() : BuiltInScenes.WithMotion(BuiltInScenes.Billiards(), law, step);
 
-    /// <summary>Seen from above: balls never leave the table.</summary>
+    /// <summary>Top view: balls never leave the table.</summary>
     public override (double X, double Y)? Flat(in Vector3D v, int body) => (v.X, v.Z);
 
     public override (double X, double Y) FlatNormal(in Vector3D normal) => (normal.X, normal.Z);

@@ -7,11 +7,10 @@ using LagSim.Time;
 namespace LagSim.Harness.Experiments.Accuracy;
 
 /// <summary>
-/// A scene of dense contact: balls with friction that fall onto each other, or that should stand. LagSim's contact tolerance is swept on
-/// it.
+/// A scene of dense contact: balls with friction that fall onto each other, or that should stand. LagSim's contact tolerance is swept.
 /// </summary>
 /// <remarks>
-/// Where every ball is in the end nobody knows: a heap magnifies errors. What holds of any right answer is measured instead: hard balls do
+/// The final positions have no reference, since a heap magnifies errors. Measured instead is what holds of any right answer: hard balls do
 /// not overlap, energy does not come from nothing, and what has come to rest stays.
 /// </remarks>
 internal abstract class ContactWork : WorkScene
@@ -37,10 +36,10 @@ internal abstract class ContactWork : WorkScene
 
     public sealed override Scene Build(MotionLaw law, SimDuration step, double tolerance) => Begin().Build();
 
-    /// <summary>The scene under a contact tolerance, in metres.</summary>
+    /// <summary>Returns the scene with a contact tolerance, in metres.</summary>
     internal Scene Build(double contactTolerance) => Begin().WithContactTolerance(contactTolerance).Build();
 
-    /// <summary>The scene, ready to build.</summary>
+    /// <summary>Returns the scene, ready to build.</summary>
     private protected abstract SceneBuilder Begin();
 
     /// <inheritdoc/>

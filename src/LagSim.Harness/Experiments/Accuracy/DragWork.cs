@@ -5,10 +5,11 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>A ball that falls and bounces under linear drag, against the closed form, hop by hop.</summary>
+/// <summary>A ball that falls and bounces under linear drag, against the closed form, bounce by bounce.</summary>
 /// <remarks>
-/// Linear, because quadratic drag on a line, k v |v|, has a second derivative that jumps where the velocity changes sign: no method of order four has order
-/// four there, and an order measured across it says nothing of contacts. <c>lagsim hard drag-quadratic</c> has that case.
+/// Linear, because quadratic drag on a line, k v |v|, has a second derivative that jumps where the velocity changes sign: no method of
+/// order four has order four there, and an order measured across it says nothing of contacts. <c>lagsim hard drag-quadratic</c> has that
+/// case.
 /// </remarks>
 internal sealed class DragWork : WorkScene
 {

@@ -3,17 +3,17 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>How far balls get from where they were at some time, by which they should lie still.</summary>
+/// <summary>Measures how far balls move after a time by which they should be at rest.</summary>
 /// <param name="scene">The scene.</param>
-/// <param name="from">That time, in seconds.</param>
+/// <param name="from">The time, in seconds.</param>
 internal sealed class DriftWatch(Scene scene, double from)
 {
-    /// <summary>What a sum of steps may be short of a time.</summary>
+    /// <summary>The most by which a sum of steps may fall short of a time.</summary>
     private const double Hair = 1e-9;
 
     private Vector3D[]? before;
 
-    /// <summary>The furthest so far in metres; NaN once a place is not finite.</summary>
+    /// <summary>The largest distance so far, in metres; NaN once a position is not finite.</summary>
     internal double Worst { get; private set; }
 
     internal void Look(IWorkRun run)

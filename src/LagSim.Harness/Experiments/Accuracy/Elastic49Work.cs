@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>Forty-nine elastic balls that bounce on a plane from heights of their own: the energy.</summary>
+/// <summary>Forty-nine elastic balls that bounce on a plane from different heights. Measures the energy.</summary>
 internal sealed class Elastic49Work : WorkScene
 {
     private const int Side = 7;

@@ -4,18 +4,18 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Experiments.Accuracy;
 
 /// <summary>
-/// How much energy comes from nothing: the largest rise of motion, turning and height together over all that went before.
+/// Measures how much energy comes from nothing: the largest rise of kinetic, rotational and potential energy over the least before.
 /// </summary>
 /// <remarks>
-/// What friction and impacts take is right and is not counted. The gain is a part of the energy at the start, heights counted from the
-/// origin's, where the floors of these scenes are.
+/// The energy that friction and impacts take is right and is not counted. The gain is relative to the energy at the start, with heights
+/// counted from the origin, where the floors of these scenes are.
 /// </remarks>
 internal sealed class EnergyGainWatch(Scene scene)
 {
     private double start = double.NaN;
     private double least;
 
-    /// <summary>The largest gain so far as part of the energy at the start; NaN once a state is not finite.</summary>
+    /// <summary>The largest gain so far, relative to the energy at the start; NaN once a state is not finite.</summary>
     internal double Worst { get; private set; }
 
     internal void Look(IWorkRun run)

@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>The energy of a run's bodies against that at the start.</summary>
+/// <summary>Measures the energy of a run's bodies against that at the start.</summary>
 internal sealed class EnergyWatch(Scene scene)
 {
     private double start = double.NaN;

@@ -6,7 +6,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>A thousand elastic spheres in a walled cube: how deep they get into each other, and the energy.</summary>
+/// <summary>A thousand elastic spheres in a walled cube. Measures their overlap, and the energy.</summary>
 internal sealed class GasWork : WorkScene
 {
     private const int Side = 10;

@@ -6,9 +6,9 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>Equal balls with friction fall into a pit as a loose cloud and come to rest there as a heap.</summary>
-/// <param name="balls">How many.</param>
-/// <param name="seconds">For how long.</param>
+/// <summary>A loose cloud of equal balls with friction falls into a pit and comes to rest as a heap.</summary>
+/// <param name="balls">The number of balls.</param>
+/// <param name="seconds">The simulated time, in seconds.</param>
 internal sealed class HeapWork(int balls = 63, double seconds = 3) : ContactWork
 {
     private const double Radius = 0.1;

@@ -12,8 +12,8 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// made of four static spheres on the vertical edges of a shaft. Each is as wide as half the shaft, so neighbours touch, and between the
 /// four there is a hole of 0.41 of that.
 /// </remarks>
-/// <param name="balls">How many.</param>
-/// <param name="seconds">For how long.</param>
+/// <param name="balls">The number of balls.</param>
+/// <param name="seconds">The simulated time, in seconds.</param>
 internal sealed class HopperWork(int balls = 200, double seconds = 3) : ContactWork
 {
     private const double Smallest = 0.05;

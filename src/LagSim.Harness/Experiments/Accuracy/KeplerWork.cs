@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>An orbit of eccentricity 0.5 around a centre: where it is after three times round.</summary>
+/// <summary>An orbit of eccentricity 0.5 around a centre. Measures the position after three revolutions.</summary>
 internal sealed class KeplerWork : WorkScene
 {
     private const double E = 0.5;

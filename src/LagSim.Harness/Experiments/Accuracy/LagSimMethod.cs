@@ -6,9 +6,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>LagSim with one of its laws of flight.</summary>
+/// <summary>LagSim with one of its motion laws.</summary>
 /// <param name="law">The law.</param>
-/// <param name="hasFixedSteps">Whether steps are swept and not tolerances, where the law has both.</param>
+/// <param name="hasFixedSteps">Whether steps are swept instead of tolerances, where the law has both.</param>
 internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : IWorkMethod
 {
     internal const string EngineName = "lagsim";
@@ -48,7 +48,7 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
         return new Run(built.Scene, built.Options);
     }
 
-    /// <summary>The scene is given, as it is to the other engines: that it was built is not part of a run.</summary>
+    /// <summary>The scene is given, as it is to the other engines; building it is no part of a run.</summary>
     private Built Build(WorkScene scene, WorkSetting setting, CancellationToken cancellation)
     {
         Built? kept = last;
@@ -66,7 +66,7 @@ internal sealed class LagSimMethod(MotionLaw law, bool hasFixedSteps = false) : 
 
     private sealed record Built(WorkScene Work, WorkSetting Setting, Scene Scene, SimulationOptions Options);
 
-    /// <summary>A simulation that keeps the default second of history, as one of a game without a session does.</summary>
+    /// <summary>A simulation with the default second of history, as in a game without a session.</summary>
     internal sealed class Run(Scene scene, SimulationOptions options) : IWorkRun
     {
         private readonly Simulation simulation = new(scene, options);

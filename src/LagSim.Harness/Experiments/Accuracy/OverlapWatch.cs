@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>How deep balls get into each other, into planes and into static spheres.</summary>
+/// <summary>Measures how deep balls overlap each other, planes and static spheres.</summary>
 /// <remarks>Balls are sorted by height, so that a tall pile costs little more than its contacts.</remarks>
 internal sealed class OverlapWatch
 {
@@ -24,7 +24,7 @@ internal sealed class OverlapWatch
         }
     }
 
-    /// <summary>The deepest so far in metres, 0 if nothing touches; NaN once a place is not finite.</summary>
+    /// <summary>The deepest overlap so far, in metres; 0 if nothing touches, NaN once a position is not finite.</summary>
     internal double Worst { get; private set; }
 
     internal void Look(IWorkRun run)
@@ -63,6 +63,6 @@ internal sealed class OverlapWatch
         }
     }
 
-    /// <summary>A NaN stays.</summary>
+    /// <summary>Updates the maximum. Once it is NaN it stays NaN.</summary>
     private void See(double depth) => Worst = depth > Worst ? depth : Worst;
 }

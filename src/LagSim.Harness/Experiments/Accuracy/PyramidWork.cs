@@ -10,9 +10,9 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// The places are exact but for a rounding of the heights, which are rounded up. Rolling resistance is LagSim's alone; the engines compared
 /// have none set.
 /// </remarks>
-/// <param name="rows">How many rows, each of a ball less than the one below.</param>
-/// <param name="widest">How many balls are in the lowest row, which fills the floor between the walls.</param>
-/// <param name="seconds">For how long.</param>
+/// <param name="rows">The number of rows, each with one ball less than the row below.</param>
+/// <param name="widest">The number of balls in the lowest row, which fills the floor between the walls.</param>
+/// <param name="seconds">The simulated time, in seconds.</param>
 internal sealed class PyramidWork(int rows = 5, int widest = 8, double seconds = 3) : ContactWork
 {
     private const double Radius = 0.125; // a power of two, so that places in a row are exact

@@ -7,8 +7,8 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>A heap of which everything is drawn by a seed: how many balls, their sizes, friction and restitution.</summary>
-/// <remarks>Nothing is tuned on these heaps. They tell what speed and error are worth beside the one heap that has a name.</remarks>
+/// <summary>A heap with everything drawn from a seed: the number of balls, their sizes, friction and restitution.</summary>
+/// <remarks>No engine is tuned on these heaps. They show whether results on the named heap generalise.</remarks>
 internal sealed class RandomHeapWork : ContactWork
 {
     internal const string Set = "heaps";
@@ -51,10 +51,10 @@ internal sealed class RandomHeapWork : ContactWork
 
     public override WorkScene Small => new RandomHeapWork(number, seed, isSmall: true);
 
-    /// <summary>The heaps that a seed draws.</summary>
+    /// <summary>Returns the heaps of a seed.</summary>
     internal static IReadOnlyList<WorkScene> Draw(ulong seed) => [.. Enumerable.Range(1, Heaps).Select(n => new RandomHeapWork(n, seed))];
 
-    /// <summary>Whether a scene of that name was drawn.</summary>
+    /// <summary>Whether a scene of that name is a random heap.</summary>
     internal static bool IsDrawn(string scene) => scene.StartsWith(Set + "-", StringComparison.Ordinal);
 
     private protected override SceneBuilder Begin()

@@ -7,11 +7,11 @@ using LagSim.Testing.Links;
 namespace LagSim.Harness.Experiments.Accuracy;
 
 /// <summary>
-/// A tall column of balls falls into a narrow shaft: stacks of a hundred layers, whose weight the lowest contacts carry, struck from above
-/// all the time.
+/// A tall column of balls falls into a narrow shaft. The lowest contacts carry the weight of a hundred layers while impacts from above
+/// continue.
 /// </summary>
-/// <param name="balls">How many.</param>
-/// <param name="seconds">For how long.</param>
+/// <param name="balls">The number of balls.</param>
+/// <param name="seconds">The simulated time, in seconds.</param>
 internal sealed class ShaftWork(int balls = 1000, double seconds = 3) : ContactWork
 {
     private const double Radius = 0.1;

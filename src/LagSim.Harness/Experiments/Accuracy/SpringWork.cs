@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>A body on a spring: where it is after ten periods and a quarter.</summary>
+/// <summary>A body on a spring. Measures the position after ten periods and a quarter.</summary>
 internal sealed class SpringWork : WorkScene
 {
     private const double Omega = 2 * Math.PI;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>What the kinds of error that files name by a column are in plain words.</summary>
+/// <summary>The descriptions of the kinds of error that columns of files name.</summary>
 public static class WorkErrorKinds
 {
     private static readonly Dictionary<string, WorkErrorWords> All = new()
@@ -24,7 +24,7 @@ public static class WorkErrorKinds
         ["most_pairs_deeper_than_1_mm"] = new("most pairs at one time that overlap by more than 1 mm", "most pairs that overlap by more than 1 mm", "pairs", "pairs"),
     };
 
-    /// <summary>The words for a kind.</summary>
+    /// <summary>Returns the description of a kind.</summary>
     /// <exception cref="ArgumentException">There is no such kind.</exception>
     public static WorkErrorWords Of(string kind) => All.TryGetValue(kind, out WorkErrorWords? words) ? words
         : throw new ArgumentException($"There are no words for the kind of error '{kind}'; there are for {string.Join(", ", All.Keys)}.", nameof(kind));
@@ -34,5 +34,5 @@ public static class WorkErrorKinds
 /// <param name="Sentence">As part of a sentence, with its unit.</param>
 /// <param name="Axis">As the label of an axis, with its unit in brackets.</param>
 /// <param name="Heading">As the heading of a narrow column.</param>
-/// <param name="Unit">What stands after a number.</param>
+/// <param name="Unit">The unit after a number.</param>
 public sealed record WorkErrorWords(string Sentence, string Axis, string Heading, string Unit);

@@ -5,10 +5,10 @@ using LagSim.Harness.Reports;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>Who is in front at which error, in computed sentences.</summary>
+/// <summary>The findings of speed against error, as computed sentences.</summary>
 public static class WorkFindings
 {
-    /// <summary>What stands beside any figures of speed against physics engines.</summary>
+    /// <summary>The caveat beside all figures of speed against physics engines.</summary>
     public const string Caution =
         "Scenes of spheres favour LagSim, sparse ones above all; the engines compared here are made for other shapes, joints and many threads too, and for"
             + " heaps in which bodies may sink into each other by a part of their size.";
@@ -16,8 +16,8 @@ public static class WorkFindings
     private const double Rounding = 1e-12;
 
     /// <summary>
-    /// The kinds of error besides the one that diagrams show of which each scene has a sentence; what is below <see cref="Rounding"/> is as
-    /// good as nothing there.
+    /// The kinds of error of which each scene has a sentence, besides the one in diagrams. An error below <see cref="Rounding"/> counts as
+    /// zero there.
     /// </summary>
     private static readonly Dictionary<string, string> Besides = new()
     {
@@ -27,13 +27,13 @@ public static class WorkFindings
     };
 
     /// <summary>
-    /// For each scene, and for each of its peers: where LagSim is not in front, or by how much it is at least. Heaps that were drawn have
-    /// one sentence together.
+    /// Returns sentences for each scene and peer engine: where LagSim is not faster, or its least advantage. Random heaps share one
+    /// sentence.
     /// </summary>
     /// <remarks>
-    /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the diagram, at errors
-    /// above a setting's that setting's own. Only the kind of error that diagrams show counts; of dense contact each other kind has a
-    /// sentence a scene.
+    /// LagSim's cost at an error is read from its curves: between two neighbouring settings of a method on the line that joins them in the
+    /// diagram, at errors above a setting's that setting's own. Only the kind of error that diagrams show counts; of dense contact each
+    /// other kind has a sentence a scene.
     /// </remarks>
     public static IReadOnlyList<string> Sentences(IReadOnlyList<WorkPoint> points)
     {
@@ -67,7 +67,9 @@ public static class WorkFindings
     /// <summary>Whether a point is LagSim's.</summary>
     internal static bool IsOwn(WorkPoint point) => point.Method.StartsWith("LagSim", StringComparison.Ordinal);
 
-    /// <summary>The least CPU time at which a curve, given from coarse to fine, has that error; infinite where it never does.</summary>
+    /// <summary>
+    /// Returns the least CPU time at which a curve, given from coarse to fine, has an error; infinity where it never does.
+    /// </summary>
     internal static double Cost(WorkPoint[] curve, double error)
     {
         double least = double.PositiveInfinity;
@@ -90,14 +92,14 @@ public static class WorkFindings
         return least;
     }
 
-    /// <summary>What becomes of each point of a peer whose error is finite, by one kind of error.</summary>
+    /// <summary>Compares each of a peer's points with finite error with LagSim, by one kind of error.</summary>
     private static IEnumerable<Duel> DuelsOf(IEnumerable<WorkPoint> scene, string kind)
     {
         WorkPoint[] shown = [.. scene.Where(point => point.ErrorKind == kind)], own = [.. shown.Where(IsOwn)];
         return shown.Where(point => !IsOwn(point) && !double.IsNaN(point.Error)).Select(point => Duel.Of(point, own));
     }
 
-    /// <summary>A sentence for each other kind of error of a scene of dense contact.</summary>
+    /// <summary>Returns a sentence for each other kind of error of a scene of dense contact.</summary>
     private static IEnumerable<string> OfOtherKinds(string name, string shown, IEnumerable<WorkPoint> scene)
     {
         WorkPoint[] points = [.. scene.Select(point => point with { Error = Math.Max(point.Error, Rounding) })];
@@ -112,7 +114,7 @@ public static class WorkFindings
         }
     }
 
-    /// <summary>A sentence for all heaps that were drawn together, by the kind of error that diagrams show.</summary>
+    /// <summary>Returns a sentence for all random heaps together, by the kind of error in diagrams.</summary>
     private static IEnumerable<string> OfDrawn(IGrouping<string, WorkPoint>[] heaps)
     {
         Duel[] duels = [.. heaps.SelectMany(heap => DuelsOf(heap, heap.First().ErrorKind))];
@@ -122,7 +124,7 @@ public static class WorkFindings
         }
     }
 
-    /// <summary>The scene in a sentence: in front of all, or at how many points not.</summary>
+    /// <summary>Returns the scene's sentence: faster than all peers, or at how many points not.</summary>
     private static string Whole(string scene, Duel[] duels, bool isNamedBelow = true)
     {
         Duel[] lost = [.. duels.Where(duel => !duel.IsWon)], won = [.. duels.Where(duel => duel.IsWon)];
@@ -152,7 +154,7 @@ public static class WorkFindings
         }
     }
 
-    /// <summary>A point of a peer, and what its error or less costs LagSim.</summary>
+    /// <summary>A point of a peer, and LagSim's cost of that error or less.</summary>
     private sealed record Duel(WorkPoint Peer, double Cost, string Method)
     {
         internal double Factor => Peer.CpuSeconds / Cost;

@@ -8,7 +8,7 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// <summary>The methods of the work-precision diagrams.</summary>
 public static class WorkMethods
 {
-    /// <summary>All of them, LagSim's own first.</summary>
+    /// <summary>All methods, LagSim's own first.</summary>
     public static IReadOnlyList<IWorkMethod> All { get; } =
     [
         new LagSimMethod(MotionLaw.Ballistic),
@@ -23,6 +23,6 @@ public static class WorkMethods
         .. PackageEngines.All,
     ];
 
-    /// <summary>The engines besides LagSim, each once.</summary>
+    /// <summary>The engines other than LagSim, each once.</summary>
     public static IReadOnlyList<string> Peers { get; } = [.. All.Select(method => method.Engine).Where(engine => engine != LagSimMethod.EngineName).Distinct()];
 }

@@ -2,17 +2,18 @@ using System;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>How thoroughly speed is held against error. Immutable.</summary>
+/// <summary>How thorough the sweep of speed against error is. Immutable.</summary>
 public sealed record WorkOptions
 {
-    /// <summary>What a quick look takes: few settings and short runs, some seconds in all.</summary>
+    /// <summary>The options of a quick look: few settings and short runs, some seconds in all.</summary>
     public static WorkOptions Quick { get; } = new() { MaxSettings = 3, LongestSeconds = 0.15, TimingSeconds = 0.02, FewestRuns = 1 };
 
-    /// <summary>At most so many settings a method and scene, from the coarsest on.</summary>
+    /// <summary>The most settings of a method and scene, from the coarsest on.</summary>
     public int MaxSettings { get; init; } = int.MaxValue;
 
     /// <summary>
-    /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones; default 20.
+    /// A setting whose single run would by its coarser neighbour take longer than this, in seconds, is left out, and so are all finer ones;
+    /// default 20.
     /// </summary>
     public double LongestSeconds { get; init; } = 20;
 
@@ -25,6 +26,6 @@ public sealed record WorkOptions
     /// <summary>Runs are repeated until they have taken this long together, in seconds; default 0.3.</summary>
     public double TimingSeconds { get; init; } = 0.3;
 
-    /// <summary>They are repeated at least so often, but once where one alone takes longer than a second; default 3.</summary>
+    /// <summary>The least number of repeats, but one for a run of more than a second; default 3.</summary>
     public int FewestRuns { get; init; } = 3;
 }

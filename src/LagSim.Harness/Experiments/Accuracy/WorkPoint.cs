@@ -5,16 +5,17 @@ namespace LagSim.Harness.Experiments.Accuracy;
 /// <param name="Method">The method or engine.</param>
 /// <param name="Setting">The step or tolerance, in words: <c>1/60 s</c>.</param>
 /// <param name="StepSeconds">The step in seconds; NaN for a method that has none.</param>
-/// <param name="Error">How far off; NaN where the state was not finite.</param>
-/// <param name="ErrorKind">What the error is, with its unit after an underscore.</param>
-/// <param name="CpuSeconds">The least CPU time of several runs after a warm-up, to build the world and simulate all of it.</param>
-/// <param name="Runs">Of how many runs that is the least.</param>
-/// <param name="SimulatedSeconds">How much was simulated.</param>
+/// <param name="Error">The error; NaN where the state was not finite.</param>
+/// <param name="ErrorKind">The kind of error, with its unit after an underscore.</param>
+/// <param name="CpuSeconds">The least CPU time of several runs after a warm-up, in seconds, to build the world and simulate all of
+/// it.</param>
+/// <param name="Runs">The number of runs.</param>
+/// <param name="SimulatedSeconds">The simulated time, in seconds.</param>
 /// <param name="Events">Events of an event-driven engine, steps of any other.</param>
 public sealed record WorkPoint(
     string Scene, string Method, string Setting, double StepSeconds, double Error, string ErrorKind, double CpuSeconds, int Runs, double SimulatedSeconds,
         long Events)
 {
-    /// <summary>Simulated seconds a second of CPU time.</summary>
+    /// <summary>Simulated seconds per second of CPU time.</summary>
     public double Speed => SimulatedSeconds / CpuSeconds;
 }

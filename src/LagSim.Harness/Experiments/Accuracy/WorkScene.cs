@@ -4,10 +4,12 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>A scene of the work-precision diagrams, and how far off a run of it is. A new one is one file and one line in <see cref="WorkScenes"/>.</summary>
+/// <summary>
+/// A scene of the work-precision diagrams, with its measure of error. A new one is one file and one line in <see cref="WorkScenes"/>.
+/// </summary>
 public abstract partial class WorkScene
 {
-    /// <summary>How often it is looked at; a method with steps is looked at on its own steps.</summary>
+    /// <summary>The interval of samples. A method with steps is sampled on its own steps.</summary>
     private const int Samples = 600;
 
     private Scene? scene;
@@ -15,13 +17,13 @@ public abstract partial class WorkScene
     /// <summary>The name on the command line.</summary>
     public abstract string Name { get; }
 
-    /// <summary>What it is, in a line.</summary>
+    /// <summary>A description, in a line.</summary>
     public abstract string Title { get; }
 
-    /// <summary>What results are held against.</summary>
+    /// <summary>The reference of the results.</summary>
     public abstract string Reference { get; }
 
-    /// <summary>How much of it is simulated, in seconds.</summary>
+    /// <summary>The simulated time, in seconds.</summary>
     public abstract double Seconds { get; }
 
     /// <summary>The kinds of error that are measured; the first is the one that diagrams show.</summary>
@@ -30,7 +32,7 @@ public abstract partial class WorkScene
     /// <summary>An error of this size is rounding: no order is read from what is below a hundred times it.</summary>
     public abstract double Floor { get; }
 
-    /// <summary>What is below may be rounding: no order is read from it.</summary>
+    /// <summary>The size below which an error may be rounding: no order is measured below it.</summary>
     public double Rounding => 100 * Floor;
 
     /// <summary>An error of this size is no result: no order is read from what is above a tenth of it.</summary>
@@ -48,32 +50,32 @@ public abstract partial class WorkScene
     /// <summary>Whether bodies meet each other, not only planes.</summary>
     public virtual bool HasPairs => false;
 
-    /// <summary>The same in small, for a quick look; itself where it is small enough.</summary>
+    /// <summary>A smaller version of the scene, for a quick look; itself where it is small enough.</summary>
     public virtual WorkScene Small => this;
 
-    /// <summary>The scene by the law that the world picks.</summary>
+    /// <summary>Returns the scene with the motion law that the world picks.</summary>
     public Scene Scene => scene ??= Build(MotionLaw.Automatic, BodySpec.DefaultStep, BodySpec.DefaultTolerance);
 
-    /// <summary>The scene under a law, with its step or tolerance.</summary>
+    /// <summary>Returns the scene with a motion law, and its step or tolerance.</summary>
     public abstract Scene Build(MotionLaw law, SimDuration step, double tolerance);
 
-    /// <summary>Where a body is in the plane of a two-dimensional engine; null if the scene is not plane.</summary>
+    /// <summary>Returns the position of a body in the plane of a two-dimensional engine; null if the scene is not plane.</summary>
     public virtual (double X, double Y)? Flat(in Vector3D v, int body) => null;
 
-    /// <summary>The direction of a surface's normal in that plane; zero for one that the bodies never leave.</summary>
+    /// <summary>Returns the direction of a surface's normal in that plane; zero for a surface that bodies never leave.</summary>
     public virtual (double X, double Y) FlatNormal(in Vector3D normal) => (normal.X, normal.Y);
 
-    /// <summary>Back from the plane.</summary>
+    /// <summary>Converts back from the plane.</summary>
     public virtual Vector3D Unflat(double x, double y, int body) => new(x, y, 0);
 
-    /// <summary>What the force besides gravity adds to a body's acceleration, for engines that are told of forces; zero for none.</summary>
+    /// <summary>Returns the acceleration of a body by the force besides gravity, for engines that take forces; zero for none.</summary>
     internal Vector3D Push(double mass, double seconds, in Vector3D position, in Vector3D velocity) =>
         Acting is null ? Vector3D.Zero : Acting.At(mass, seconds, position, velocity, Vector3D.Zero);
 
-    /// <summary>Begins to watch a run.</summary>
+    /// <summary>Begins to record a run.</summary>
     protected abstract IWatch Watch();
 
-    /// <summary>Runs it all and measures; one error a kind, NaN where it is not finite.</summary>
+    /// <summary>Runs the scene and measures; returns one error for each kind, NaN where it is not finite.</summary>
     internal IReadOnlyList<double> Measure(IWorkRun run)
     {
         IWatch watch = Watch();
@@ -91,13 +93,13 @@ public abstract partial class WorkScene
         return watch.Errors(run);
     }
 
-    /// <summary>What is kept of a run while it goes on.</summary>
+    /// <summary>The records of a run.</summary>
     protected interface IWatch
     {
-        /// <summary>Looks at the run where it stands.</summary>
+        /// <summary>Takes a sample of the run.</summary>
         void Look(IWorkRun run);
 
-        /// <summary>The errors at the end, one a kind.</summary>
+        /// <summary>Returns the errors at the end, one for each kind.</summary>
         IReadOnlyList<double> Errors(IWorkRun run);
     }
 }

@@ -14,13 +14,13 @@ public static class WorkScenes
         new HeapWork(), new PyramidWork(), new ShaftWork(), new HopperWork(),
     ];
 
-    /// <summary>The name of the heaps that are drawn at random; they are no part of <see cref="All"/>.</summary>
+    /// <summary>The name of the random heaps, which are no part of <see cref="All"/>.</summary>
     public static string Drawn => RandomHeapWork.Set;
 
-    /// <summary>The heaps that a seed draws.</summary>
+    /// <summary>Returns the random heaps of a seed.</summary>
     public static IReadOnlyList<WorkScene> Draw(ulong seed) => RandomHeapWork.Draw(seed);
 
-    /// <summary>The scene of that name.</summary>
+    /// <summary>Returns the scene of a name.</summary>
     public static bool TryGet(string name, [NotNullWhen(true)] out WorkScene? found)
     {
         found = All.FirstOrDefault(scene => scene.Name == name);

@@ -4,16 +4,16 @@ using MathNet.Numerics.Statistics;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>How a method at one setting does over scenes that were drawn at random. Immutable.</summary>
+/// <summary>The results of a method at one setting over several random scenes. Immutable.</summary>
 /// <param name="Method">The method.</param>
 /// <param name="Setting">The setting, in words.</param>
-/// <param name="ErrorKind">What the error is.</param>
-/// <param name="Scenes">Over how many scenes; a setting that was too slow for one has fewer.</param>
+/// <param name="ErrorKind">The kind of error.</param>
+/// <param name="Scenes">The number of scenes. Scenes for which the setting was too slow are not counted.</param>
 /// <param name="Error">The error; not finite where one is not.</param>
-/// <param name="Speed">Simulated seconds a second of CPU time.</param>
+/// <param name="Speed">Simulated seconds per second of CPU time.</param>
 public sealed record WorkSpread(string Method, string Setting, string ErrorKind, int Scenes, SpreadOf Error, SpreadOf Speed)
 {
-    /// <summary>The spread over the scenes among them that were drawn; none where none was.</summary>
+    /// <summary>Returns the spreads of the points on random scenes; empty if there are none.</summary>
     public static IReadOnlyList<WorkSpread> Of(IReadOnlyList<WorkPoint> points) =>
     [
         .. points.Where(point => RandomHeapWork.IsDrawn(point.Scene)).GroupBy(point => (point.Method, point.Setting, point.ErrorKind))
@@ -23,13 +23,13 @@ public sealed record WorkSpread(string Method, string Setting, string ErrorKind,
     ];
 }
 
-/// <summary>The least, the middle and the greatest of some numbers. Immutable.</summary>
+/// <summary>The minimum, the median and the maximum of some numbers. Immutable.</summary>
 /// <param name="Least">The least.</param>
 /// <param name="Median">The middle one; the mean of the middle two of an even number.</param>
 /// <param name="Greatest">The greatest.</param>
 public readonly record struct SpreadOf(double Least, double Median, double Greatest)
 {
-    /// <summary>That of some numbers; NaN in all three where one of them is.</summary>
+    /// <summary>Returns the spread of some numbers; all NaN if any of them is.</summary>
     internal static SpreadOf Over(IEnumerable<double> numbers)
     {
         double[] all = [.. numbers];

@@ -6,19 +6,22 @@ using LagSim.Harness.Experiments.Metrics;
 
 namespace LagSim.Harness.Experiments.Accuracy;
 
-/// <summary>Speed against error: each method on each scene, its step swept, every point measured for its error and timed apart from that.</summary>
+/// <summary>
+/// Measures speed against error: each method on each scene, with its step or tolerance swept. Error and time are measured in separate runs.
+/// </summary>
 public static class WorkSweep
 {
-    private const double MaxSeconds = 1e6; // that a timer counts
-    private const double Long = 1; // seconds: what takes longer is timed once, after the run that measured its error
+    private const double MaxSeconds = 1e6; // the most a timer can count
+    private const double Long = 1; // seconds: a longer run is timed once, after the run that measured its error
 
-    /// <summary>Runs some scenes by some methods.</summary>
+    /// <summary>Runs scenes with methods.</summary>
     /// <param name="scenes">The scenes.</param>
-    /// <param name="methods">The methods; those that are missing or do not suit a scene are left out with a sentence.</param>
-    /// <param name="options">How thoroughly.</param>
-    /// <param name="progress">Is told which part of all points is done, 0 to 1.</param>
-    /// <param name="cancellation">Ends it between two steps or instants of a run, with the points of the methods that were done by then.</param>
-    /// <param name="begin">Is told a scene and a method before they run, as words.</param>
+    /// <param name="methods">The methods. One that is missing or does not suit a scene is left out, with a sentence.</param>
+    /// <param name="options">How thorough the sweep is.</param>
+    /// <param name="progress">Called with the fraction of all points that is done, 0 to 1.</param>
+    /// <param name="cancellation">Ends it between two steps or instants of a run, with the points of the methods that were done by
+    /// then.</param>
+    /// <param name="begin">Called with the names of a scene and a method before they run.</param>
     public static WorkReport Run(
         IReadOnlyList<WorkScene> scenes, IReadOnlyList<IWorkMethod> methods, WorkOptions options, Action<double>? progress = null,
             CancellationToken cancellation = default, Action<string>? begin = null)
@@ -104,11 +107,11 @@ public static class WorkSweep
 
         return points;
 
-        // A finer setting without steps takes as long as the coarser one at least.
+        // Without steps, a finer setting takes at least as long as a coarser one.
         static double Finer(double steps) => double.IsNaN(steps) ? 1 : steps;
     }
 
-    /// <summary>Measures a setting and times it apart from that; a point a kind of error.</summary>
+    /// <summary>Measures the errors of a setting and its time, in separate runs. Returns a point for each kind of error.</summary>
     private static IEnumerable<WorkPoint> Point(
         WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options, bool isFirst, CancellationTokenSource limit)
     {
@@ -126,7 +129,7 @@ public static class WorkSweep
         (double cpu, int runs) = Time(scene, method, setting, options, limit.Token);
         for (double before = double.MaxValue; isFirst && cpu < Math.Min(0.9 * before, Long);)
         {
-            before = cpu; // code that is still being compiled gets faster: again, until it does not
+            before = cpu; // the JIT compiler may still be at work: repeat until it is no faster
             limit.CancelAfter(longest);
             (cpu, runs) = Time(scene, method, setting, options, limit.Token);
         }
@@ -135,7 +138,10 @@ public static class WorkSweep
             scene.Name, method.Name, setting.Text, setting.StepSeconds, error, scene.ErrorKinds[kind], cpu, runs, scene.Seconds, events));
     }
 
-    /// <summary>The least of several runs, making the world of the scene included, and neither the scene nor what is freed afterwards; nothing is read.</summary>
+    /// <summary>
+    /// Returns the least time of several runs. It includes making the world, but neither making the scene nor freeing memory, and nothing
+    /// is read.
+    /// </summary>
     private static (double Seconds, int Runs) Time(WorkScene scene, IWorkMethod method, WorkSetting setting, WorkOptions options,
         CancellationToken cancellation)
     {

@@ -11,17 +11,17 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Compare;
 
-/// <summary>Plays a plan with one strategy on one link, in virtual time, and measures what everybody saw.</summary>
+/// <summary>Plays a plan with one strategy on one link, in virtual time, and measures what every peer showed.</summary>
 public static class CompareTest
 {
-    /// <summary>Nobody may hear of the start when it is past: 2 s one way, and again for what is lost.</summary>
+    /// <summary>The lead of the start, so that every peer receives it in time: 2 s one way, and again for lost datagrams.</summary>
     private static readonly SimDuration StartLead = SimDuration.FromSeconds(5);
 
-    /// <summary>Runs it. The same options give the same figures, but for the time to heal.</summary>
-    /// <param name="options">What to run.</param>
-    /// <param name="progress">Is told the shared time since the start of the scene, from time to time.</param>
-    /// <exception cref="SceneException">There are more bodies than are watched, or a player may not do what the plan says.</exception>
-    /// <exception cref="PeerGroupException">The peers did not come together, or one dropped out.</exception>
+    /// <summary>Runs it. The same options give the same figures, except the time to heal.</summary>
+    /// <param name="options">The options.</param>
+    /// <param name="progress">Called from time to time with the shared time since the start of the scene.</param>
+    /// <exception cref="SceneException">There are more bodies than can be recorded, or a player may not do what the plan says.</exception>
+    /// <exception cref="PeerGroupException">The peers did not connect, or one dropped out.</exception>
     /// <exception cref="OperationCanceledException">Its options asked for an end.</exception>
     public static CompareRun Run(CompareOptions options, Action<SimDuration>? progress = null)
     {
@@ -66,7 +66,7 @@ public static class CompareTest
 
     private static string NameOf(Scene scene, BodyId body) => body == BodyId.OfScene(body.Index) ? scene.Bodies[body.Index].Name : body.ToString();
 
-    /// <summary>Where in the group the player with that number is: clients have their numbers in the order in which they came.</summary>
+    /// <summary>The place in the group of a player's number. Clients get their numbers in the order in which they join.</summary>
     private static int PlaceOf(PeerGroup peers, int number) => Enumerable.Range(0, peers.PeerCount).Single(p => peers.Session(p).Peer == number);
 
     private static CompareRun Measure(CompareOptions options, VirtualPeers peers, LateEventWatch watch, HealWatch heals, InputWatch inputs, double[] bytes)

@@ -10,8 +10,8 @@ using LagSim.Time;
 namespace LagSim.Harness.Experiments.Compare;
 
 /// <summary>
-/// Looks at every step of every peer that applies late events: how long it took, what was run again, and how far what is drawn jumps, the old render snapshot against the new
-/// one at the same instant. What a peer does itself is not late for it and is left out.
+/// Measures every step that applies late events: its duration, what was re-simulated, and how far bodies jump between the old and the new
+/// render snapshot at the same instant. A peer's own events are not late and are left out.
 /// </summary>
 internal sealed class HealWatch
 {
@@ -24,7 +24,7 @@ internal sealed class HealWatch
     private bool isOwn;
     private bool hasHealed;
 
-    /// <summary>Looks at a group that is connected.</summary>
+    /// <summary>Subscribes to a connected group.</summary>
     internal HealWatch(VirtualPeers peers)
     {
         this.peers = peers;
@@ -38,16 +38,16 @@ internal sealed class HealWatch
         peers.Steps.AfterStep = After;
     }
 
-    /// <summary>For each heal what it did.</summary>
+    /// <summary>The figures of each heal.</summary>
     internal IReadOnlyList<HealReport> Reports => reports;
 
-    /// <summary>Wall clock of each step in which late events were healed.</summary>
+    /// <summary>The wall-clock time of each step in which late events were healed.</summary>
     internal IReadOnlyList<double> Milliseconds => milliseconds;
 
-    /// <summary>How far, in metres, bodies jumped that jumped at all.</summary>
+    /// <summary>The distances of the bodies that jumped, in metres.</summary>
     internal IReadOnlyList<double> Jumps => jumps;
 
-    /// <summary>Lets a peer do something; what that rewrites of the little future that is known already is not counted.</summary>
+    /// <summary>Performs a player's action. What it rewrites of the predicted near future is not counted.</summary>
     internal T Own<T>(Func<T> action)
     {
         isOwn = true;
@@ -92,7 +92,7 @@ internal sealed class HealWatch
             return;
         }
 
-        // The old render snapshot may be read until the next is asked for.
+        // The old render snapshot is valid until the next one is requested.
         BodyState[] before = peers.Bodies.Select(body => Read(old, body, time)).ToArray();
         RenderSnapshot now = peers.Session(peer).World!.RenderSnapshots.Latest();
         for (int n = 0; n < before.Length && now.Covers(time); n++)

@@ -9,15 +9,15 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Experiments.Compare;
 
 /// <summary>
-/// How long a player waits until it sees what it does: what its render snapshot was going to show of the body is noted before the action,
-/// and held against what was shown.
+/// Measures the latency of a player's own input: compares what the render snapshot was going to show of the body with what it showed after
+/// the action.
 /// </summary>
 internal sealed class InputWatch(PeerGroup peers)
 {
     private readonly List<(int Peer, int Body, int First, BodyState[] Expected, SimTime Stamp)> actions = [];
 
-    /// <summary>Notes what the peer is going to show of the body unless something happens, as far as its render snapshot goes.</summary>
-    /// <returns>To be called with the stamp of what was then done.</returns>
+    /// <summary>Records what the peer is going to show of the body if nothing happens, as far as its render snapshot reaches.</summary>
+    /// <returns>A callback for the stamp of the action.</returns>
     internal Action<SimTime> Expect(int peer, BodyId body)
     {
         PeerSamples seen = peers.Seen[peer];
@@ -36,8 +36,8 @@ internal sealed class InputWatch(PeerGroup peers)
     }
 
     /// <summary>
-    /// For each action the milliseconds from its stamp to the first sample that showed another body than was expected. An action that
-    /// changes nothing to be seen within what was known beforehand has none.
+    /// For each action, the milliseconds from its stamp to the first sample that differs from what was expected. An action without a
+    /// visible change within the snapshot has none.
     /// </summary>
     internal IEnumerable<double> Milliseconds()
     {

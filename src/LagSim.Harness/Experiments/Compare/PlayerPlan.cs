@@ -8,10 +8,11 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Compare;
 
-/// <summary>What all players will do, drawn by a seed before anything runs, so that every strategy and every link gets the same.</summary>
+/// <summary>A seeded plan of all players' actions, drawn before any run so that every strategy and link gets the same plan.</summary>
 /// <remarks>
-/// Drawn while the scene is simulated once without any network: who is teleported or spawned is put where there is room in that rehearsal. In a run the events come
-/// some microseconds before or after, by the clocks, so in a chaotic scene the place may be taken by then; that too is the same for all.
+/// It is drawn in a rehearsal, a simulation without a network, and places teleported and spawned bodies where that has room. In a run,
+/// events come some microseconds earlier or later because clocks differ. In a chaotic scene the place may be taken by then, which is the
+/// same for every strategy and link.
 /// </remarks>
 public sealed class PlayerPlan
 {
@@ -21,7 +22,7 @@ public sealed class PlayerPlan
     private static readonly SimDuration Earliest = SimDuration.FromSeconds(1);
     private static readonly SimDuration Latest = SimDuration.FromSeconds(6);
 
-    /// <summary>The kinds of a plan's actions, in an order that is drawn.</summary>
+    /// <summary>The kinds of actions, drawn from this list.</summary>
     private static readonly EventKind[] Kinds =
     [
         EventKind.Impulse, EventKind.Impulse, EventKind.Impulse, EventKind.Impulse, EventKind.Impulse,
@@ -45,7 +46,7 @@ public sealed class PlayerPlan
         rehearsal = new Simulation(scene);
         sequences = new uint[peers];
 
-        // Where bodies were at the start says where the scene takes place, and along which axes: balls on a table stay on it.
+        // The bodies' positions at the start give the extent of the scene, and the axes it uses: balls on a table stay on it.
         low = scene.Bodies.Select(b => b.Position).Aggregate((a, b) => new(Math.Min(a.X, b.X), Math.Min(a.Y, b.Y), Math.Min(a.Z, b.Z)));
         high = scene.Bodies.Select(b => b.Position).Aggregate((a, b) => new(Math.Max(a.X, b.X), Math.Max(a.Y, b.Y), Math.Max(a.Z, b.Z)));
         if (low == high)
@@ -60,16 +61,17 @@ public sealed class PlayerPlan
         Vector3D extent = high - low;
         double most = Math.Max(extent.X, Math.Max(extent.Y, extent.Z));
         double usual = Math.Max(Math.Sqrt(2 * scene.Gravity.Length * most), scene.Bodies.Average(b => b.Velocity.Length));
-        usual = SpeedSpread * (usual > 0 ? usual : most); // where nothing moves and nothing falls: once through it in a second or two
+        usual = SpeedSpread * (usual > 0 ? usual : most); // without motion or gravity: across the scene in a second or two
         speed = new(extent.X > 0 ? usual : 0, extent.Y > 0 ? usual : 0, extent.Z > 0 ? usual : 0);
     }
 
-    /// <summary>The plan for these players; the same for the same arguments. Cost: that of simulating the scene for some seconds.</summary>
-    /// <param name="scene">What they play in.</param>
-    /// <param name="peers">How many they are, the host included.</param>
-    /// <param name="seed">The luck.</param>
-    /// <returns>What they do, in the order of time. Nobody spawns whom the scene does not let, or touches what is not his.</returns>
-    /// <exception cref="SceneException">There is no body that any player may touch.</exception>
+    /// <summary>Draws a plan. Returns the same plan for the same arguments. Cost: simulating the scene for some seconds.</summary>
+    /// <param name="scene">The scene.</param>
+    /// <param name="peers">The number of players, the host included.</param>
+    /// <param name="seed">The seed of the random numbers.</param>
+    /// <returns>The actions, in order of time. Every player acts within its rights: it spawns only where the scene allows it, and touches
+    /// only bodies it may touch.</returns>
+    /// <exception cref="SceneException">No player may touch any body.</exception>
     public static IReadOnlyList<PlannedAction> Draw(Scene scene, int peers, ulong seed)
     {
         ArgumentNullException.ThrowIfNull(scene);
@@ -96,7 +98,7 @@ public sealed class PlayerPlan
             EventKind.SetVelocity => Touch(EventKind.SetVelocity, time),
             _ => null,
         };
-        action ??= Touch(EventKind.Impulse, time); // where there is no room, or nobody may
+        action ??= Touch(EventKind.Impulse, time); // where there is no room, or no player may spawn
         rehearsal.Submit(action.ToAction().Stamp(at, (byte)action.Peer, ++sequences[action.Peer]));
         return action;
     }
@@ -125,7 +127,7 @@ public sealed class PlayerPlan
             : null;
     }
 
-    /// <summary>A body that some player may touch, and such a player.</summary>
+    /// <summary>Picks a body that some player may touch, and such a player.</summary>
     private (int Peer, BodyId Body) WhoAndWhom()
     {
         int[] touchable = Enumerable.Range(0, scene.Bodies.Count).Where(b => Touchers(b).Length > 0).ToArray();

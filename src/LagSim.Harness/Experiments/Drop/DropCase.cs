@@ -6,6 +6,6 @@ public enum DropCase
     /// <summary>Both balls start equal, fall, bounce and rest (Fig 2).</summary>
     SameStart,
 
-    /// <summary>One side lifts its ball, the other hears of it (Fig 3).</summary>
+    /// <summary>One side lifts its ball, and the other receives the event late (Fig 3).</summary>
     Teleport,
 }

@@ -9,73 +9,76 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Drop;
 
-/// <summary>What a drop test is to do. The defaults are the thesis's setting.</summary>
+/// <summary>The options of a drop test. The defaults are the thesis's.</summary>
 public sealed record DropOptions
 {
-    /// <summary>How long the same-start case takes: both balls have come to rest, by default at 12.53 s.</summary>
+    /// <summary>The length of the same-start case, in which both balls come to rest, by default at 12.53 s.</summary>
     public static readonly SimDuration SameStartLength = SimDuration.FromSeconds(13);
 
-    /// <summary>How long the teleport case takes: the lifted ball has come to rest, by default after 15.5 s.</summary>
+    /// <summary>The length of the teleport case, in which the lifted ball comes to rest, by default after 15.5 s.</summary>
     public static readonly SimDuration TeleportLength = SimDuration.FromSeconds(17);
 
-    /// <summary>How long after its start a run that has the teleport case only lifts the ball, which rests until then.</summary>
+    /// <summary>The time of the lift in a run of the teleport case only, after its start. The ball rests until then.</summary>
     public static readonly SimDuration TeleportAlone = SimDuration.FromSeconds(1);
 
-    /// <summary>The cases to run, in their order.</summary>
+    /// <summary>The cases to run, in order.</summary>
     public IReadOnlyList<DropCase> Cases { get; init; } = [DropCase.SameStart, DropCase.Teleport];
 
-    /// <summary>What the peers do with late events.</summary>
+    /// <summary>The strategy of the peers for late events.</summary>
     public string Strategy { get; init; } = LateEventStrategies.Default;
 
     /// <summary>How far behind shared time <c>interpolation</c> shows the world.</summary>
     public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
 
-    /// <summary>How the ball flies.</summary>
+    /// <summary>The motion law of the ball.</summary>
     public MotionLaw Motion { get; init; } = MotionLaw.RungeKutta4;
 
-    /// <summary>Steps a second of an integrating law; 1 to 10,000: all of a run's segments are kept.</summary>
+    /// <summary>Steps per second of an integrating law; 1 to 10,000. All segments of a run are kept.</summary>
     public double RateHertz { get; init; } = 200;
 
     /// <summary>The link of each client to the host.</summary>
     public LinkProfile Link { get; init; } = LinkProfiles.PureDelay(25);
 
-    /// <summary>The delay that <see cref="Link"/> adds one way, if it is nothing but that; else null.</summary>
+    /// <summary>The one-way delay of <see cref="Link"/>, if it adds only that; else null.</summary>
     public double? DelayMilliseconds { get; init; } = 25;
 
-    /// <summary>How many peers, the host included; 2 to 9.</summary>
+    /// <summary>The number of peers, the host included; 2 to 9.</summary>
     public int Peers { get; init; } = 2;
 
     /// <summary>Whether it runs in virtual time.</summary>
     public bool IsVirtual { get; init; }
 
-    /// <summary>What carries datagrams in real time.</summary>
+    /// <summary>The carrier of datagrams in real time.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
 
-    /// <summary>From where the ball's centre falls at first, in metres.</summary>
+    /// <summary>The height from which the ball's centre falls at first, in metres.</summary>
     public double HeightMetres { get; init; } = 10;
 
-    /// <summary>To where it is lifted, in metres.</summary>
+    /// <summary>The height to which it is lifted, in metres.</summary>
     public double SecondHeightMetres { get; init; } = 15;
 
     /// <summary>The ball's restitution, 0 to 1.</summary>
     public double Restitution { get; init; } = 0.8;
 
-    /// <summary>The luck of links and clocks.</summary>
+    /// <summary>The seed of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
 
-    /// <summary>Ends a run in virtual time, in the middle of a step if need be, by an <see cref="OperationCanceledException"/>; default none. In real time whoever is told of progress ends it, by an exception.</summary>
+    /// <summary>
+    /// Cancels a run in virtual time, in mid-step if need be, with an <see cref="OperationCanceledException"/>; default none. In real time
+    /// the progress callback may end it with an exception.
+    /// </summary>
     public CancellationToken Cancellation { get; init; }
 
     /// <summary>Whether heights and restitution are the thesis's, so that its figures compare.</summary>
     public bool IsThesisSetting => HeightMetres == 10 && SecondHeightMetres == 15 && Restitution == 0.8;
 
-    /// <summary>How long the run takes, from the start of the scene.</summary>
+    /// <summary>The length of the run, from the start of the scene.</summary>
     public SimDuration Length =>
         Cases.Count == 2 ? SameStartLength + TeleportLength
         : Cases[0] == DropCase.SameStart ? SameStartLength
         : TeleportAlone + TeleportLength;
 
-    /// <summary>When the ball is lifted, after the start of the scene; null if it is not.</summary>
+    /// <summary>The time of the lift, after the start of the scene; null if there is none.</summary>
     public SimDuration? Lift =>
         Cases.Count == 2 ? SameStartLength : Cases[0] == DropCase.Teleport ? TeleportAlone : null;
 
@@ -85,7 +88,7 @@ public sealed record DropOptions
         : which == DropCase.SameStart ? (SimDuration.Zero, SameStartLength)
         : (SameStartLength, Length);
 
-    /// <summary>The scene: a ball above a floor; at rest on it if only the teleport case is run.</summary>
+    /// <summary>The scene: a ball above a floor, or at rest on it if only the teleport case is run.</summary>
     /// <exception cref="SceneException">A height or the restitution is out of range.</exception>
     public Scene BuildScene()
     {

@@ -10,18 +10,18 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Drop;
 
-/// <summary>The thesis's drop test: two instances of a world in which a ball falls, and one of them lifts it.</summary>
+/// <summary>The thesis's drop test: a ball falls in several instances of a world, and one peer lifts it.</summary>
 public static class DropTest
 {
-    /// <summary>The peer that lifts the ball: the first client, so that the event takes the host's verdict.</summary>
+    /// <summary>The peer that lifts the ball: the first client, so that the event needs the host's verdict.</summary>
     private const int Lifter = 1;
 
-    /// <summary>Runs it and measures every case.</summary>
-    /// <param name="options">What to run.</param>
-    /// <param name="progress">Is told the shared time since the start of the scene, from time to time.</param>
+    /// <summary>Runs the test and measures every case.</summary>
+    /// <param name="options">The options.</param>
+    /// <param name="progress">Called from time to time with the shared time since the start of the scene.</param>
     /// <exception cref="SceneException">A height or the restitution is out of range.</exception>
-    /// <exception cref="PeerGroupException">The peers did not come together.</exception>
-    /// <exception cref="OperationCanceledException">Its options asked for an end.</exception>
+    /// <exception cref="PeerGroupException">The peers did not connect.</exception>
+    /// <exception cref="OperationCanceledException">The options' token cancelled the run.</exception>
     public static IReadOnlyList<DropRun> Run(DropOptions options, Action<SimDuration>? progress = null)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -94,7 +94,9 @@ public static class DropTest
             PeerComparison.Errors(samples, peers.Grid, peers.Bodies.Length, first, end, stamp, dealt);
     }
 
-    /// <summary>The number of the first instant that the lift may have changed: the case before it ends there, and its own begins.</summary>
+    /// <summary>
+    /// Returns the index of the first instant that the lift may have changed. The case before it ends there, and the lift's own begins.
+    /// </summary>
     private static int BeforeLift(PeerGroup peers, DropOptions options, in ExternalEvent lifted) =>
         Math.Min(peers.Grid.FirstAfter(peers.Start + options.Window(DropCase.SameStart).Last), peers.Grid.FirstAfter(lifted.Time - SimDuration.OneTick));
 
@@ -104,7 +106,7 @@ public static class DropTest
         return before.Motion == MotionLaw.Resting;
     }
 
-    /// <summary>When the last peer showed the event, by its own shared clock; a peer that never heard of it is not waited for.</summary>
+    /// <summary>Returns when the last peer showed the event, by its own shared clock. A peer that never received it is ignored.</summary>
     private static SimTime LastDealt(PeerGroup peers, SimTime stamp) => Enumerable.Range(0, peers.PeerCount)
         .Select(p => peers.Session(p).Counters.LastShown).Append(stamp + peers.DisplayDelay).Max();
 

@@ -4,17 +4,19 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>Where a hand was, 120 times a second: what a headset's tracker gives, and the truth that a prediction is held against.</summary>
+/// <summary>
+/// The positions of a hand, 120 times a second, as a headset's tracker gives them. The ground truth of predictions.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class HandMotion
 {
-    /// <summary>Samples a second, of every motion: that of a present headset.</summary>
+    /// <summary>The sample rate of every motion, in Hz: that of present headsets.</summary>
     public const int RateHertz = 120;
 
     private readonly Vector3D[] positions;
 
-    /// <summary>A motion of these samples.</summary>
-    /// <param name="name">What it is called: <c>slow</c>, <c>random</c> or a file.</param>
+    /// <summary>Creates a motion from samples.</summary>
+    /// <param name="name">The name: <c>slow</c>, <c>random</c> or a file.</param>
     /// <param name="positions">Metres, one each 1/120 s, the first at time 0; at least one, all finite.</param>
     /// <exception cref="ArgumentException">There is no sample, or one is not finite.</exception>
     public HandMotion(string name, IReadOnlyList<Vector3D> positions)
@@ -37,19 +39,21 @@ public sealed class HandMotion
         Name = name;
     }
 
-    /// <summary>What it is called.</summary>
+    /// <summary>The name.</summary>
     public string Name { get; }
 
-    /// <summary>How many samples there are.</summary>
+    /// <summary>The number of samples.</summary>
     public int Count => positions.Length;
 
-    /// <summary>How long it lasts, in seconds, from the first sample to the last.</summary>
+    /// <summary>The duration from the first sample to the last, in seconds.</summary>
     public double Seconds => (Count - 1) / (double)RateHertz;
 
-    /// <summary>Where the hand was at sample <paramref name="n"/>, in metres.</summary>
+    /// <summary>Returns the position at sample <paramref name="n"/>, in metres.</summary>
     public Vector3D PositionAt(int n) => positions[n];
 
-    /// <summary>How fast it seemed to move at sample <paramref name="n"/> to who knows nothing later: the way since the sample before; m/s.</summary>
+    /// <summary>
+    /// Returns the velocity at sample <paramref name="n"/>, as measured from the sample before, in m/s.
+    /// </summary>
     public Vector3D VelocityAt(int n) => n == 0 ? Vector3D.Zero : (positions[n] - positions[n - 1]) * RateHertz;
 
     /// <summary>The largest acceleration, m/s^2, from second differences; 0 with fewer than three samples.</summary>

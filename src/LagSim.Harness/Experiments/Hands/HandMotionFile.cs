@@ -6,10 +6,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>A recorded hand motion: CSV with the header <c>time_s,x_m,y_m,z_m</c>, a row a sample.</summary>
+/// <summary>A recorded hand motion: CSV with the header <c>time_s,x_m,y_m,z_m</c>, a row for each sample.</summary>
 /// <remarks>
-/// Times in seconds, rising, at most 0.1 s apart, 2 s to an hour in all, from any origin; metres within +-1,000. Brought to 120 samples a second along straight
-/// lines between the recorded ones, so what is slower than that looks smoother than the hand was. Invariant culture.
+/// Times in seconds, rising, at most 0.1 s apart, 2 s to an hour in all, from any origin; metres within +-1,000. Brought to 120 samples a
+/// second along straight lines between the recorded ones, so what is slower than that looks smoother than the hand was. Invariant culture.
 /// </remarks>
 public static class HandMotionFile
 {
@@ -23,7 +23,7 @@ public static class HandMotionFile
     private const int LongestLine = 1000;
 
     /// <summary>Reads a file.</summary>
-    /// <exception cref="HandMotionException">It is not there, cannot be read, or holds no hand motion.</exception>
+    /// <exception cref="HandMotionException">The file does not exist, cannot be read, or holds no hand motion.</exception>
     public static HandMotion Read(string path)
     {
         ArgumentNullException.ThrowIfNull(path);
@@ -38,10 +38,10 @@ public static class HandMotionFile
         }
     }
 
-    /// <summary>Reads what a file holds.</summary>
-    /// <param name="text">The text; stays the caller's to close.</param>
-    /// <param name="name">What messages call it.</param>
-    /// <exception cref="HandMotionException">It holds no hand motion.</exception>
+    /// <summary>Parses the content of a file.</summary>
+    /// <param name="text">The text. The caller closes it.</param>
+    /// <param name="name">The name for error messages.</param>
+    /// <exception cref="HandMotionException">The text holds no hand motion.</exception>
     public static HandMotion Read(TextReader text, string name)
     {
         ArgumentNullException.ThrowIfNull(text);
@@ -62,7 +62,7 @@ public static class HandMotionFile
             line++;
             if (row.Length == 0 && text.Peek() < 0)
             {
-                break; // a last empty line is no row
+                break; // an empty line at the end is no row
             }
 
             double[] numbers = Numbers(row, name, line);

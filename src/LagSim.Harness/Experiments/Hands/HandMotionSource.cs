@@ -3,14 +3,15 @@ using System.IO;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>What a user names as a hand's motion: a generated one, or a CSV file.</summary>
+/// <summary>The hand motion that a user names: a generated one, or a CSV file.</summary>
 public static class HandMotionSource
 {
-    /// <summary>The generated motion of that name, else the one recorded in that file.</summary>
+    /// <summary>Finds the generated motion of a name, else reads the file.</summary>
     /// <remarks>A generated one wins; a file of the same name is reached as <c>./slow</c>.</remarks>
     /// <param name="nameOrPath"><c>slow</c>, <c>random</c>, or a file as <see cref="HandMotionFile"/> describes it.</param>
-    /// <param name="seed">The luck of a generated one.</param>
-    /// <exception cref="HandMotionException">It is neither, or the file holds no hand motion.</exception>
+    /// <param name="seed">The seed of a generated motion.</param>
+    /// <exception cref="HandMotionException">The name is no generated motion, and the file does not exist or holds no hand
+    /// motion.</exception>
     public static HandMotion Load(string nameOrPath, ulong seed)
     {
         ArgumentNullException.ThrowIfNull(nameOrPath);

@@ -5,32 +5,34 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>The generated motions of a hand: 60 s each, by a seed. Their parameters were set before any predictor was tried on them.</summary>
+/// <summary>
+/// The generated motions of a hand: 60 s each, by a seed. Their parameters were set before any predictor was tried on them.
+/// </summary>
 /// <remarks>
 /// <para><c>slow</c>: reaches to places in a box of 0.6 x 0.4 x 0.4 m, each in 0.8 to 1.6 s, after every other a pause of up to 0.5 s: at
 /// most about 1.3 m/s and 8 m/s^2.</para>
-/// <para><c>random</c>: of all that it does half are series of quick reaches, which may begin before the last has ended, three tenths are shaking at 2.3 to 5 Hz, two
-/// tenths are stillness: at most about 3 m/s and 50 m/s^2. Nothing tells beforehand what comes next.</para>
+/// <para><c>random</c>: half of it are series of quick reaches, which may begin before the last has ended, three tenths are shaking at 2.3
+/// to 5 Hz, and two tenths are stillness: at most about 3 m/s and 50 m/s^2. Nothing announces what comes next.</para>
 /// <para>Both tremble by 0.3 mm. The same seed gives the same bits everywhere.</para>
 /// </remarks>
 public static class HandMotions
 {
-    /// <summary>The name of the slow one.</summary>
+    /// <summary>The name of the slow motion.</summary>
     public const string Slow = "slow";
 
-    /// <summary>The name of the random one.</summary>
+    /// <summary>The name of the random motion.</summary>
     public const string Random = "random";
 
-    /// <summary>How long a generated motion lasts, in seconds.</summary>
+    /// <summary>The duration of a generated motion, in seconds.</summary>
     public const double Seconds = 60;
 
     private static readonly Vector3D HalfBox = new(0.3, 0.2, 0.2);
 
-    /// <summary>What can be generated.</summary>
+    /// <summary>The names of the generated motions.</summary>
     public static IReadOnlyList<string> Names { get; } = [Slow, Random];
 
-    /// <summary>The generated motion of that name.</summary>
-    /// <exception cref="ArgumentException">There is none of that name.</exception>
+    /// <summary>Generates the motion of a name.</summary>
+    /// <exception cref="ArgumentException">There is no such name.</exception>
     public static HandMotion Generate(string name, ulong seed)
     {
         SeededRandom luck = new(seed);
@@ -70,7 +72,7 @@ public static class HandMotions
         return strokes;
     }
 
-    /// <summary>Two to six, longer ones over longer ways; the next begins when 60 to 110 % of one are over.</summary>
+    /// <summary>Two to six reaches, longer in time over longer distances. The next begins when 60 to 110 % of one are over.</summary>
     private static double QuickReaches(StrokeSequence strokes, double time, SeededRandom luck)
     {
         for (int n = 2 + (int)(luck.NextDouble() * 5); n > 0; n--)
@@ -84,7 +86,7 @@ public static class HandMotions
         return time;
     }
 
-    /// <summary>To and fro along one line, 3 to 8 cm, 100 to 220 ms a stroke and each a little otherwise.</summary>
+    /// <summary>Shakes along one line, 3 to 8 cm, with strokes of 100 to 220 ms that each vary a little.</summary>
     private static double Shaking(StrokeSequence strokes, double time, SeededRandom luck)
     {
         Vector3D line = new(luck.NextGaussian(), luck.NextGaussian(), luck.NextGaussian());

@@ -3,7 +3,7 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>What a hand trembles of itself and a tracker adds: noise around 10 Hz, 0.3 mm rms along each axis.</summary>
+/// <summary>The tremor of a hand and the noise of its tracker: noise around 10 Hz, 0.3 mm rms along each axis.</summary>
 /// <remarks>A resonance of second order, x(n) = 2 r cos(2 pi 10 / 120) x(n-1) - r^2 x(n-2) + noise, with r = 0.95.</remarks>
 internal sealed class HandTremor
 {

@@ -5,19 +5,20 @@ using MathNet.Numerics.LinearAlgebra.Factorization;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>The best that a linear predictor of 20 taps can do on a motion, by least squares with the motion itself at hand.</summary>
+/// <summary>The best linear predictor of 20 taps for a motion, by least squares on the motion itself.</summary>
 /// <remarks>
-/// <para>Each coordinate has taps of its own. They weigh the 20 newest positions and add up to 1, so that the answer does not depend on where the origin is. Holding, constant
-/// velocity and damped velocity are such predictors, with a velocity that is the difference of the two newest samples.</para>
-/// <para>Fitted to all of the motion it is a bound from below for every linear predictor of 20 taps there. Cross-validated, each tenth of the motion is told by taps
-/// that were fitted to the rest without what overlaps it: that can be had without knowing what is asked.</para>
+/// <para>Each coordinate has taps of its own. They weigh the 20 newest positions and add up to 1, so that the answer does not depend on
+/// where the origin is. Holding, constant velocity and damped velocity are such predictors, with a velocity that is the difference of the
+/// two newest samples.</para>
+/// <para>Fitted to all of the motion, its error is a lower bound for every linear predictor of 20 taps. Cross-validated, each tenth of the
+/// motion is predicted by taps fitted to the rest, without the samples that overlap it, so nothing is fitted to its own test data.</para>
 /// </remarks>
 internal sealed class LinearFit
 {
     internal const int Taps = 20;
 
     private const int Folds = 10;
-    private const double LeastOfLargest = 1e-13; // what is smaller among the eigenvalues is rounding
+    private const double LeastOfLargest = 1e-13; // smaller eigenvalues are rounding
 
     private LinearFit(double inSample, double crossValidated)
     {
@@ -28,10 +29,10 @@ internal sealed class LinearFit
     /// <summary>The rms error with taps fitted to all of the motion.</summary>
     internal double InSampleMetres { get; }
 
-    /// <summary>The rms error where no tap was fitted to what it is asked about.</summary>
+    /// <summary>The rms error with cross-validated taps.</summary>
     internal double CrossValidatedMetres { get; }
 
-    /// <summary>Fits taps for the way from each sample to so many samples later.</summary>
+    /// <summary>Fits taps for the displacement from each sample to a number of samples later.</summary>
     internal static LinearFit Of(HandMotion motion, int steps)
     {
         int count = motion.Count - steps - (Taps - 1);
@@ -54,7 +55,9 @@ internal sealed class LinearFit
         return new LinearFit(Math.Sqrt(inSample / count), Math.Sqrt(crossValidated / count));
     }
 
-    /// <summary>The normal equations of one coordinate: the way from the newest sample on, out of the ways from the newest to each older one.</summary>
+    /// <summary>
+    /// The normal equations of one coordinate: the way from the newest sample on, out of the ways from the newest to each older one.
+    /// </summary>
     private sealed class Equations
     {
         private const int Unknowns = Taps - 1;
@@ -102,7 +105,7 @@ internal sealed class LinearFit
             }
         }
 
-        /// <summary>By eigenvalues, since a motion that was recorded coarsely has taps that say the same.</summary>
+        /// <summary>By eigenvalues, since the taps of a coarsely recorded motion are linearly dependent.</summary>
         internal Vector<double> Solve()
         {
             Matrix<double> symmetric = moments.Clone();

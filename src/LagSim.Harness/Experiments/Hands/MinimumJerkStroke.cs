@@ -3,7 +3,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>One stroke of a hand: from rest to rest along a straight line with the least jerk (Flash and Hogan 1985), 10 s^3 - 15 s^4 + 6 s^5 of the way.</summary>
+/// <summary>
+/// One stroke of a hand: from rest to rest along a straight line with the least jerk (Flash and Hogan 1985), 10 s^3 - 15 s^4 + 6 s^5 of the
+/// way.
+/// </summary>
 /// <remarks>Immutable. Polynomials alone, so the same bits everywhere.</remarks>
 internal readonly record struct MinimumJerkStroke(double Start, double Duration, Vector3D Way)
 {

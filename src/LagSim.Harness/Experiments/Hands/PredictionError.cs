@@ -2,14 +2,16 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>How far predictions of a hand were off at one horizon: rms over the motion, in metres. Immutable.</summary>
-/// <param name="HorizonMilliseconds">How long after the newest sample the hand was told.</param>
-/// <param name="Samples">How many predictions were made.</param>
-/// <param name="AdaptiveMetres">Of the adaptive predictor.</param>
-/// <param name="CandidateMetres">Of each that it mixes, in its order.</param>
-/// <param name="LinearMetres">Of a linear predictor of 20 taps, fitted to this very motion but for the tenth that it is asked about.</param>
-/// <param name="LinearInSampleMetres">The same, fitted to all of it: no linear predictor of 20 taps does better on this motion.</param>
-/// <param name="LowerBoundMetres">A L^2 / 2 with the largest acceleration of this motion: below that no predictor can promise to stay.</param>
+/// <summary>The errors of hand predictions at one horizon: rms over the motion, in metres. Immutable.</summary>
+/// <param name="HorizonMilliseconds">The time from the newest sample to the predicted position, in milliseconds.</param>
+/// <param name="Samples">The number of predictions.</param>
+/// <param name="AdaptiveMetres">The error of the adaptive predictor.</param>
+/// <param name="CandidateMetres">The error of each of its candidates, in its order.</param>
+/// <param name="LinearMetres">The error of a linear predictor of 20 taps, cross-validated on this motion.</param>
+/// <param name="LinearInSampleMetres">The error of a linear predictor fitted to all of this motion: a lower bound for linear predictors of
+/// 20 taps.</param>
+/// <param name="MinWorstMetres">A L^2 / 2 with the largest acceleration A of this motion: no predictor can guarantee a smaller worst
+/// case.</param>
 public sealed record PredictionError(
     double HorizonMilliseconds,
     int Samples,
@@ -19,13 +21,13 @@ public sealed record PredictionError(
     double LinearInSampleMetres,
     double LowerBoundMetres)
 {
-    /// <summary>Of holding the last sample.</summary>
+    /// <summary>The error of holding the last position.</summary>
     public double HoldLastMetres => CandidateMetres[0];
 
-    /// <summary>Of going on at the last sample's velocity.</summary>
+    /// <summary>The error of extrapolating at the last velocity.</summary>
     public double VelocityMetres => CandidateMetres[PredictionTest.VelocityCandidate];
 
-    /// <summary>Which candidate turned out to be best.</summary>
+    /// <summary>The index of the candidate with the least error.</summary>
     public int BestCandidate
     {
         get
@@ -40,9 +42,11 @@ public sealed record PredictionError(
         }
     }
 
-    /// <summary>Of that one.</summary>
+    /// <summary>The error of that candidate.</summary>
     public double BestInHindsightMetres => CandidateMetres[BestCandidate];
 
-    /// <summary>The adaptive predictor's error over that of the best in hindsight; NaN where neither errs, as at horizon 0.</summary>
+    /// <summary>
+    /// The adaptive predictor's error divided by that of the best candidate in hindsight; NaN where both are 0, as at horizon 0.
+    /// </summary>
     public double RatioToBest => AdaptiveMetres / BestInHindsightMetres;
 }

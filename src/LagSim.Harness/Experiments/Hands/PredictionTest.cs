@@ -7,17 +7,24 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>How well a hand can be told from samples of the past: at every sample of a motion each predictor says where the hand will be a horizon later.</summary>
+/// <summary>
+/// Measures how well a hand can be predicted from past samples: at every sample of a motion, each predictor estimates the position a
+/// horizon later.
+/// </summary>
 public static class PredictionTest
 {
-    /// <summary>The horizons that are reported: whole sample intervals all, from 0 to 500 ms, which the shortest recorded motion is long enough for.</summary>
+    /// <summary>
+    /// The reported horizons, in milliseconds: whole sample intervals from 0 to 500 ms, for which the shortest recorded motion is long
+    /// enough.
+    /// </summary>
     public static IReadOnlyList<double> DefaultHorizonsMilliseconds { get; } = [0, 25, 50, 75, 100, 150, 200, 250, 300, 400, 500];
 
     internal static int VelocityCandidate { get; } = AdaptivePredictor.Candidates.ToList().IndexOf("velocity");
 
-    /// <summary>The test at one horizon.</summary>
-    /// <param name="motion">What the hand does.</param>
-    /// <param name="horizonMilliseconds">0 to 1000 and a whole number of sample intervals (25/3 ms); the motion must be longer by a second.</param>
+    /// <summary>Runs the test at one horizon.</summary>
+    /// <param name="motion">The motion.</param>
+    /// <param name="horizonMilliseconds">0 to 1000 and a whole number of sample intervals (25/3 ms); the motion must be longer by a
+    /// second.</param>
     /// <exception cref="ArgumentOutOfRangeException">The horizon is none of those.</exception>
     public static PredictionError Run(HandMotion motion, double horizonMilliseconds)
     {
@@ -33,7 +40,7 @@ public static class PredictionTest
                     + $" {motion.Seconds} s.");
         }
 
-        int first = LinearFit.Taps - 1; // from where on the linear one has what it needs; the same for all
+        int first = LinearFit.Taps - 1; // the first sample at which the linear predictor has all its inputs; the same for all predictors
         int count = motion.Count - steps - first;
         double adaptive = 0;
         double[] candidates = new double[AdaptivePredictor.Candidates.Count];

@@ -4,12 +4,12 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Experiments.Hands;
 
-/// <summary>Strokes that follow or overlap one another, added up and sampled with a tremor on top.</summary>
+/// <summary>A sequence of strokes that may overlap. They are added up and sampled, with a tremor on top.</summary>
 internal sealed class StrokeSequence
 {
     private readonly List<MinimumJerkStroke> strokes = [];
 
-    /// <summary>Where the strokes so far lead, in metres.</summary>
+    /// <summary>The position after the strokes so far, in metres.</summary>
     internal Vector3D Goal { get; private set; }
 
     /// <summary>Adds a stroke, in seconds and metres; no earlier than the one added before.</summary>

@@ -4,10 +4,14 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>What a hand does from the grab on: it lifts the ball off the floor within a second, does the motion, and throws. The truth that pictures are held against.</summary>
+/// <summary>
+/// The course of a hand from the grab on: it lifts the ball off the floor within a second, does the motion, and throws. The ground truth of
+/// frames.
+/// </summary>
 /// <remarks>
-/// <para>The motion is played where it is at least half a metre clear of the floor, however it lies in its own coordinates, on straight lines between its samples. In
-/// its last 0.2 s a throw comes on top of it: the first half of a stroke of 0.7 m, ahead and up, at whose fastest instant the hand opens.</para>
+/// <para>The motion is played where it is at least half a metre clear of the floor, however it lies in its own coordinates, on straight
+/// lines between its samples. In its last 0.2 s a throw comes on top of it: the first half of a stroke of 0.7 m, ahead and up, at whose
+/// fastest instant the hand opens.</para>
 /// <para>Immutable, safe on any thread.</para>
 /// </remarks>
 internal sealed class HandCourse
@@ -16,26 +20,28 @@ internal sealed class HandCourse
     internal const double LiftSeconds = 1;
     internal const double ThrowSeconds = 0.2;
 
-    /// <summary>The fastest hand that is played, in m/s: what a ball can be held by, whatever it was in before.</summary>
+    /// <summary>The fastest playable hand, in m/s: the limit of a hold.</summary>
     internal const double FastestHand = 100;
 
-    /// <summary>How far the lowest sample may lie below the first: as high as the ball is lifted within a second.</summary>
+    /// <summary>
+    /// How far the lowest sample may lie below the first, in metres: the height to which the ball is lifted within a second.
+    /// </summary>
     internal const double DeepestMetres = 20;
 
-    /// <summary>Where the ball's centre, which is the point that the hand takes it by, lies at first.</summary>
+    /// <summary>The position of the ball's centre at the grab, which is the grab point.</summary>
     internal static readonly Vector3D Rest = new(0, BallRadius, 0);
 
     private const double Clearance = 0.5;
     private const double Frame = 1.0 / HandMotion.RateHertz;
 
     private readonly HandMotion motion;
-    private readonly Vector3D origin; // where the motion's own origin is
+    private readonly Vector3D origin; // the position of the motion's own origin
     private readonly MinimumJerkStroke lift;
     private readonly MinimumJerkStroke toss;
 
-    /// <summary>A course over the first so many seconds of a motion.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">They are too few, too many, or more than the motion has.</exception>
-    /// <exception cref="HandMotionException">The hand is faster, or goes deeper, than can be played.</exception>
+    /// <summary>Creates a course over the first seconds of a motion.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The duration is too short, too long, or longer than the motion.</exception>
+    /// <exception cref="HandMotionException">The hand is too fast, or goes too deep.</exception>
     internal HandCourse(HandMotion motion, double seconds)
     {
         if (!(seconds >= HoldOptions.ShortestSeconds && seconds <= Math.Min(HoldOptions.LongestSeconds, motion.Seconds)))
@@ -71,13 +77,16 @@ internal sealed class HandCourse
         origin = Rest + lift.Way - motion.PositionAt(0);
     }
 
-    /// <summary>How long the motion is done.</summary>
+    /// <summary>The duration of the motion.</summary>
     internal double Seconds { get; }
 
-    /// <summary>When the hand opens, in seconds after the grab.</summary>
+    /// <summary>The time of the release, in seconds after the grab.</summary>
     internal double Release => LiftSeconds + Seconds;
 
-    /// <summary>Where the hand is so many seconds after the grab: at rest before it, where the throw has led after the release.</summary>
+    /// <summary>
+    /// Returns the position of the hand at a time after the grab, in seconds: at rest before the grab, at the end of the throw after the
+    /// release.
+    /// </summary>
     internal Vector3D At(double time)
     {
         double moved = Math.Clamp(time - LiftSeconds, 0, Seconds);
@@ -92,6 +101,6 @@ internal sealed class HandCourse
         return origin + at + ((motion.PositionAt(n + 1) - at) * (place - n)) + toss.At(moved);
     }
 
-    /// <summary>How fast it seems to move to who looks 120 times a second and knows nothing later.</summary>
+    /// <summary>Returns the velocity as measured by a tracker at 120 Hz, which does not know later samples.</summary>
     internal Vector3D VelocityAt(double time) => (At(time) - At(time - Frame)) * HandMotion.RateHertz;
 }

@@ -7,27 +7,30 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>Where a player's screen would draw another's hand by <see cref="AdaptivePredictor"/>, from the keyframes that have come and from those that have not.</summary>
+/// <summary>
+/// A view of a remote hand drawn by <see cref="AdaptivePredictor"/>, from the keyframes that arrived and from those that did not.
+/// </summary>
 /// <remarks>
-/// That no keyframe came tells something too: until now less what a keyframe takes, the hand was where the others foretell it, give or take the sender's distance. So each frame gives the
-/// predictor a sample that is as old as the slowest of the newest keyframes was, but never older than the newest keyframe itself, on <see cref="HandPath"/>. Keyframes
-/// alone, at uneven times, would teach it little. For display only; not thread-safe.
+/// A missing keyframe is information too: up to now minus a keyframe's latency, the hand was where the other peers extrapolate it, within
+/// the sender's tolerance. So each frame gives the predictor a sample on <see cref="HandPath"/> that is as old as the slowest recent
+/// keyframe was, but not older than the newest keyframe. Keyframes alone, at uneven times, would train it poorly. For display only; not
+/// thread-safe.
 /// </remarks>
 internal sealed class HandView
 {
-    /// <summary>So many keyframes say how late they come; tried, as all of this, on seeds 1001 to 1004.</summary>
+    /// <summary>The number of recent keyframes that determine the latency; chosen on seeds 1001 to 1004.</summary>
     private const int Remembered = 16;
 
-    /// <summary>Samples that are nearer together than this, about a tracker's rate, teach nothing more.</summary>
+    /// <summary>The least interval of samples, about a tracker's; closer ones add nothing.</summary>
     private static readonly SimDuration Apart = SimDuration.FromMilliseconds(8);
 
     private readonly AdaptivePredictor predictor = new();
     private readonly List<HandUpdate> keyframes = [];
 
-    /// <summary>A keyframe has come.</summary>
+    /// <summary>Adds a received keyframe.</summary>
     internal void Hear(in HandUpdate keyframe) => keyframes.Add(keyframe);
 
-    /// <summary>Where the hand is drawn in a frame; false before any keyframe. Frames come in the order of their times.</summary>
+    /// <summary>Returns the position to draw in a frame; false before any keyframe. Call it in order of frame times.</summary>
     internal bool TryDraw(SimTime now, out Vector3D drawn)
     {
         if (keyframes.Count > 0)
@@ -43,7 +46,7 @@ internal sealed class HandView
         return predictor.TryPredict(now, out drawn);
     }
 
-    /// <summary>Where one of the predictors that are mixed would draw it, alone, in the frame that was drawn last.</summary>
+    /// <summary>Returns the position that one candidate predictor alone would give, in the last drawn frame.</summary>
     internal Vector3D DrawnBy(int candidate, SimTime now)
     {
         predictor.TryPredict(now, candidate, out Vector3D drawn);
@@ -62,7 +65,7 @@ internal sealed class HandView
         return most;
     }
 
-    /// <summary>What is foretold of an instant at or after the newest keyframe.</summary>
+    /// <summary>Returns the extrapolated position at or after the newest keyframe.</summary>
     private (Vector3D Position, Vector3D Velocity) Known(SimTime time)
     {
         ExternalEvent newest = keyframes[^1].Event;

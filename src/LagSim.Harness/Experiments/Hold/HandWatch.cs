@@ -6,12 +6,14 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>Writes down what each peer hears of the hand, and when. Each list is its session's until that has ended.</summary>
+/// <summary>
+/// A recorder of the hand's events as each peer receives them. Each list belongs to its session's thread until that has ended.
+/// </summary>
 internal sealed class HandWatch
 {
     private readonly List<HandUpdate>[] heard;
 
-    /// <summary>Listens to every session of a group that is connected.</summary>
+    /// <summary>Subscribes to every session of a connected group.</summary>
     internal HandWatch(PeerGroup peers)
     {
         heard = Enumerable.Range(0, peers.PeerCount).Select(_ => new List<HandUpdate>()).ToArray();
@@ -29,6 +31,6 @@ internal sealed class HandWatch
         }
     }
 
-    /// <summary>What a peer heard, by its place in the group, in the order of the log.</summary>
+    /// <summary>The events that a peer received, by its place in the group, in the order of the log.</summary>
     internal IReadOnlyList<HandUpdate> HeardBy(int place) => heard[place];
 }

@@ -10,7 +10,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>One session as the holder's game plays it: a grab, frames in which keyframes go out as <see cref="HandSender"/> says, and a release at the hand's velocity.</summary>
+/// <summary>
+/// One session as the holder's game plays it: a grab, frames in which <see cref="HandSender"/> decides on keyframes, and a release at the
+/// hand's velocity.
+/// </summary>
 internal sealed class HoldSession
 {
     private static readonly BodyId Ball = BodyId.OfScene(0);
@@ -19,7 +22,7 @@ internal sealed class HoldSession
     private readonly HandCourse course;
     private readonly Action<SimDuration>? progress;
 
-    /// <summary>A session of a group that is connected.</summary>
+    /// <summary>Creates a session on a connected group.</summary>
     internal HoldSession(PeerGroup peers, HandCourse course, Action<SimDuration>? progress)
     {
         this.peers = peers;
@@ -29,40 +32,40 @@ internal sealed class HoldSession
         Hand = new HandWatch(peers);
     }
 
-    /// <summary>When everybody showed what, and what the host accepted.</summary>
+    /// <summary>The times at which every peer showed each event, and the accepted events.</summary>
     internal LateEventWatch LateEvents { get; }
 
-    /// <summary>What everybody heard of the hand.</summary>
+    /// <summary>The events of the hand that every peer received.</summary>
     internal HandWatch Hand { get; }
 
-    /// <summary>When the hand closed, in shared time.</summary>
+    /// <summary>The time of the grab, in shared time.</summary>
     internal SimTime Grab { get; private set; }
 
-    /// <summary>When the ball was lifted and the motion began.</summary>
+    /// <summary>The time at which the ball was lifted and the motion began.</summary>
     internal SimTime MotionStart => Grab + SimDuration.FromSeconds(HandCourse.LiftSeconds);
 
-    /// <summary>When the throw began.</summary>
+    /// <summary>The time at which the throw began.</summary>
     internal SimTime ThrowStart => Grab + SimDuration.FromSeconds(course.Release - HandCourse.ThrowSeconds);
 
-    /// <summary>When the hand opened.</summary>
+    /// <summary>The time of the release.</summary>
     internal SimTime Release { get; private set; }
 
-    /// <summary>What each peer had sent and received when the scene had just started.</summary>
+    /// <summary>The traffic of each peer when the scene had just started.</summary>
     internal PortTraffic[] TrafficAtStart { get; private set; } = [];
 
-    /// <summary>What the holder had when the motion began.</summary>
+    /// <summary>The holder's traffic when the motion began.</summary>
     internal PortTraffic TrafficAtMotion { get; private set; }
 
-    /// <summary>What the holder had when the hand was about to open.</summary>
+    /// <summary>The holder's traffic right before the release.</summary>
     internal PortTraffic TrafficAtThrow { get; private set; }
 
-    /// <summary>What each peer had in the end.</summary>
+    /// <summary>The traffic of each peer at the end.</summary>
     internal PortTraffic[] TrafficAtEnd { get; private set; } = [];
 
-    /// <summary>Where the hand was at an instant of shared time; null unless it held then.</summary>
+    /// <summary>Returns the position of the hand at a shared time; null unless it held the ball then.</summary>
     internal Vector3D? HandAt(SimTime time) => time >= Grab && time <= Release ? course.At((time - Grab).ToSeconds()) : null;
 
-    /// <summary>Plays it to the end.</summary>
+    /// <summary>Plays the session to the end.</summary>
     internal void Play(HoldOptions options)
     {
         SharedClock clock = peers.Session(HoldTest.Holder).SharedTime;

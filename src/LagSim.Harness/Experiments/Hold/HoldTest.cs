@@ -11,20 +11,20 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Hold;
 
-/// <summary>A session in which one peer's hand takes the ball, moves it and throws it, and the others see that late and heal.</summary>
+/// <summary>A session in which one peer's hand grabs, moves and throws the ball. The other peers see that late and heal.</summary>
 public static class HoldTest
 {
-    /// <summary>The peer whose hand it is: the first client, so that its events take the host's verdict.</summary>
+    /// <summary>The peer with the hand: the first client, so that its events need the host's verdict.</summary>
     public const int Holder = 1;
 
-    /// <summary>Nobody may hear of the start when it is past: 2 s one way, and again for what is lost.</summary>
+    /// <summary>The lead of the start, so that every peer receives it in time: 2 s one way, and again for lost datagrams.</summary>
     private static readonly SimDuration StartLead = SimDuration.FromSeconds(5);
 
     private static readonly Vector3D Nowhere = new(double.NaN, double.NaN, double.NaN);
 
-    /// <summary>Says what is wrong with a hold before anything is run.</summary>
-    /// <exception cref="ArgumentOutOfRangeException">Its length is out of range.</exception>
-    /// <exception cref="HandMotionException">The motion is faster, or goes deeper, than can be played.</exception>
+    /// <summary>Validates a hold before anything runs.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">The length is out of range.</exception>
+    /// <exception cref="HandMotionException">The motion is too fast, or goes too deep.</exception>
     public static void Check(HoldOptions options)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -32,11 +32,11 @@ public static class HoldTest
     }
 
     /// <summary>Runs it. In virtual time the same options give the same figures.</summary>
-    /// <param name="options">What to run.</param>
-    /// <param name="progress">Is told the shared time since the start of the scene, from time to time.</param>
+    /// <param name="options">The options.</param>
+    /// <param name="progress">Called from time to time with the shared time since the start of the scene.</param>
     /// <exception cref="ArgumentOutOfRangeException">The hold's length is out of range.</exception>
-    /// <exception cref="HandMotionException">The motion is faster, or goes deeper, than can be played.</exception>
-    /// <exception cref="PeerGroupException">The peers did not come together, or one dropped out.</exception>
+    /// <exception cref="HandMotionException">The motion is too fast, or goes too deep.</exception>
+    /// <exception cref="PeerGroupException">The peers did not connect, or one dropped out.</exception>
     /// <exception cref="OperationCanceledException">Its options asked for an end.</exception>
     public static HoldRun Run(HoldOptions options, Action<SimDuration>? progress = null)
     {
@@ -121,7 +121,9 @@ public static class HoldTest
         T[] Instants<T>(Func<int, T> of) => Array.ConvertAll(Enumerable.Range(0, grid.Count).ToArray(), n => of(n));
     }
 
-    /// <summary>What one of the others saw, and would have seen with the predictor: it hears again what it heard, when it did, frame by frame.</summary>
+    /// <summary>
+    /// Replays, frame by frame, what another peer saw and would have seen with the predictor, with each event at the time it arrived.
+    /// </summary>
     private static HeldView View(PeerGroup peers, HoldSession session, int place, Vector3D[] hand, int first, int end, out Vector3D[] drawn)
     {
         IReadOnlyList<HandUpdate> heard = session.Hand.HeardBy(place);
@@ -166,7 +168,7 @@ public static class HoldTest
         return new HeldView(place, Off(peers.Seen[place], hand, first, end), adaptive, alone);
     }
 
-    /// <summary>How far from the hand a peer showed the ball.</summary>
+    /// <summary>Returns how far from the hand a peer showed the ball.</summary>
     private static ErrorStatistics Off(PeerSamples seen, Vector3D[] hand, int first, int end)
     {
         ErrorAccumulator errors = new();

@@ -4,7 +4,7 @@ using MathNet.Numerics.Statistics;
 
 namespace LagSim.Harness.Experiments.Metrics;
 
-/// <summary>Collects errors one by one in constant memory and says at any moment what they amount to.</summary>
+/// <summary>Accumulates errors one by one in constant memory.</summary>
 /// <remarks>Not thread-safe. Deterministic: the same errors in the same order give the same statistics.</remarks>
 public sealed class ErrorAccumulator
 {
@@ -19,7 +19,7 @@ public sealed class ErrorAccumulator
 
     /// <summary>Adds one measured sample.</summary>
     /// <param name="errorMetres">The size of the error in metres: finite, not negative.</param>
-    /// <param name="anyBitDiffers">Whether the compared states differ in any bit, be it one that does not move the body.</param>
+    /// <param name="anyBitDiffers">Whether the compared states differ in any bit, even one that does not move the body.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="errorMetres"/> is negative, NaN or infinite.</exception>
     public void Add(double errorMetres, bool anyBitDiffers)
     {
@@ -34,11 +34,11 @@ public sealed class ErrorAccumulator
         _differing += anyBitDiffers ? 1 : 0;
     }
 
-    /// <summary>Counts a sample for which a peer's picture did not cover the asked time.</summary>
-    /// <remarks>It adds no error. Where the peer showed an older picture instead, call <see cref="Add"/> for that error as well.</remarks>
+    /// <summary>Counts a sample for which a peer's frame did not cover the requested time.</summary>
+    /// <remarks>It adds no error. Where the peer showed an older frame instead, call <see cref="Add"/> for that error as well.</remarks>
     public void AddStalled() => _stalled++;
 
-    /// <summary>What was collected so far.</summary>
+    /// <summary>Returns the statistics so far.</summary>
     public ErrorStatistics ToStatistics() => _errors.Count == 0
         ? new ErrorStatistics(0, 0.0, 0.0, 0.0, 0, _stalled)
         : new ErrorStatistics(_errors.Count, _max, _errors.Mean, Math.Sqrt(_squares.Mean), _differing, _stalled);

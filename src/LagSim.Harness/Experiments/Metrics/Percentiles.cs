@@ -7,8 +7,8 @@ namespace LagSim.Harness.Experiments.Metrics;
 
 /// <summary>The median, the 99th percentile and the maximum of a list of values.</summary>
 /// <remarks>
-/// Immutable, safe on any thread. The unit is that of the values, most often milliseconds. Between two values the quantile is
-/// interpolated by definition R-7, the default of NumPy, R and spreadsheets, so that whoever has the CSV can check the figure.
+/// Immutable, safe on any thread. The unit is that of the values, most often milliseconds. Between two values the quantile is interpolated
+/// by definition R-7, the default of NumPy, R and spreadsheets, so the figure can be checked from the CSV.
 /// </remarks>
 /// <param name="P50">The median; 0 without a value.</param>
 /// <param name="P99">The 99th percentile; 0 without a value.</param>

@@ -1,6 +1,6 @@
 namespace LagSim.Harness.Experiments.Metrics;
 
-/// <summary>Where a sample lies with regard to an external event. Without an event all samples are <see cref="Before"/>.</summary>
+/// <summary>The phase of a sample relative to an external event. Without an event all samples are <see cref="Before"/>.</summary>
 public enum Phase
 {
     /// <summary>Before the event's stamp.</summary>

@@ -5,17 +5,17 @@ using System.Runtime.InteropServices;
 namespace LagSim.Harness.Experiments.Metrics;
 
 /// <summary>
-/// The time that this thread has had a core: what others take on a shared machine is not counted, so a tail is the program's own. Where the system does not tell (anything but Linux) wall
-/// clock.
+/// The CPU time of this thread, so that tails are the program's own and other load on the machine is not counted. Wall-clock time where the
+/// system does not provide it (anything but Linux).
 /// </summary>
 public static class ThreadClock
 {
     private const int ThreadCpuTime = 3; // CLOCK_THREAD_CPUTIME_ID
 
-    /// <summary>What the figures are.</summary>
+    /// <summary>A description of the clock, for reports.</summary>
     public static string Name => OperatingSystem.IsLinux() ? "CPU time" : "wall clock";
 
-    /// <summary>Microseconds from some beginning.</summary>
+    /// <summary>Microseconds since an arbitrary origin.</summary>
     public static double Microseconds
     {
         get

@@ -4,7 +4,7 @@ using LagSim.Net.Carriers;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>What carries datagrams between peers in real time.</summary>
+/// <summary>A carrier of datagrams between peers in real time.</summary>
 /// <param name="Name">Its name on the command line and in results.</param>
 /// <param name="Open">Opens a port at an endpoint; port 0 is any free one.</param>
 public sealed record Carrier(string Name, Func<IPEndPoint, IDatagramPort> Open)

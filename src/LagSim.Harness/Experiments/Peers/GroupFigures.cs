@@ -9,30 +9,30 @@ using LagSim.Timelines;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>What every report of a group of peers has, read off once the run has ended, but for the traffic.</summary>
+/// <summary>The figures in every report of a group of peers, computed once the run has ended, except the traffic.</summary>
 internal static class GroupFigures
 {
-    /// <summary>What each peer has sent and received so far.</summary>
+    /// <summary>Returns the traffic of each peer so far.</summary>
     internal static PortTraffic[] Traffic(PeerGroup peers) => All(peers, peers.Traffic);
 
-    /// <summary>What each peer has sent a second, between two looks at the traffic.</summary>
+    /// <summary>Returns the bytes per second sent by each peer between two samples of the traffic.</summary>
     internal static double[] BytesPerSecond(PortTraffic[] before, PortTraffic[] after, double seconds) =>
         before.Zip(after, (a, b) => (b.BytesSent - a.BytesSent) / seconds).ToArray();
 
-    /// <summary>By how many milliseconds other peers' events came after their stamp.</summary>
+    /// <summary>Returns how late other peers' events arrived, in milliseconds after their stamp.</summary>
     internal static IEnumerable<double> Latenesses(PeerGroup peers) =>
         All(peers, p => peers.Session(p).Counters.Lateness).SelectMany(late => late).Select(late => late.ToMilliseconds());
 
-    /// <summary>How often peers rewrote their timelines for another's event that came late.</summary>
+    /// <summary>Returns how often peers rewound for another peer's late event.</summary>
     internal static long Heals(PeerGroup peers) => All(peers, p => peers.Session(p).Counters.Heals).Sum();
 
-    /// <summary>Each peer's state at the n-th instant.</summary>
+    /// <summary>Returns each peer's state at the n-th instant.</summary>
     internal static ulong[] StateHashes(PeerGroup peers, int n) => All(peers, p => peers.Session(p).World!.Simulation.StateHash(peers.Grid.At(n)));
 
-    /// <summary>Each peer's hash of all events up to the n-th instant.</summary>
+    /// <summary>Returns each peer's hash of all events up to the n-th instant.</summary>
     internal static ulong[] EventHashes(PeerGroup peers, int n) => All(peers, p => peers.Session(p).World!.Simulation.EventHash(peers.Grid.At(n)));
 
-    /// <summary>What happened in the host's world between two instants, body by body.</summary>
+    /// <summary>Returns the events in the host's world between two instants, body by body.</summary>
     internal static IEnumerable<TimelineEntry> HostEvents(PeerGroup peers, int first, int end)
     {
         SimTime from = peers.Grid.At(first) - PeerGroupOptions.SampleInterval;
@@ -42,7 +42,7 @@ internal static class GroupFigures
             .Where(entry => entry.Key.Time > from && entry.Key.Time <= to);
     }
 
-    /// <summary>The world that had everything on time: what the host accepted, at its own time, before anything was simulated.</summary>
+    /// <summary>Simulates the reference, which has every accepted event on time.</summary>
     internal static Simulation Truth(PeerGroup peers, IReadOnlyList<ExternalEvent> accepted, CancellationToken cancellation)
     {
         Simulation truth = new(peers.Scene, new SimulationOptions(peers.Start, SimDuration.MaxValue, cancellation: cancellation));

@@ -3,16 +3,16 @@ using LagSim.Harness.Experiments.Metrics;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>What every run of a group of peers tells, whatever was played.</summary>
+/// <summary>The measurements that every run of a group of peers has.</summary>
 public interface IPeerRun
 {
-    /// <summary>Errors as seen, at the same shared time.</summary>
+    /// <summary>The errors as seen, at the same shared time.</summary>
     PhaseErrors Seen { get; }
 
-    /// <summary>Errors as seen, at the same true instant.</summary>
+    /// <summary>The errors as seen, at the same true instant.</summary>
     PhaseErrors SeenTrueTime { get; }
 
-    /// <summary>Errors of what the timelines say once every event has arrived.</summary>
+    /// <summary>The errors among the timelines once every event has arrived.</summary>
     PhaseErrors Settled { get; }
 
     /// <summary>Each peer's state at the last sample, the host first.</summary>
@@ -24,15 +24,15 @@ public interface IPeerRun
     /// <summary>The largest error of a shared clock.</summary>
     double ClockErrorMilliseconds { get; }
 
-    /// <summary>How many events the host's world went through.</summary>
+    /// <summary>The number of events in the host's world.</summary>
     long Events { get; }
 
-    /// <summary>How often peers rewrote their past for another's event that came late; 0 with a strategy that rewrites none.</summary>
+    /// <summary>How often peers rewound for another peer's late event; 0 with a strategy that never rewinds.</summary>
     long Heals { get; }
 
-    /// <summary>Each peer's datagrams, UDP and IP headers included; what a carrier adds of its own is not.</summary>
+    /// <summary>Bytes per second sent by each peer, UDP and IP headers included, without overhead of other carriers.</summary>
     IReadOnlyList<double> BytesSentPerSecond { get; }
 
-    /// <summary>By how many milliseconds other peers' events came after their stamp.</summary>
+    /// <summary>How late other peers' events arrived, in milliseconds after their stamp.</summary>
     Percentiles Lateness { get; }
 }

@@ -8,22 +8,23 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>Notes when the last peer showed each event, by its own shared clock, and what the host accepted.</summary>
+/// <summary>Records when the last peer showed each event, by its own shared clock, and which events the host accepted.</summary>
 /// <remarks>
-/// In virtual time a step takes none, so what is heard of is shown. In real time every session tells on a thread of its own, and an event counts as shown once
-/// that peer has published its next picture: what a peer does itself makes one too, so there only those who do nothing are told to the millisecond.
+/// In virtual time a step takes none, so a received event is shown at once. In real time each session reports on its own thread, and an
+/// event counts as shown once that peer has published its next frame. A peer's own actions publish frames too, so only peers that do
+/// nothing are measured to the millisecond.
 /// </remarks>
 internal sealed class LateEventWatch
 {
     private readonly PeerGroup peers;
     private readonly bool isReal;
-    private readonly object gate = new(); // guards all below
+    private readonly object gate = new(); // guards everything below
     private readonly List<((byte Peer, uint Sequence) Which, SimTime Heard)>[] unshown;
     private readonly Dictionary<(byte Peer, uint Sequence), (int Heard, SimTime Last)> heard = [];
     private readonly List<ExternalEvent> done = [];
     private readonly List<ExternalEvent> accepted = [];
 
-    /// <summary>Listens to every session of a group that is connected.</summary>
+    /// <summary>Subscribes to every session of a connected group.</summary>
     internal LateEventWatch(PeerGroup peers)
     {
         this.peers = peers;
@@ -36,10 +37,13 @@ internal sealed class LateEventWatch
         }
     }
 
-    /// <summary>What the host accepted, in the order of its log. To be read once the run has ended.</summary>
+    /// <summary>The accepted events, in the order of the host's log. Read it once the run has ended.</summary>
     internal IReadOnlyList<ExternalEvent> Accepted => accepted;
 
-    /// <summary>Of each event that was done its stamp, and when the last peer showed it; the end of time if one never did. To be read once the run has ended.</summary>
+    /// <summary>
+    /// For each event its stamp, and the time at which the last peer showed it; the end of time if one never did. Read it once the run has
+    /// ended.
+    /// </summary>
     internal IReadOnlyList<(SimTime Stamp, SimTime Dealt)> Windows
     {
         get
@@ -53,10 +57,12 @@ internal sealed class LateEventWatch
         }
     }
 
-    /// <summary>Says that a player has done this.</summary>
+    /// <summary>Records an action of a player.</summary>
     internal void Did(in ExternalEvent external) => done.Add(external);
 
-    /// <summary>The phase of an instant: during any event that has happened and is not shown by all, else before the first, or after.</summary>
+    /// <summary>
+    /// Returns the phase of an instant: "during" from an event's stamp until all peers show it, else before the first event, or after.
+    /// </summary>
     internal static Phase PhaseAt(IReadOnlyList<(SimTime Stamp, SimTime Dealt)> windows, SimTime time) =>
         windows.All(w => time < w.Stamp) ? Phase.Before : windows.Any(w => time >= w.Stamp && time < w.Dealt) ? Phase.During : Phase.After;
 
@@ -72,7 +78,7 @@ internal sealed class LateEventWatch
 
             if (session.Peer == entry.Event.Peer && entry.Verdict == Verdict.Accepted)
             {
-                return; // who did it has it already, unless it is taken back
+                return; // its author already has it, unless the host refuses it
             }
 
             (byte, uint) which = (entry.Event.Peer, entry.Event.Sequence);
@@ -88,7 +94,7 @@ internal sealed class LateEventWatch
         }
     }
 
-    /// <summary>What a peer had heard of when it published its newest picture, that picture shows.</summary>
+    /// <summary>A peer's newest frame shows every event that the peer had received when it published the frame.</summary>
     private void Show(int place)
     {
         SimTime shown = peers.Session(place).Counters.LastShown;

@@ -6,7 +6,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>How far apart peers were: at each instant the largest distance of any body between the host and any other peer.</summary>
+/// <summary>A comparison of peers: at each instant, the largest distance of any body between the host and any other peer.</summary>
 public static class PeerComparison
 {
     /// <summary>The distance in metres at the n-th instant; NaN if a peer stalled.</summary>
@@ -28,7 +28,7 @@ public static class PeerComparison
                 BodyState there = peer.State(n, body);
                 differs |= !here.IsSameBits(there);
 
-                // What one of them has and the other has not is no distance apart, it differs.
+                // A body that only one of them has is no distance; it is a difference.
                 bool areThere = here.Motion != MotionLaw.Absent && there.Motion != MotionLaw.Absent;
                 most = areThere ? Math.Max(most, (here.Position - there.Position).Length) : most;
             }
@@ -37,10 +37,13 @@ public static class PeerComparison
         return most;
     }
 
-    /// <summary>The first instant at which a body is not the same to the bit as the first of the peers has it, and the first such body and peer; null if there is none.</summary>
-    /// <param name="peers">One entry a peer; all are compared with the first.</param>
-    /// <param name="bodies">How many bodies there are.</param>
-    /// <param name="count">How many instants there are.</param>
+    /// <summary>
+    /// Finds the first instant at which a body differs in any bit from the first peer's, with the first such body and peer; null if there
+    /// is none.
+    /// </summary>
+    /// <param name="peers">One entry for each peer; all are compared with the first.</param>
+    /// <param name="bodies">The number of bodies.</param>
+    /// <param name="count">The number of instants.</param>
     public static (int Instant, int Peer, int Body)? FirstDifference(IReadOnlyList<PeerSamples> peers, int bodies, int count)
     {
         ArgumentNullException.ThrowIfNull(peers);
@@ -62,23 +65,23 @@ public static class PeerComparison
     }
 
     /// <summary>The errors of the instants from <paramref name="first"/> to before <paramref name="end"/>, by phase.</summary>
-    /// <param name="peers">One entry a peer, the host first.</param>
+    /// <param name="peers">One entry for each peer, the host first.</param>
     /// <param name="grid">The instants.</param>
-    /// <param name="bodies">How many bodies there are.</param>
-    /// <param name="first">The number of the first instant.</param>
-    /// <param name="end">The number after the last.</param>
-    /// <param name="stamp">When the event happened; null: none, and all is before it.</param>
-    /// <param name="dealt">When the last peer had dealt with it.</param>
+    /// <param name="bodies">The number of bodies.</param>
+    /// <param name="first">The index of the first instant.</param>
+    /// <param name="end">The index after the last instant.</param>
+    /// <param name="stamp">The time of the event; null for none, with all samples before it.</param>
+    /// <param name="dealt">The time at which the last peer had dealt with the event.</param>
     public static PhaseErrors Errors(
         IReadOnlyList<PeerSamples> peers, SampleGrid grid, int bodies, int first, int end, SimTime? stamp, SimTime dealt) =>
         Errors(peers, bodies, first, end, n => stamp is not SimTime happened || grid.At(n) < happened ? Phase.Before : grid.At(n) < dealt ? Phase.During : Phase.After);
 
-    /// <summary>The same, where the phase of each instant is known.</summary>
-    /// <param name="peers">One entry a peer; all are compared with the first.</param>
-    /// <param name="bodies">How many bodies there are.</param>
-    /// <param name="first">The number of the first instant.</param>
-    /// <param name="end">The number after the last.</param>
-    /// <param name="phaseOf">The phase of an instant, by its number.</param>
+    /// <summary>The same, with a known phase for each instant.</summary>
+    /// <param name="peers">One entry for each peer; all are compared with the first.</param>
+    /// <param name="bodies">The number of bodies.</param>
+    /// <param name="first">The index of the first instant.</param>
+    /// <param name="end">The index after the last instant.</param>
+    /// <param name="phaseOf">Returns the phase of an instant, by its index.</param>
     public static PhaseErrors Errors(IReadOnlyList<PeerSamples> peers, int bodies, int first, int end, Func<int, Phase> phaseOf)
     {
         ArgumentNullException.ThrowIfNull(phaseOf);

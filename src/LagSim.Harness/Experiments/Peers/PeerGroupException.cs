@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>The peers of a test did not come together, or one of them ended early. The message says which and why.</summary>
+/// <summary>The peers of a test did not connect, or one of them ended early. The message says which and why.</summary>
 public sealed class PeerGroupException : Exception
 {
     /// <summary>No message; prefer the one with a sentence.</summary>

@@ -5,8 +5,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>What one peer showed: for each instant of the grid the state of every body, read when that peer's shared clock had just reached it.</summary>
-/// <remarks>Written by one thread, the one that plays the game's frame; read once that has ended.</remarks>
+/// <summary>
+/// The samples of one peer: the state of every body at each instant of the grid, read when that peer's shared clock had just reached it.
+/// </summary>
+/// <remarks>Written by one thread, that of the game's frames; read once that has ended.</remarks>
 public sealed class PeerSamples
 {
     private readonly SampleGrid grid;
@@ -16,10 +18,10 @@ public sealed class PeerSamples
     private readonly bool[] shown;
     private long lastNumber;
 
-    /// <summary>No sample taken yet.</summary>
+    /// <summary>Creates an empty set of samples.</summary>
     /// <param name="grid">The instants.</param>
-    /// <param name="bodies">Who is looked at.</param>
-    /// <param name="displayDelay">How far behind its shared clock the peer shows the world; default not at all.</param>
+    /// <param name="bodies">The bodies to sample.</param>
+    /// <param name="displayDelay">How far behind its shared clock the peer shows the world; default zero.</param>
     public PeerSamples(SampleGrid grid, BodyId[] bodies, SimDuration displayDelay = default)
     {
         ArgumentNullException.ThrowIfNull(bodies);
@@ -30,31 +32,32 @@ public sealed class PeerSamples
         shown = new bool[grid.Count];
     }
 
-    /// <summary>The number of the next instant to be sampled.</summary>
+    /// <summary>The index of the next instant to sample.</summary>
     public int Next { get; private set; }
 
-    /// <summary>Whether all instants were dealt with.</summary>
+    /// <summary>Whether all instants were sampled or missed.</summary>
     public bool IsComplete => Next == grid.Count;
 
-    /// <summary>The next instant; only while not complete.</summary>
+    /// <summary>The next instant. Call it only while not complete.</summary>
     public SimTime NextTime => grid.At(Next);
 
-    /// <summary>The instant of the world that the peer shows when its shared clock reads that; never one before the scene began. See <see cref="Net.Sessions.Session.DisplayTime"/>.</summary>
+    /// <summary>
+    /// Returns the instant of the world that the peer shows at a reading of its shared clock; never one before the start of the scene. See
+    /// <see cref="Net.Sessions.Session.DisplayTime"/>.
+    /// </summary>
     public SimTime ShownAt(SimTime shared) => SimTime.Max(shared - displayDelay, SimTime.Min(shared, grid.Start));
 
-    /// <summary>Whether the peer's render snapshot covered the n-th instant at the time; if not it stalled.</summary>
+    /// <summary>Whether the peer's render snapshot covered the n-th instant when it was due; if not, the peer stalled.</summary>
     public bool IsShown(int n) => shown[n];
 
     /// <summary>The state of a body at the n-th instant, by its place in the list of bodies.</summary>
     public BodyState State(int n, int body) => states[(n * bodies.Length) + body];
 
     /// <summary>Samples every instant that the clock has reached.</summary>
-    /// <param name="snapshot">What the peer shows now; null: nothing.</param>
-    /// <param name="now">What its shared clock reads now.</param>
-    /// <param name="timeout">
-    /// An instant further in the past than this, which was not sampled when it was due, counts as stalled, unless the render snapshot is still the
-    /// one of the last look: then it showed the instant as it does now.
-    /// </param>
+    /// <param name="snapshot">The current render snapshot of the peer; null for none.</param>
+    /// <param name="now">The current reading of its shared clock.</param>
+    /// <param name="timeout">An instant further in the past than this, which was not sampled when it was due, counts as stalled, unless the
+    /// render snapshot is still the one of the last sample: then it showed that instant as it does now.</param>
     public void Take(RenderSnapshot? snapshot, SimTime now, SimDuration timeout)
     {
         bool unchanged = snapshot is not null && snapshot.Number == lastNumber;
@@ -70,7 +73,9 @@ public sealed class PeerSamples
         }
     }
 
-    /// <summary>Samples the n-th instant as the render snapshot shows another one; what is seen at one true instant differs by the clocks' error.</summary>
+    /// <summary>
+    /// Samples the n-th instant from a render snapshot of another instant. Samples at one true instant differ by the clocks' error.
+    /// </summary>
     public void TakeAt(int n, RenderSnapshot? snapshot, SimTime now)
     {
         if (snapshot is not null && snapshot.Covers(ShownAt(now)))
@@ -81,7 +86,7 @@ public sealed class PeerSamples
         Next = Math.Max(Next, n + 1);
     }
 
-    /// <summary>Samples all that the simulation still has of each instant, whatever was shown then, and whenever it was shown.</summary>
+    /// <summary>Samples every instant that the simulation still has, whatever was shown then.</summary>
     public void TakeSettled(Simulation simulation)
     {
         ArgumentNullException.ThrowIfNull(simulation);

@@ -14,18 +14,21 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>Peers in real time over real sockets on this machine: each with its own thread, port and clock, watched by the calling thread.</summary>
+/// <summary>
+/// A group of peers in real time over real sockets on this machine. Each has its own thread, port and clock; the calling thread samples
+/// them.
+/// </summary>
 public sealed class RealPeers : PeerGroup
 {
     private const int PollMilliseconds = 1;
 
-    /// <summary>Processor time over less than this is mostly chance, and what the runtime still compiles in the background.</summary>
+    /// <summary>Processor time over a shorter span is mostly chance, and includes JIT compilation in the background.</summary>
     private const double MinQuietSeconds = 0.9;
 
     private static readonly SimDuration ConnectDeadline = SimDuration.FromSeconds(15);
     private static readonly SimDuration AnswerDeadline = SimDuration.FromSeconds(5);
 
-    /// <summary>A sample taken later than this after its instant was no sample of that instant.</summary>
+    /// <summary>A sample taken later than this after its instant counts as missed.</summary>
     private static readonly SimDuration Timeout = SimDuration.FromMilliseconds(4);
 
     private readonly PeerGroupOptions options;
@@ -36,7 +39,7 @@ public sealed class RealPeers : PeerGroup
     private volatile Exception? handlerFailure;
     private bool finished;
 
-    /// <summary>Makes the peers and binds their carriers to free ports of the loopback interface; nobody is connected yet.</summary>
+    /// <summary>Creates the peers and binds their carriers to free ports of the loopback interface, without connecting them.</summary>
     public RealPeers(Scene scene, PeerGroupOptions options)
         : base(scene, options)
     {
@@ -47,7 +50,7 @@ public sealed class RealPeers : PeerGroup
         SeededRandom random = new SeededRandom(options.Seed).Fork(0xC10C);
         for (int peer = 0; peer < PeerCount; peer++)
         {
-            // Clocks of machines that were not started at the same time: they agree on nothing but the length of a second.
+            // The clocks of machines that started at different times agree only on the length of a second.
             SimDuration apart = SimDuration.FromSeconds(random.NextDouble() * 3600);
             SkewedClock own = new(trueTime, 0, peer == 0 ? apart : apart + options.Link.ReceiverClockOffset);
             CountingPort counting = new(options.Carrier.Open(new IPEndPoint(IPAddress.Loopback, 0)));
@@ -111,7 +114,7 @@ public sealed class RealPeers : PeerGroup
             Thread.Sleep(PollMilliseconds);
         }
 
-        // Only what rests may go unwatched: its picture shows afterwards what it showed all the time.
+        // Bodies at rest need no samples: the frame shows afterwards what it showed throughout.
         double left = (end - threads[0].Session.SharedTime.Now).ToSeconds();
         if (AllRest() && left >= MinQuietSeconds)
         {
@@ -165,7 +168,9 @@ public sealed class RealPeers : PeerGroup
         }
     }
 
-    /// <summary>The link by which a peer hears of another. Both ways have one clock and one path, so that what befalls a link does so both ways at once.</summary>
+    /// <summary>
+    /// The link from one peer to another. Both directions share a clock and a path, so that a disturbance affects both at once.
+    /// </summary>
     private LinkModel LinkTo(int receiver, PeerAddress from)
     {
         int client = receiver == 0 ? Array.FindIndex(ports, port => port?.LocalAddress == from) : receiver;
@@ -178,7 +183,8 @@ public sealed class RealPeers : PeerGroup
         LinkModel down = new(options.Link.FromHost, luck.Fork(1), luck.Fork(2));
         if (options.Link.HasBulkTransfer)
         {
-            // The way up is another thread's. So acknowledgements have a queue of their own: a twentieth of its rate that the session is not made to share.
+            // The upstream belongs to another thread. So acknowledgements have their own queue, with a twentieth of its rate, which the
+            // session does not share.
             LinkModel acks = new(options.Link.ToHost, luck.Fork(4), luck.Fork(2));
             _ = new BulkTransfer(new LinkModel(options.Link.FromHost, luck.Fork(3), luck.Fork(2), down.Queue), acks, trueTime.Now);
         }
@@ -208,7 +214,9 @@ public sealed class RealPeers : PeerGroup
         Sample();
     }
 
-    /// <summary>A thread that the machine kept waiting may be behind its clock: what settles at the end is to be there, however long that takes within reason.</summary>
+    /// <summary>
+    /// A thread that the machine kept waiting may be behind its clock. Waits for its settled state, within reason.
+    /// </summary>
     private void AwaitWorlds(SimTime end)
     {
         long deadline = Stopwatch.GetTimestamp() + (long)(AnswerDeadline.ToSeconds() * Stopwatch.Frequency);
@@ -250,10 +258,10 @@ public sealed class RealPeers : PeerGroup
         }
     }
 
-    /// <summary>One true instant stands for all instants of the grid that passed since the last look.</summary>
+    /// <summary>One true instant stands for all instants of the grid that passed since the last sample.</summary>
     private void SampleTrueTime(int first, int end)
     {
-        // The clocks are read one right after the other; what passes in between, some hundred nanoseconds, is in the figure.
+        // The clocks are read one after the other; the difference, some hundred nanoseconds, is in the figure.
         SimTime[] readings = Array.ConvertAll(threads, t => t.Session.SharedTime.Now);
         for (int n = first; n < end; n++)
         {

@@ -3,10 +3,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>The instants of shared time at which peers are compared: every interval after the start.</summary>
+/// <summary>The instants of shared time at which peers are compared, at a fixed interval after the start.</summary>
 /// <param name="Start">The start of the scene, which itself is not sampled.</param>
-/// <param name="Interval">The distance of two samples.</param>
-/// <param name="Count">How many there are.</param>
+/// <param name="Interval">The interval between samples.</param>
+/// <param name="Count">The number of samples.</param>
 public readonly record struct SampleGrid(SimTime Start, SimDuration Interval, int Count)
 {
     /// <summary>The n-th instant, counted from 0.</summary>

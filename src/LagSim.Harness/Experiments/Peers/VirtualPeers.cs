@@ -11,16 +11,19 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Experiments.Peers;
 
-/// <summary>Peers in lock-step virtual time: one thread, no waiting, and the same seed gives the same run to the bit.</summary>
+/// <summary>A group of peers in lock-step virtual time: one thread, no waiting, and the same seed gives the same run to the bit.</summary>
 public sealed class VirtualPeers : PeerGroup
 {
-    /// <summary>Two machines' clocks: up to an hour apart, and up to 20 millionths fast or slow.</summary>
+    /// <summary>The clocks of two machines: up to an hour apart, and up to 20 millionths fast or slow.</summary>
     private const double ClockSpreadSeconds = 3600;
     private const double ClockDriftPartsPerMillion = 20;
 
     private static readonly SimDuration ConnectDeadline = SimDuration.FromSeconds(60);
 
-    /// <summary>The clocks' differing speeds make a sample some nanoseconds late at most, some microseconds while one is bent.</summary>
+    /// <summary>
+    /// The most that a sample may be late. Different clock speeds make it some nanoseconds, and some microseconds while a clock is
+    /// adjusted.
+    /// </summary>
     private static readonly SimDuration Timeout = SimDuration.FromMilliseconds(0.5);
 
     private readonly PeerGroupOptions options;
@@ -28,9 +31,9 @@ public sealed class VirtualPeers : PeerGroup
     private readonly VirtualNetwork network;
     private readonly VirtualSteps steps;
     private readonly Session[] sessions;
-    private readonly CancellationTokenSource stop; // its own, so that a token of the whole program does not keep these sessions
+    private readonly CancellationTokenSource stop; // linked, so that a token of the whole program does not keep these sessions alive
 
-    /// <summary>Makes the peers; nobody is connected yet.</summary>
+    /// <summary>Creates the peers without connecting them.</summary>
     public VirtualPeers(Scene scene, PeerGroupOptions options)
         : base(scene, options)
     {
@@ -54,10 +57,10 @@ public sealed class VirtualPeers : PeerGroup
         }
     }
 
-    /// <summary>The network, for those who want to lose a datagram or read what was lost.</summary>
+    /// <summary>The network, for tests that drop datagrams or read losses.</summary>
     public VirtualNetwork Network => network;
 
-    /// <summary>The steps, for those who want to look at each.</summary>
+    /// <summary>The steps, for tests that observe each.</summary>
     internal VirtualSteps Steps => steps;
 
     /// <inheritdoc/>

@@ -6,15 +6,18 @@ using System.Threading.Tasks;
 
 namespace LagSim.Harness.Experiments.Sweep;
 
-/// <summary>Sessions on links that are full, or nearly: what is offered against what comes, how long it takes, and whether all agree all the same.</summary>
+/// <summary>
+/// A sweep of sessions over links that are full or nearly full. Measures throughput against load, latency, and whether all peers still
+/// agree.
+/// </summary>
 /// <remarks>In virtual time. Each cell is played on one thread from the same seed, so every figure is the same in every run.</remarks>
 public static class LinkSweep
 {
     /// <summary>Plays all cells, several at a time.</summary>
-    /// <param name="options">Which.</param>
-    /// <param name="progress">Called with each outcome as it is there, from any thread but never from two at once; null for nobody.</param>
+    /// <param name="options">The cells to play.</param>
+    /// <param name="progress">Called with each outcome as it is ready, on any thread but never on two at once; may be null.</param>
     /// <param name="cancellation">Ends it early, with what was done by then.</param>
-    /// <returns>One outcome a cell, in their order.</returns>
+    /// <returns>One outcome for each cell, in order.</returns>
     public static IReadOnlyList<SweepOutcome> Run(SweepOptions options, Action<SweepOutcome>? progress = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -32,7 +35,7 @@ public static class LinkSweep
             {
                 try
                 {
-                    // The token of the whole sweep would keep the sessions of all cells.
+                    // A token linked once for the whole sweep would keep the sessions of all cells alive.
                     using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
                     SweepOutcome outcome = new SweepRun(cells[n], options, stop.Token).Play();
                     outcomes[n] = outcome;

@@ -3,28 +3,30 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Experiments.Sweep;
 
-/// <summary>One look at a client's round trip while a cell of the sweep is played.</summary>
-/// <param name="AtSeconds">When, by true time.</param>
-/// <param name="Milliseconds">Its newest round trip; 0 where it has none, being on its way in again.</param>
-/// <param name="IsInDip">Whether its link carried less just then.</param>
+/// <summary>One sample of a client's round trip during a cell of the sweep.</summary>
+/// <param name="AtSeconds">The true time of the sample, in seconds.</param>
+/// <param name="Milliseconds">The newest round trip, in milliseconds; 0 where there is none, because the client is joining again.</param>
+/// <param name="IsInDip">Whether the link was in a dip.</param>
 internal readonly record struct RoundTripLook(double AtSeconds, double Milliseconds, bool IsInDip)
 {
-    /// <summary>So long a round trip has to stay below the bound.</summary>
+    /// <summary>How long a round trip has to stay below the bound.</summary>
     private const double StaysForSeconds = 1;
 
-    /// <summary>The longest from the end of a dip until the round trip is below a bound and stays there for a second; 0 if there was no dip.</summary>
-    /// <param name="course">All looks, in order.</param>
-    /// <param name="belowMs">The bound.</param>
+    /// <summary>
+    /// Returns the longest time from the end of a dip until the round trip is below a bound and stays there for a second; 0 without dips.
+    /// </summary>
+    /// <param name="course">All samples, in order.</param>
+    /// <param name="belowMs">The bound, in milliseconds.</param>
     internal static double Recovery(IReadOnlyList<RoundTripLook> course, double belowMs)
     {
         double longest = 0;
-        double? ended = null, since = null; // the end of the last dip that is not made good for, and since when all is well
+        double? ended = null, since = null; // the end of the last dip without recovery so far, and the start of the recovery
         bool wasInDip = false;
         foreach (RoundTripLook look in course)
         {
             if (look.IsInDip != wasInDip)
             {
-                // One that begins before its forerunner was made good for goes on with that one's time.
+                // A dip that begins before recovery from the one before extends that one's time.
                 ended = look.IsInDip ? ended : ended ?? look.AtSeconds;
                 since = null;
                 wasInDip = look.IsInDip;

@@ -4,67 +4,70 @@ using System.Globalization;
 
 namespace LagSim.Harness.Experiments.Sweep;
 
-/// <summary>What came of one cell of the sweep over full links.</summary>
+/// <summary>The result of one cell of the sweep over full links.</summary>
 public sealed record SweepOutcome
 {
     /// <summary>The cell.</summary>
     public required SweepCell Cell { get; init; }
 
-    /// <summary>What the events that a client is to hear of need a second on its link, in bytes, without what datagrams add.</summary>
+    /// <summary>The bytes per second that a client's share of events needs on its link, without datagram overhead.</summary>
     public double OfferedBytesPerSecond { get; init; }
 
-    /// <summary>What of that came while it was played, in the mean of all clients.</summary>
+    /// <summary>The bytes per second of that which arrived during play, averaged over all clients.</summary>
     public double DeliveredBytesPerSecond { get; init; }
 
-    /// <summary>What the host sent a client a second, in bytes, with what UDP and IP add.</summary>
+    /// <summary>The bytes per second that the host sent to a client, with UDP and IP headers.</summary>
     public double SentBytesPerSecond { get; init; }
 
-    /// <summary>What a client sent the host, likewise.</summary>
+    /// <summary>The bytes per second that a client sent to the host, with UDP and IP headers.</summary>
     public double SentUpBytesPerSecond { get; init; }
 
     /// <summary>The round trip of an idle session on such a link, in milliseconds.</summary>
     public double IdleRoundTripMs { get; init; }
 
-    /// <summary>The median of the round trips while it was played.</summary>
+    /// <summary>The median round trip during play, in milliseconds.</summary>
     public double RoundTripP50Ms { get; init; }
 
-    /// <summary>Their 99th percentile.</summary>
+    /// <summary>The 99th percentile of the round trips, in milliseconds.</summary>
     public double RoundTripP99Ms { get; init; }
 
-    /// <summary>The longest after a dip until the round trip was below twice the idle one again, in seconds; 0 without dips.</summary>
+    /// <summary>The longest time after a dip until the round trip was below twice the idle one again, in seconds; 0 without dips.</summary>
     public double RecoverySeconds { get; init; }
 
-    /// <summary>For how long queues showed on the way to clients, in seconds, summed over all of them.</summary>
+    /// <summary>How long queues towards clients were not empty, in seconds, summed over all clients.</summary>
     public double QueuedSeconds { get; init; }
 
-    /// <summary>What the host sent meanwhile, in bytes of updates without UDP and IP, for each byte of entries that came; 0 if no queue showed.</summary>
+    /// <summary>
+    /// The bytes of updates that the host sent meanwhile for each byte of entries that arrived, without UDP and IP headers; 0 if no queue
+    /// built up.
+    /// </summary>
     public double SentPerNeededByteWhileQueued { get; init; }
 
-    /// <summary>Events that clients did.</summary>
+    /// <summary>The number of events of the clients.</summary>
     public long Done { get; init; }
 
-    /// <summary>Those that the host refused.</summary>
+    /// <summary>The number of events that the host refused.</summary>
     public long Refused { get; init; }
 
-    /// <summary>Those on which no client heard a verdict, since it lost its world first.</summary>
+    /// <summary>The number of events without a verdict, because the client lost its world first.</summary>
     public long Unanswered { get; init; }
 
-    /// <summary>Accepted events that stand in the host's log and came to a client neither by the log nor in a copy.</summary>
+    /// <summary>The number of accepted events that reached a client neither by the log nor in a snapshot.</summary>
     public long Lost { get; init; }
 
-    /// <summary>Committed states that were not the host's.</summary>
+    /// <summary>The number of committed states that differ from the host's.</summary>
     public long Differed { get; init; }
 
-    /// <summary>How many of the states that the host committed each client compared, as a share; the least of all clients.</summary>
+    /// <summary>The share of the host's committed states that a client compared; the least of all clients.</summary>
     public double ComparedShare { get; init; }
 
-    /// <summary>How often a client got a fresh copy.</summary>
+    /// <summary>The number of fresh snapshots that clients got.</summary>
     public long Copies { get; init; }
 
-    /// <summary>How many clients' sessions ended because the link is too slow.</summary>
+    /// <summary>The number of clients whose sessions ended because the link is too slow.</summary>
     public int TooSlow { get; init; }
 
-    /// <summary>What went wrong otherwise, as a sentence; null if nothing did.</summary>
+    /// <summary>Any other failure, as a sentence; null if there is none.</summary>
     public string? Failure { get; init; }
 
     /// <summary>The least <see cref="ComparedShare"/> that a cell must show.</summary>
@@ -73,13 +76,18 @@ public sealed record SweepOutcome
     /// <summary>The load up to which no link may be too slow for a client.</summary>
     public const double LoadForAll = 0.8;
 
-    /// <summary>How much of the link the events and what one update for each three of them adds would take, in the direction that carries more.</summary>
+    /// <summary>
+    /// The fraction of the link that the events, and one update for each three of them, would take, in the busier direction.
+    /// </summary>
     public double LoadShare { get; init; }
 
-    /// <summary>Whether the cell shows what it must: nothing lost, nothing differs, enough compared; on links with less than 80 % of load, nobody too slow either.</summary>
+    /// <summary>
+    /// Whether the cell passes: nothing is lost, nothing differs, and enough was compared. On links with less than 80 % load, no client may
+    /// be too slow either.
+    /// </summary>
     public bool IsGood => Shortfall is null;
 
-    /// <summary>What of that it does not show, as sentences, <see cref="Failure"/> first; null if it shows all of it.</summary>
+    /// <summary>The reasons why the cell fails, as sentences, <see cref="Failure"/> first; null if it passes.</summary>
     public string? Shortfall
     {
         get
@@ -105,6 +113,6 @@ public sealed record SweepOutcome
         }
     }
 
-    /// <summary>A share in percent, rounded down to a tenth, so that what is below a bound never reads as if it reached it.</summary>
+    /// <summary>A share in percent, rounded down to a tenth, so that a value below a bound never reads as if it reached it.</summary>
     internal static string PercentBelow(double share) => (Math.Floor(1000 * share) / 10).ToString("0.#", CultureInfo.InvariantCulture);
 }

@@ -33,8 +33,8 @@ internal sealed class SweepRun
     private readonly List<SimTime> committed = [];
     private readonly HostSession host;
     private readonly UpdateDatagram measured = new();
-    private readonly LinkQueue? down; // that all clients share
-    private double needed; // bytes of entries, for all clients together
+    private readonly LinkQueue? down; // shared by all clients
+    private double needed; // bytes of entries, for all clients
 
     internal SweepRun(SweepCell cell, SweepOptions options, CancellationToken cancellation)
     {
@@ -82,7 +82,7 @@ internal sealed class SweepRun
             return outcome with { Failure = $"Not all were in after 60 s: {States()}." };
         }
 
-        // What an idle session takes there and back.
+        // The round trip of an idle session.
         List<double> idle = [];
         For(IdleSeconds, _ => Look(idle));
         double idleTrip = Percentiles.Of(idle).P50;
@@ -143,17 +143,17 @@ internal sealed class SweepRun
         });
     }
 
-    /// <summary>The bytes that events and their updates need at least, of what the link carries.</summary>
+    /// <summary>Returns the fraction of the link's bytes that events and their updates need at least.</summary>
     private double LoadShare()
     {
         const double own = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + Bottleneck.OverheadBytes;
-        const int entry = 47, ownEntry = 5; // of a velocity, and of the number of one's own
+        const int entry = 47, ownEntry = 5; // of a velocity, and of the number of a peer's own event
         double down = cell.EventsPerSecond * (((cell.Clients - 1) * (entry + (own / 3))) + ownEntry + (own / 3));
         double dip = cell.HasDips ? 0.2 : 1;
         return down * (cell.IsShared ? cell.Clients : 1) / (cell.RateBitsPerSecond / 8.0 * dip);
     }
 
-    /// <summary>How many bytes an entry of the log takes on its way to a peer: of its own events it gets the number alone.</summary>
+    /// <summary>Returns the bytes of a log entry on its way to a peer. The author of an event gets only its number.</summary>
     private int Length(in LogEntry entry, byte peer)
     {
         measured.ClearEntries();
@@ -183,7 +183,7 @@ internal sealed class SweepRun
             lost += client.Coverage.Count().Lost;
             if (client.Session.State == SessionState.Ended)
             {
-                continue; // what came after its end it was never to have
+                continue; // the client had left, so it needs no more events
             }
 
             lost += client.Session.LogLength < host.LogLength ? host.LogLength - client.Session.LogLength : 0;
@@ -218,7 +218,7 @@ internal sealed class SweepRun
         return session;
     }
 
-    /// <summary>What each end sent so far with UDP and IP, the host first.</summary>
+    /// <summary>The bytes that each end sent so far with UDP and IP headers, the host first.</summary>
     private long[] Sent() => [.. Enumerable.Range(0, clients.Count + 1).Select(n => network.Traffic(n).BytesSent)];
 
     private void Look(List<double> trips)
@@ -232,11 +232,11 @@ internal sealed class SweepRun
         }
     }
 
-    /// <summary>The newest, in milliseconds; 0 where there is none.</summary>
+    /// <summary>The newest round trip, in milliseconds; 0 where there is none.</summary>
     private static double RoundTrip(Client client) =>
         client.Session.State == SessionState.Running && client.Session.Links is [LinkTraffic link] ? link.RoundTrip.ToMilliseconds() : 0;
 
-    /// <summary>Counts what was sent to clients, and what came there, since the last look, where a queue showed all that time.</summary>
+    /// <summary>Counts the bytes sent to clients and received there since the last sample, where a queue was present throughout.</summary>
     private void LookAtQueues()
     {
         foreach (LinkTraffic link in host.Links)
@@ -247,7 +247,7 @@ internal sealed class SweepRun
             }
 
             bool isQueued = link.Queueing > SimDuration.Zero;
-            if (isQueued && client.WasQueued && link.BytesSent >= client.Sent) // else it is another link, of one who came in again
+            if (isQueued && client.WasQueued && link.BytesSent >= client.Sent) // else it is a new link, of a client that joined again
             {
                 client.QueuedSeconds += LookSeconds;
                 client.SentQueued += link.BytesSent - client.Sent;
@@ -300,10 +300,10 @@ internal sealed class SweepRun
 
         internal double Bytes { get; set; }
 
-        /// <summary>Its round trips as time went by.</summary>
+        /// <summary>The round trips over time.</summary>
         internal List<RoundTripLook> Course { get; } = [];
 
-        /// <summary>As of the last look, as are the next two: whether a queue showed, what was sent there, and what had come.</summary>
+        /// <summary>The last sample, as are the next two: whether there was a queue, the bytes sent, and the bytes received.</summary>
         internal bool WasQueued { get; set; }
 
         internal long Sent { get; set; }

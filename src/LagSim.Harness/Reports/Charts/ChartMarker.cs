@@ -2,15 +2,16 @@ using System;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>A marked moment on the x axis. Immutable.</summary>
+/// <summary>A marked instant on the x axis. Immutable.</summary>
 public sealed class ChartMarker
 {
-    /// <summary>A marker.</summary>
-    /// <param name="x">Where, in the unit of the x axis (most often seconds); finite.</param>
-    /// <param name="label">What happened, for example <c>teleport</c>.</param>
+    /// <summary>Creates a marker.</summary>
+    /// <param name="x">The position in the unit of the x axis (most often seconds); finite.</param>
+    /// <param name="label">The label, for example <c>teleport</c>.</param>
     /// <param name="kind">A line across the panel or a small triangle.</param>
     /// <param name="colour">A palette slot, to match a series; null for the neutral colour of annotations.</param>
-    /// <exception cref="ArgumentException"><paramref name="x"/> is not finite, <paramref name="label"/> is empty or the slot negative.</exception>
+    /// <exception cref="ArgumentException"><paramref name="x"/> is not finite, <paramref name="label"/> is empty or the slot
+    /// negative.</exception>
     public ChartMarker(double x, string label, MarkerKind kind = MarkerKind.Line, int? colour = null)
     {
         ArgumentException.ThrowIfNullOrEmpty(label);
@@ -26,13 +27,13 @@ public sealed class ChartMarker
         Colour = colour;
     }
 
-    /// <summary>The place on the x axis.</summary>
+    /// <summary>The position on the x axis.</summary>
     public double X { get; }
 
-    /// <summary>What happened.</summary>
+    /// <summary>The label.</summary>
     public string Label { get; }
 
-    /// <summary>How it is drawn.</summary>
+    /// <summary>The kind of marker.</summary>
     public MarkerKind Kind { get; }
 
     /// <summary>The palette slot, or null for the neutral colour.</summary>

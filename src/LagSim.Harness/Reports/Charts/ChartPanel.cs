@@ -4,12 +4,12 @@ using System.Linq;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>One plot of a <see cref="LineChart"/>: its own y axis over the x axis that all panels share.</summary>
+/// <summary>One plot of a <see cref="LineChart"/>, with its own y axis over the shared x axis.</summary>
 public sealed class ChartPanel
 {
-    /// <summary>A panel of these series.</summary>
-    /// <param name="title">What the panel shows.</param>
-    /// <param name="yLabel">What the y axis measures, with its unit: <c>height (m)</c>.</param>
+    /// <summary>Creates a panel of series.</summary>
+    /// <param name="title">The title.</param>
+    /// <param name="yLabel">The label of the y axis, with its unit: <c>height (m)</c>.</param>
     /// <param name="series">At least one series with at least one point.</param>
     /// <exception cref="ArgumentException">A text is empty, or there is no point to draw.</exception>
     public ChartPanel(string title, string yLabel, IReadOnlyList<ChartSeries> series)
@@ -27,10 +27,10 @@ public sealed class ChartPanel
         Series = series;
     }
 
-    /// <summary>What the panel shows.</summary>
+    /// <summary>The title.</summary>
     public string Title { get; }
 
-    /// <summary>What the y axis measures, with its unit.</summary>
+    /// <summary>The label of the y axis, with its unit.</summary>
     public string YLabel { get; }
 
     /// <summary>The curves, drawn in this order: later ones lie on top.</summary>
@@ -40,30 +40,33 @@ public sealed class ChartPanel
     public ChartScale Scale { get; init; }
 
     /// <summary>
-    /// On a log scale, the value below which all is drawn on the lowest line; above zero. By default the lowest decade that has a
+    /// On a log scale, the value below which everything is drawn on the lowest line; above zero. By default the lowest decade that has a
     /// value, but at most 18 decades below the highest.
     /// </summary>
     public double? LogFloor { get; init; }
 
-    /// <summary>Marked moments.</summary>
+    /// <summary>The marked instants.</summary>
     public IReadOnlyList<ChartMarker> Markers { get; init; } = [];
 
-    /// <summary>Horizontal lines to compare with.</summary>
+    /// <summary>The horizontal reference lines.</summary>
     public IReadOnlyList<ReferenceLine> ReferenceLines { get; init; } = [];
 
     /// <summary>A shaded part at the bottom; null for none.</summary>
     public ShadedBand? Band { get; init; }
 
-    /// <summary>Whether the legend stands right of the plot, an entry below the other, and not above it; there is no room for reference lines' labels then.</summary>
+    /// <summary>
+    /// Whether the legend is right of the plot, one entry below the other, instead of above it. Reference lines have no room for labels
+    /// then.
+    /// </summary>
     public bool HasLegendAtRight { get; init; }
 
-    /// <summary>Values that the y axis reaches besides its own, so that several panels can have one scale.</summary>
+    /// <summary>Additional values that the y axis must include, so that several panels can have one scale.</summary>
     public IReadOnlyList<double> Reaches { get; init; } = [];
 
     /// <summary>The height of the plot itself in pixels, without title, legend and axis: 80 to 2000.</summary>
     public double PlotHeight { get; init; } = 200;
 
-    /// <summary>Checks what hangs on several properties at once.</summary>
+    /// <summary>Validates properties that depend on each other.</summary>
     internal void Check()
     {
         if (!(PlotHeight >= 80 && PlotHeight <= 2000))

@@ -2,16 +2,17 @@ using System;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>A named curve: as many x as y values.</summary>
-/// <remarks>The arrays are kept, not copied: do not change them until the chart is written.</remarks>
+/// <summary>A named curve, with as many x as y values.</summary>
+/// <remarks>The arrays are kept, not copied. Do not change them until the chart is written.</remarks>
 public sealed class ChartSeries
 {
-    /// <summary>A series.</summary>
-    /// <param name="name">What the legend says.</param>
-    /// <param name="x">Places on the x axis, in its unit (most often seconds), finite, in the order they are to be joined.</param>
+    /// <summary>Creates a series.</summary>
+    /// <param name="name">The name in the legend.</param>
+    /// <param name="x">Positions on the x axis, in its unit (most often seconds), finite, in the order to be joined.</param>
     /// <param name="y">Values in the unit of the panel. NaN breaks the line; infinity is refused.</param>
     /// <param name="style">How the series is drawn.</param>
-    /// <param name="colour">A palette slot, so that the same thing keeps its colour in every panel; null takes the place in the panel.</param>
+    /// <param name="colour">A palette slot, so that the same thing keeps its colour in every panel; null takes the series' place in the
+    /// panel.</param>
     /// <exception cref="ArgumentException">
     /// The name is empty, the lengths differ, an x is not finite, a y is infinite or the slot is negative.
     /// </exception>
@@ -47,25 +48,25 @@ public sealed class ChartSeries
         Colour = colour;
     }
 
-    /// <summary>The text of the legend.</summary>
+    /// <summary>The name in the legend.</summary>
     public string Name { get; }
 
-    /// <summary>Places on the x axis.</summary>
+    /// <summary>The positions on the x axis.</summary>
     public double[] X { get; }
 
-    /// <summary>Values; NaN is a gap.</summary>
+    /// <summary>The values; NaN is a gap.</summary>
     public double[] Y { get; }
 
     /// <summary>How the series is drawn.</summary>
     public SeriesStyle Style { get; }
 
-    /// <summary>What marks each point besides the line, for a series of few points; null for nothing.</summary>
+    /// <summary>The marker of each point in addition to the line, for a series of few points; null for none.</summary>
     public PointShape? Shape { get; init; }
 
-    /// <summary>Whether it is the one to look at first: drawn stronger.</summary>
+    /// <summary>Whether the series is emphasised.</summary>
     public bool IsEmphasised { get; init; }
 
-    /// <summary>What the legend says besides the name; may be empty.</summary>
+    /// <summary>Text in the legend after the name; may be empty.</summary>
     public string Note { get; init; } = "";
 
     /// <summary>The palette slot, or null for the series' place in its panel.</summary>

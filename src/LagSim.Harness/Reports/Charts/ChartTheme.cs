@@ -4,9 +4,8 @@ using System.Text;
 namespace LagSim.Harness.Reports.Charts;
 
 /// <summary>
-/// The colours and type of every chart, light and dark. The palette is that of Okabe and Ito, which the colour-blind can tell apart,
-/// with lightness moved so that each colour stands out from its background; after its seven come five more for charts that mark points by
-/// shapes as well.
+/// The colours and fonts of charts, light and dark. The palette is that of Okabe and Ito, which colour-blind readers can distinguish, with
+/// lightness adjusted for contrast with the background. After its seven colours come five more for charts with markers.
 /// </summary>
 internal static class ChartTheme
 {
@@ -26,14 +25,14 @@ internal static class ChartTheme
     private static readonly string[] LightInks = ["#ffffff", "#1b1f24", "#57606a", "#e4e7eb", "#8c959f", "#6e4fa3"];
     private static readonly string[] DarkInks = ["#14171c", "#e8eaed", "#a3adb8", "#2b313a", "#6b7683", "#c3a9f0"];
 
-    /// <summary>How many colours can be told apart by colour alone.</summary>
+    /// <summary>The number of colours that can be distinguished by colour alone.</summary>
     internal static int Colours => 7;
 
-    /// <summary>The CSS class that gives a curve its colour.</summary>
+    /// <summary>Returns the CSS class of a curve's colour.</summary>
     internal static string ColourClass(int slot) => "c" + (slot % Light.Length).ToString(CultureInfo.InvariantCulture);
 
     /// <summary>
-    /// The style sheet. All rules are confined to <c>.lagsim-chart</c>, since an inline SVG shares its page's styles. No character
+    /// The style sheet. All rules are confined to <c>.lagsim-chart</c>, since an inline SVG shares its page's styles. It has no character
     /// that XML or HTML would escape.
     /// </summary>
     internal static string Css { get; } = Build();
@@ -45,7 +44,7 @@ internal static class ChartTheme
             .Append("font:12px system-ui,-apple-system,\"Segoe UI\",Roboto,\"Liberation Sans\",Arial,sans-serif;color-scheme:light dark}\n")
             .Append("@media (prefers-color-scheme: dark){.lagsim-chart{").Append(Variables(DarkInks, Dark)).Append("}}\n");
 
-        // Each colour stands twice: viewers that know no CSS variables keep the first, the light one.
+        // Each colour appears twice: viewers without CSS variables use the first, the light one.
         Rule(css, "text", "fill", "ink", "");
         Rule(css, ".bg", "fill", "bg", "");
         Rule(css, ".grid", "stroke", "grid", "fill:none;stroke-width:1");

@@ -3,15 +3,15 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>Thins a long series for drawing: the lowest and the highest value of each bucket stay, so no peak is lost.</summary>
+/// <summary>Thins a long series for drawing. The lowest and the highest value of each bucket stay, so no peak is lost.</summary>
 internal static class Decimation
 {
     /// <summary>About as many points as a plot of 900 pixels can show.</summary>
     internal const int MaxPoints = 2000;
 
     /// <summary>
-    /// The points to draw, in order; y is NaN where the line breaks. At most about <paramref name="maxPoints"/>; gaps add to it, but
-    /// never more than three points a bucket.
+    /// Returns the points to draw, in order; y is NaN where the line breaks. At most about <paramref name="maxPoints"/>; gaps add to it,
+    /// but never more than three points a bucket.
     /// </summary>
     internal static List<(double X, double Y)> Thin(double[] x, double[] y, int maxPoints = MaxPoints)
     {
@@ -62,7 +62,7 @@ internal static class Decimation
         }
     }
 
-    /// <summary>Adds a point, and before it a break if the series has one since the point kept last.</summary>
+    /// <summary>Adds a point, and before it a break if the series has one since the last point kept.</summary>
     private static void Keep(int index, double[] x, double[] y, List<(double X, double Y)> points, ref int drawn)
     {
         if (index <= drawn)

@@ -7,29 +7,29 @@ using System.Xml;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>A chart of stacked panels over one x axis, written as a self-contained SVG that suits light and dark pages.</summary>
+/// <summary>A chart of stacked panels over one x axis, written as a self-contained SVG for light and dark pages.</summary>
 /// <remarks>
-/// The same chart gives the same bytes on every system and in every culture. Long series are thinned for drawing so that every peak
-/// stays visible. Not thread-safe while the arrays of its series change.
+/// The same chart gives the same bytes on every system and in every culture. Long series are thinned for drawing so that every peak stays
+/// visible. Not thread-safe while the arrays of its series change.
 /// </remarks>
 public sealed class LineChart
 {
-    /// <summary>The width of every chart in pixels of its own coordinates.</summary>
+    /// <summary>The width of every chart, in pixels of its own coordinates.</summary>
     public const double Width = 960.0;
 
-    /// <summary>How many curves have colours of their own; beyond, colours come again.</summary>
+    /// <summary>The number of curves with different colours; further ones repeat colours.</summary>
     public static int Colours => ChartTheme.Colours;
 
-    /// <summary>Pixels that marked points keep from the frame.</summary>
+    /// <summary>The pixels between markers and the frame.</summary>
     private const double PointInset = 10.0;
 
     private const double HeadHeight = 34.0;
     private const double PanelGap = 26.0;
     private const double FootHeight = 54.0;
 
-    /// <summary>A chart of these panels, from top to bottom.</summary>
-    /// <param name="title">What the chart shows; also its accessible name.</param>
-    /// <param name="description">What a reader who cannot see the picture should know.</param>
+    /// <summary>Creates a chart of panels, from top to bottom.</summary>
+    /// <param name="title">The title, which is also the accessible name.</param>
+    /// <param name="description">A description for readers who cannot see the chart.</param>
     /// <param name="panels">At least one.</param>
     /// <exception cref="ArgumentException">
     /// There is no title or panel, a panel's height or log floor is out of range, or a log scale was given a negative value.
@@ -54,16 +54,16 @@ public sealed class LineChart
         Panels = panels;
     }
 
-    /// <summary>What the chart shows.</summary>
+    /// <summary>The title.</summary>
     public string Title { get; }
 
-    /// <summary>The same for those who cannot see it.</summary>
+    /// <summary>The description for readers who cannot see the chart.</summary>
     public string Description { get; }
 
-    /// <summary>The panels from top to bottom.</summary>
+    /// <summary>The panels, from top to bottom.</summary>
     public IReadOnlyList<ChartPanel> Panels { get; }
 
-    /// <summary>What the x axis measures, with its unit.</summary>
+    /// <summary>The label of the x axis, with its unit.</summary>
     public string XLabel { get; init; } = "time (s)";
 
     /// <summary>The scale of the x axis.</summary>
@@ -77,7 +77,7 @@ public sealed class LineChart
         Write(file);
     }
 
-    /// <summary>Writes the chart as an SVG document; the writer stays open.</summary>
+    /// <summary>Writes the chart as an SVG document. The writer stays open.</summary>
     public void Write(TextWriter output)
     {
         ArgumentNullException.ThrowIfNull(output);
@@ -85,7 +85,7 @@ public sealed class LineChart
         WriteTo(svg);
     }
 
-    /// <summary>The chart as the text of an SVG document.</summary>
+    /// <summary>Returns the chart as the text of an SVG document.</summary>
     public string ToSvg()
     {
         using StringWriter text = new();
@@ -93,7 +93,7 @@ public sealed class LineChart
         return text.ToString();
     }
 
-    /// <summary>Writes the <c>svg</c> element alone, for instance into a page.</summary>
+    /// <summary>Writes only the <c>svg</c> element, for instance into a page.</summary>
     internal void WriteTo(XmlWriter svg)
     {
         List<Axis> yAxes = Panels.Select(FitY).ToList();

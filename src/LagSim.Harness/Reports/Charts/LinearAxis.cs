@@ -20,7 +20,7 @@ internal sealed class LinearAxis : Axis
             _low = 0.0; // a curve that comes near zero is read against zero
         }
 
-        // A span that is nothing next to the values themselves would give ticks that all read the same.
+        // A span that is tiny compared with the values would give ticks with equal labels.
         double least = Math.Max(Math.Abs(_low), Math.Abs(_high)) * 1e-9;
         if (!(_high - _low > least))
         {
@@ -67,7 +67,7 @@ internal sealed class LinearAxis : Axis
             return value.ToString("F" + decimals.ToString(CultureInfo.InvariantCulture), CultureInfo.InvariantCulture).Replace('-', '\u2212');
         }
 
-        // As many digits as tell neighbours apart.
+        // As many digits as distinguish neighbouring ticks.
         int digits = Math.Clamp((int)Math.Ceiling(Math.Log10(largest / step)) + 1, 1, 12);
         string format = "0." + new string('#', digits) + "e0";
         return value.ToString(format, CultureInfo.InvariantCulture).Replace('-', '\u2212');

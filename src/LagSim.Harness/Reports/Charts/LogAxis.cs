@@ -6,11 +6,12 @@ using System.Linq;
 namespace LagSim.Harness.Reports.Charts;
 
 /// <summary>
-/// A log10 axis, of whole decades or as long as its values need. What is below its lowest value lies on a line of its own at the bottom, labelled <c>0</c>.
+/// A log10 axis, of whole decades or as long as its values need. Values below its lowest one are on a separate line at the bottom, labelled
+/// <c>0</c>.
 /// </summary>
 internal sealed class LogAxis : Axis
 {
-    /// <summary>More decades than a double has digits say nothing about the larger values.</summary>
+    /// <summary>The most decades, the number of digits of a double: more would hide the larger values.</summary>
     private const int MaxDecades = 18;
 
     private const double ZeroLine = 9.0; // above the frame, so that a curve of zeros does not hide in it
@@ -45,7 +46,7 @@ internal sealed class LogAxis : Axis
         _bottom = below ? Math.Max(ZeroBand, inset) : inset;
         if (below)
         {
-            // Values that only look like zero at this scale are not called zero.
+            // Values that only round to zero at this scale are not labelled zero.
             _ticks.Add(new AxisTick(ZeroLine, positiveBelow ? "<" + Label((int)Math.Ceiling(_low - 1e-9), 1) : "0"));
         }
 
@@ -85,7 +86,7 @@ internal sealed class LogAxis : Axis
         }
     }
 
-    /// <summary>Plain numbers on a short axis, powers of ten on one that a plain number would not fit; never a mixture.</summary>
+    /// <summary>Formats plain numbers on a short axis, and powers of ten where one would not fit; never a mixture.</summary>
     private string Label(int exponent, int digit)
     {
         if (_low >= -4 && _high <= 4)

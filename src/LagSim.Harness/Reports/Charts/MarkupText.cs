@@ -3,10 +3,10 @@ using System.Xml;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>Text from outside made fit for XML. Escaping is the writer's work; this replaces what XML cannot hold at all.</summary>
+/// <summary>Makes external text fit for XML. The writer escapes; this replaces what XML cannot contain at all.</summary>
 internal static class MarkupText
 {
-    /// <summary>The settings under which charts and reports are written: the same bytes on every system.</summary>
+    /// <summary>The settings of charts and reports: the same bytes on every system.</summary>
     internal static XmlWriterSettings Settings => new()
     {
         OmitXmlDeclaration = true, // UTF-8 is the default without it
@@ -16,7 +16,7 @@ internal static class MarkupText
         CloseOutput = false,
     };
 
-    /// <summary>The text, with U+FFFD for control characters and lone surrogates.</summary>
+    /// <summary>Replaces control characters and lone surrogates by U+FFFD.</summary>
     internal static string Clean(string text)
     {
         StringBuilder clean = new(text.Length);

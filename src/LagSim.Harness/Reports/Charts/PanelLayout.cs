@@ -4,7 +4,9 @@ using System.Linq;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>Where the texts of a panel go, so that none covers data or another text. Places are pixels from the panel's plot corner.</summary>
+/// <summary>
+/// The layout of a panel's texts, so that none covers data or another text. Positions are pixels from the panel's plot corner.
+/// </summary>
 internal sealed class PanelLayout
 {
     private const double MarkerRowHeight = 15.0;
@@ -43,10 +45,10 @@ internal sealed class PanelLayout
     /// <summary>The strip above the plot that holds the labels of vertical lines.</summary>
     public double MarkerStrip => _markerRows * MarkerRowHeight;
 
-    /// <summary>All that is above the plot: title, legend, marker labels.</summary>
+    /// <summary>The space above the plot: title, legend, marker labels.</summary>
     public double HeaderHeight => (Legend.Rows * PanelLegend.RowHeight) + MarkerStrip + 8.0;
 
-    /// <summary>Space right of the plot that a legend there or the labels of reference lines need.</summary>
+    /// <summary>The space right of the plot for a legend or the labels of reference lines.</summary>
     public static double WidthAtRight(ChartPanel panel) => panel.HasLegendAtRight ? PanelLegend.WidthAtRight(panel)
         : panel.ReferenceLines.Count == 0 ? 0.0
         : 8.0 + panel.ReferenceLines.SelectMany(line => SvgElements.Wrap(line.Label, ReferenceColumns)).Max(SvgElements.TextWidth);
@@ -55,7 +57,7 @@ internal sealed class PanelLayout
     {
         List<(double From, double To, int Row)> taken = [];
         List<(MarkerLabel Label, int Row)> placed = [];
-        // Where labels collide it is the one whose line stands clear of the others that is raised: no line goes through a text.
+        // Of colliding labels, the raised one is that whose line is clear of the others: no line goes through a text.
         IEnumerable<(ChartMarker Marker, double X, double Width, bool IsLeft)> lines = Panel.Markers
             .Where(m => m.Kind == MarkerKind.Line)
             .Select(m => (Marker: m, X: X.Map(m.X), Width: SvgElements.TextWidth(m.Label) + 6.0))
@@ -72,7 +74,7 @@ internal sealed class PanelLayout
 
             if (row == MaxMarkerRows)
             {
-                continue; // too many at one place; the line's tooltip still names it
+                continue; // too many at one position; the line's tooltip still names it
             }
 
             taken.Add((from, to, row));
@@ -80,7 +82,7 @@ internal sealed class PanelLayout
             _markerRows = Math.Max(_markerRows, row + 1);
         }
 
-        // Row 0 is next to the plot; rows above it only where labels would collide.
+        // Row 0 is next to the plot; rows above it are used only where labels would collide.
         _markerLabels.AddRange(placed.Select(p => p.Label with { Y = -5.0 - (p.Row * MarkerRowHeight) }));
     }
 
@@ -89,7 +91,7 @@ internal sealed class PanelLayout
         _referenceLabels.AddRange(Panel.ReferenceLines.OrderByDescending(line => line.Y)
             .Select(line => new ReferenceLabel(Y.Length - Y.Map(line.Y), SvgElements.Wrap(line.Label, ReferenceColumns))));
 
-        // Labels of neighbouring lines push each other apart until all can be read.
+        // Labels of neighbouring lines push each other apart until all are readable.
         for (int pass = 0; pass < 50; pass++)
         {
             for (int i = 1; i < _referenceLabels.Count; i++)

@@ -3,9 +3,11 @@ using System.Linq;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>What the legend of a panel says and where: in rows beside and below the panel's title, or in a column right of the plot.</summary>
-/// <param name="Entries">In the order of the series; y is that of the first line of text, below the legend's origin.</param>
-/// <param name="Rows">How many rows title and legend take above the plot.</param>
+/// <summary>
+/// The legend of a panel and its layout: in rows beside and below the panel's title, or in a column right of the plot.
+/// </summary>
+/// <param name="Entries">The entries in the order of the series; y is that of the first line of text, below the legend's origin.</param>
+/// <param name="Rows">The number of rows of title and legend above the plot.</param>
 internal sealed record PanelLegend(IReadOnlyList<PanelLegend.Entry> Entries, int Rows)
 {
     internal const double RowHeight = 18.0;
@@ -15,13 +17,13 @@ internal sealed record PanelLegend(IReadOnlyList<PanelLegend.Entry> Entries, int
     private const double EntryGap = 9.0;
     private const int Columns = 26;
 
-    /// <summary>One entry: its texts, and what it stands for; a band where that is neither a series nor a marker.</summary>
+    /// <summary>One entry: its texts, and its series or marker; with neither it is a band.</summary>
     internal readonly record struct Entry(double X, double Y, IReadOnlyList<string> Lines, ChartSeries? Series, ChartMarker? Marker, int Slot);
 
-    /// <summary>Space right of the plot that a legend there needs.</summary>
+    /// <summary>The space right of the plot that a legend there needs.</summary>
     internal static double WidthAtRight(ChartPanel panel) => Gap + SwatchWidth + EntriesOf(panel).SelectMany(LinesAtRight).Max(SvgElements.TextWidth);
 
-    /// <summary>A column whose origin is the upper left corner of a plot of that width.</summary>
+    /// <summary>Lays out a column whose origin is the upper left corner of a plot of a given width.</summary>
     internal static PanelLegend AtRight(ChartPanel panel, double width)
     {
         List<Entry> entries = [];
@@ -36,7 +38,7 @@ internal sealed record PanelLegend(IReadOnlyList<PanelLegend.Entry> Entries, int
         return new PanelLegend(entries, 1);
     }
 
-    /// <summary>Rows of that width, the first of which begins with the panel's title.</summary>
+    /// <summary>Lays out rows of a given width, the first of which begins with the panel's title.</summary>
     internal static PanelLegend Above(ChartPanel panel, double width)
     {
         List<Entry> entries = [];

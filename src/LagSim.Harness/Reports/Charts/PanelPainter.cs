@@ -137,7 +137,7 @@ internal static class PanelPainter
             }
             else if (seen.Add(((int)Math.Round(x), marker.Label, marker.Colour)))
             {
-                // A ball that comes to rest touches the ground ever more often: one triangle a pixel is enough.
+                // A ball that comes to rest bounces ever more often: one triangle a pixel is enough.
                 svg.Path($"M{SvgElements.Pixels(x)} {SvgElements.Pixels(layout.Y.Length + 1.5)}{Triangle}", TriangleClass(marker), tooltip);
             }
         }

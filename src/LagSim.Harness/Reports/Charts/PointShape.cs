@@ -1,6 +1,6 @@
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>What marks each point of a series. Open shapes let what lies beneath them be seen.</summary>
+/// <summary>The marker of the points of a series. Open shapes do not hide what lies beneath them.</summary>
 public enum PointShape
 {
     /// <summary>A filled disc.</summary>

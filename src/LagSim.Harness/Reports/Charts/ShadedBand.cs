@@ -5,9 +5,9 @@ namespace LagSim.Harness.Reports.Charts;
 /// <summary>The part of a panel below a value, shaded and named in the legend. Immutable.</summary>
 public sealed class ShadedBand
 {
-    /// <summary>A band from the bottom of the panel up to a value, which the y axis always reaches.</summary>
+    /// <summary>Creates a band from the bottom of the panel up to a value, which the y axis always includes.</summary>
     /// <param name="upTo">Its upper end in the unit of the y axis; finite.</param>
-    /// <param name="label">What values in it are, for example <c>rounding</c>.</param>
+    /// <param name="label">The label, for example <c>rounding</c>.</param>
     /// <exception cref="ArgumentException"><paramref name="upTo"/> is not finite or <paramref name="label"/> is empty.</exception>
     public ShadedBand(double upTo, string label)
     {
@@ -24,6 +24,6 @@ public sealed class ShadedBand
     /// <summary>The upper end on the y axis.</summary>
     public double UpTo { get; }
 
-    /// <summary>What values in it are.</summary>
+    /// <summary>The label.</summary>
     public string Label { get; }
 }

@@ -5,12 +5,12 @@ using System.Xml;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>The few SVG elements a chart is made of.</summary>
+/// <summary>The SVG elements of a chart.</summary>
 internal static class SvgElements
 {
     internal const string Namespace = "http://www.w3.org/2000/svg";
 
-    /// <summary>Pixels to a hundredth, independent of the culture.</summary>
+    /// <summary>Formats pixels to a hundredth, independent of the culture.</summary>
     internal static string Pixels(double value) => value.ToString("0.##", CultureInfo.InvariantCulture);
 
     internal static void Start(this XmlWriter svg, string name, string? cssClass = null)
@@ -57,10 +57,10 @@ internal static class SvgElements
         svg.WriteEndElement();
     }
 
-    /// <summary>The width a text will about take; rather too much than too little, as fonts differ.</summary>
+    /// <summary>Estimates the width of a text, rather too large than too small, as fonts differ.</summary>
     internal static double TextWidth(string text) => 6.9 * text.Length;
 
-    /// <summary>A text in lines of at most so many characters, broken between words; a longer word has a line of its own.</summary>
+    /// <summary>Breaks a text between words into lines of a limited length; a longer word has its own line.</summary>
     internal static string[] Wrap(string text, int columns)
     {
         List<string> lines = [];
@@ -79,7 +79,7 @@ internal static class SvgElements
         return lines.Count == 0 ? [text] : [.. lines];
     }
 
-    /// <summary>The path data of a mark around a place: strokes that start where the one before ended.</summary>
+    /// <summary>Returns the path data of a marker around a position: strokes that start where the one before ended.</summary>
     internal static string Mark(double x, double y, PointShape shape) => $"M{Pixels(x)} {Pixels(y)}" + shape switch
     {
         PointShape.Disc => "m-4.5 0a4.5 4.5 0 1 0 9 0a4.5 4.5 0 1 0 -9 0z",
@@ -97,12 +97,12 @@ internal static class SvgElements
         _ => throw new System.ArgumentOutOfRangeException(nameof(shape), shape, "There is no such shape."),
     };
 
-    /// <summary>Whether a mark is filled.</summary>
+    /// <summary>Whether a marker is filled.</summary>
     internal static bool IsSolid(PointShape shape) => shape <= PointShape.TriangleDown;
 
     /// <summary>
-    /// The path data of a curve. y grows downwards from <paramref name="y"/>'s upper end; a NaN lifts the pen, and what stands alone between two is a dot, or
-    /// nothing where points have marks of their own.
+    /// Returns the path data of a curve. y grows downwards from <paramref name="y"/>'s upper end. A NaN lifts the pen. A point between two
+    /// of them is a dot, or nothing where points have markers.
     /// </summary>
     internal static string Curve(IReadOnlyList<(double X, double Y)> points, Axis x, Axis y, SeriesStyle style, bool hasLonePoints = true)
     {

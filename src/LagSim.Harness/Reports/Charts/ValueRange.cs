@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Reports.Charts;
 
-/// <summary>What an axis must know of its values: their extent, and that of the positive ones. NaN does not count.</summary>
+/// <summary>The extent of an axis's values, and of the positive ones. NaN does not count.</summary>
 internal sealed class ValueRange
 {
     public double Min { get; private set; } = double.PositiveInfinity;

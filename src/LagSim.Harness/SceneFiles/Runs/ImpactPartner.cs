@@ -8,13 +8,13 @@ using LagSim.Time;
 namespace LagSim.Harness.SceneFiles.Runs;
 
 /// <summary>
-/// The partner of a body in an impact. The key of an impact of many bodies names two of them; the partners of the others follow from their
-/// places.
+/// Finds the partner of a body in an impact. The key of an impact of many bodies names two of them; the partners of the others follow from
+/// their positions.
 /// </summary>
 internal static class ImpactPartner
 {
-    /// <summary>The body that a body met; null if it met none.</summary>
-    /// <param name="impact">What happened to it.</param>
+    /// <summary>Returns the body that a body met; null if it met none.</summary>
+    /// <param name="impact">The body's event.</param>
     /// <param name="all">All events of the same span of time.</param>
     /// <param name="scene">The scene.</param>
     internal static BodyId? Body(in BodyEvent impact, IEnumerable<BodyEvent> all, Scene scene)
@@ -36,16 +36,19 @@ internal static class ImpactPartner
         return all.Where(e => e.Key == key && e.Body != self).MinBy(e => Gap(scene, self, state, e)).Body;
     }
 
-    /// <summary>The surface that a body ran into: of those it touches, the one towards which it moved fastest; one that carries it is touched too.</summary>
+    /// <summary>
+    /// Returns the surface that a body hit: of those it touches, the one towards which it moved fastest. It may also touch one that carries
+    /// it.
+    /// </summary>
     /// <param name="scene">The scene.</param>
     /// <param name="radius">The body's radius in metres.</param>
-    /// <param name="before">The body right before.</param>
-    /// <param name="after">The body right after.</param>
+    /// <param name="before">The state of the body right before the impact.</param>
+    /// <param name="after">The state of the body right after the impact.</param>
     /// <returns>The surface's name; empty if it touches none.</returns>
     internal static string Surface(Scene scene, double radius, BodyState before, BodyState after)
     {
-        // Touching is within the scene's restitution threshold, what the body moves in a tick, and the rounding of where it is.
-        double slack = scene.RestitutionThreshold + (SimDuration.OneTick.ToSeconds() * (before.Velocity.Length + after.Velocity.Length));
+        // Touching is within the scene's restitution threshold, the body's motion in a tick, and the rounding of its position.
+        double slack = scene.Resolution + (SimDuration.OneTick.ToSeconds() * (before.Velocity.Length + after.Velocity.Length));
         Vector3D position = after.Position;
         return scene.Planes
             .Select(plane => (plane.Name, plane.Normal, Gap: plane.Gap(position, radius), Scale: position.Length))

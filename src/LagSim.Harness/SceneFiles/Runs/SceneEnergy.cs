@@ -7,14 +7,15 @@ using LagSim.Time;
 namespace LagSim.Harness.SceneFiles.Runs;
 
 /// <summary>
-/// The energy of a world: of motion, of turning (2/5 m r² of a solid sphere), in uniform gravity, in springs and in central pulls; and in words what of the
-/// scene's forces has no potential, so that the sum changes by it.
+/// The energy of a world: kinetic, rotational (2/5 m r² of a solid sphere), in uniform gravity, in springs and in central pulls. Also
+/// describes which of the scene's forces have no potential, so that they change the sum.
 /// </summary>
 public static class SceneEnergy
 {
     /// <summary>
-    /// In joules. That in uniform gravity is zero at the origin's height, in a spring at its anchor, 1/2 k |x - a|²; in a central pull of power p it is
-    /// m s r^(p + 1) / (p + 1), for p = -1 m s ln(r / 1 m): for gravity of a fixed body zero far away. Bodies that are not there count nothing.
+    /// Returns the energy in joules. In uniform gravity it is zero at the origin's height, in a spring at its anchor, 1/2 k |x - a|²; in a
+    /// central pull of power p it is m s r^(p + 1) / (p + 1), for p = -1 m s ln(r / 1 m), so zero far away for gravity of a fixed body.
+    /// Bodies that do not exist count nothing.
     /// </summary>
     public static double Of(Simulation simulation, SimTime time)
     {
@@ -35,7 +36,9 @@ public static class SceneEnergy
         return energy;
     }
 
-    /// <summary>What takes or gives energy that <see cref="Of"/> does not have, a clause for each such force that acts on a body; null if there is nothing to say.</summary>
+    /// <summary>
+    /// Returns the forces that add or remove energy not in <see cref="Of"/>, a clause for each that acts on a body; null if there is none.
+    /// </summary>
     public static string? WithoutPotential(Scene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);

@@ -10,19 +10,21 @@ using LagSim.Timelines;
 
 namespace LagSim.Harness.SceneFiles.Runs;
 
-/// <summary>One instance of a scene in virtual time, with its events and samples reported as it goes.</summary>
+/// <summary>One run of a scene in virtual time, with its events and samples reported as it advances.</summary>
 public sealed class SceneRun
 {
-    /// <summary>It is advanced by a quarter of the history at a time at most: so all that happened since the last time is there to be reported.</summary>
+    /// <summary>
+    /// The largest advance is a quarter of the history, so that everything since the last one is still there to report.
+    /// </summary>
     private const int StridesInHistory = 4;
 
     /// <summary>
-    /// And by how many events at most, or of four a body: what a body was before an event is read from its newest back, so more at a time would cost the square of
-    /// their number, and fewer would have most bodies looked at for nothing.
+    /// The largest number of events of an advance is this or four a body. The state of a body before an event is read back from its newest
+    /// event, so more at a time would cost the square of their number, and fewer would visit most bodies without need.
     /// </summary>
     private const long EventsAtOnce = 256;
 
-    /// <summary>In how many parts it is advanced when it is timed: so few that starting and stopping the watch is nothing.</summary>
+    /// <summary>The number of parts of a timed run, so few that starting and stopping the watch costs nothing.</summary>
     private const int TimedParts = 20;
 
     private const string Impact = "impact";
@@ -31,7 +33,7 @@ public sealed class SceneRun
     private readonly MotionLaw[] lastLaw;
     private readonly List<BodyEvent> pending = [];
 
-    /// <summary>A run of the scene, not begun.</summary>
+    /// <summary>Creates a run of the scene without starting it.</summary>
     public SceneRun(Scene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);
@@ -45,16 +47,21 @@ public sealed class SceneRun
     /// <summary>Called with the world at every sample's time, the start included.</summary>
     public Action<SimTime, Simulation>? OnSample { get; init; }
 
-    /// <summary>The distance between samples in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.</summary>
+    /// <summary>
+    /// The interval of samples, in seconds; at least 1e-9. Each sample's time is rounded to a tick by itself, so no error adds up.
+    /// </summary>
     public double SampleEverySeconds { get; init; } = 0.01;
 
-    /// <summary>How much of its past the simulation keeps; default 1 s, at least 4 ticks. Its memory is that of the events in it, not of the run's.</summary>
+    /// <summary>
+    /// The history that the simulation keeps; default 1 s, at least 4 ticks. Its memory depends on the events in it, not on the run's
+    /// length.
+    /// </summary>
     public SimDuration History { get; init; } = SimDuration.FromSeconds(1);
 
-    /// <summary>Ends the run early, by an <see cref="OperationCanceledException"/>; default never.</summary>
+    /// <summary>Cancels the run with an <see cref="OperationCanceledException"/>; default never.</summary>
     public CancellationToken Cancellation { get; init; }
 
-    /// <summary>Runs the scene and gives the world at its end.</summary>
+    /// <summary>Runs the scene and returns the world at its end.</summary>
     public Simulation Run(SimDuration length, Action<SimDuration>? progress = null)
     {
         SimTime end = SimTime.Zero + length;
@@ -88,19 +95,19 @@ public sealed class SceneRun
                 return simulation;
             }
 
-            // Up to its horizon nothing happens, so a world at rest takes no time.
+            // Nothing happens up to the horizon, so a world at rest takes no time.
             SimTime next = SimTime.Min(end, SimTime.Max(now + stride, simulation.Horizon));
             now = OnSample is null ? next : SimTime.Min(next, sample);
         }
     }
 
-    /// <summary>The least wall-clock seconds of several runs of the simulation alone, after one that is not counted.</summary>
-    /// <param name="scene">What is run.</param>
-    /// <param name="length">How much of it.</param>
-    /// <param name="times">How often it counts.</param>
-    /// <param name="progress">Is told how many seconds have been simulated in all runs so far; its own time does not count.</param>
-    /// <param name="isWarm">Whether the same has run for so long already that there need not be one that is not counted.</param>
-    /// <param name="history">How much of its past each keeps; null for 1 s.</param>
+    /// <summary>Returns the least wall-clock seconds of several runs of the simulation alone, after a warm-up.</summary>
+    /// <param name="scene">The scene.</param>
+    /// <param name="length">The simulated length.</param>
+    /// <param name="times">The number of timed runs.</param>
+    /// <param name="progress">Called with the number of simulated seconds in all runs so far. Its own time does not count.</param>
+    /// <param name="isWarm">Whether the code is already warm, so that no warm-up is needed.</param>
+    /// <param name="history">The history that each run keeps; null for 1 s.</param>
     /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
     public static double MinSeconds(
         Scene scene, SimDuration length, int times, Action<double>? progress = null, bool isWarm = false, SimDuration? history = null, CancellationToken cancellation = default)
@@ -181,7 +188,7 @@ public sealed class SceneRun
         }
     }
 
-    /// <summary>The body right before an event: after the one before it, if that is of the same tick, else a tick ago.</summary>
+    /// <summary>Returns the body right before an event: after the event before it, if that is of the same tick, else a tick ago.</summary>
     private static BodyState Before(Simulation simulation, BodyId body, in TimelineEntry entry, in TimelineEntry? last)
     {
         if (last is TimelineEntry earlier && earlier.Key.Time == entry.Key.Time)

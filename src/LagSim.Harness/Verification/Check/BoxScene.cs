@@ -3,8 +3,10 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>A random gas in a periodic box: 8 to 12 balls that leave it on one side and come in on the other.</summary>
-/// <remarks>Nothing else goes with such a box: no gravity, no force, no wall; and with nothing static, a change spreads by balls alone.</remarks>
+/// <summary>A random gas in a periodic box, with 8 to 12 balls.</summary>
+/// <remarks>
+/// Such a box allows no gravity, force or wall. Without static geometry, a change spreads only through balls.
+/// </remarks>
 internal sealed class BoxScene : CheckScene
 {
     private static readonly double[] Restitutions = [0.5, 0.8, 0.9, 1, 1];
@@ -25,13 +27,13 @@ internal sealed class BoxScene : CheckScene
         double fastest = random.Pick(3.0, 6, 9);
         for (int i = 0; i < count; i++)
         {
-            // On a grid, so that none overlap, nor any with another's image; the first few across the box's edges.
+            // On a grid, so that no ball overlaps another or its image; the first few are across the box's edges.
             Vector3D position = new(0.1 + (0.75 * (i % 4)), 0.1 + (0.75 * (i / 4)), random.NextDouble(0, 3));
             Add(DrawSpec(), position, DrawVelocity(fastest));
         }
     }
 
-    /// <summary>Nothing is held in a periodic box.</summary>
+    /// <summary>There are no holds in a periodic box.</summary>
     internal override int MaxHands => 0;
 
     internal override BodySpec DrawSpec() => new(

@@ -2,7 +2,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>A spring to the middle axis, a drag, and a push that grows with time: an acceleration that is nowhere and never the same.</summary>
+/// <summary>
+/// A spring to the vertical axis, a drag, and a push that grows with time: an acceleration that varies everywhere and always.
+/// </summary>
 internal sealed class CentralPull : IAcceleration
 {
     public string Name => "lagsim check pull";

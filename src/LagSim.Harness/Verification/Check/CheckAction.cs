@@ -3,19 +3,18 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Something that a player is to do, at some time.</summary>
-/// <param name="AtSeconds">
-/// When, from the session's start on. Two of one peer with the same time get the same stamp; the second, by another peer, waits until that one's clock reads the
-/// first one's stamp to the tick, if it is not past it already.
-/// </param>
-/// <param name="Peer">Who, by index; if that one is not in the session at the time, the host does it.</param>
-/// <param name="Kind">What.</param>
-/// <param name="Body">To which body of the scene, by the index it was drawn with; negative where to a spawned one.</param>
-/// <param name="Spawn">To the body that an action spawned, by the index of that action; negative where to one of the scene's.</param>
-/// <param name="Position">Where to, in metres; of a grab by which point from the body's centre, of a keyframe where the hand is.</param>
-/// <param name="Velocity">Metres per second, of an impulse the change of velocity, of a keyframe the hand's.</param>
-/// <param name="Spec">Of a spawn what appears; of an impulse what it is done to.</param>
-/// <param name="Spin">Radians per second, of a spawn.</param>
+/// <summary>One drawn action of a player.</summary>
+/// <param name="AtSeconds">The time, from the session's start. Two actions of one peer at the same time get the same stamp. A second one of
+/// another peer waits until that peer's clock reads the first one's stamp to the tick, if it is not past it already.</param>
+/// <param name="Peer">The player, by index. If it is not in the session at the time, the host acts instead.</param>
+/// <param name="Kind">The kind of action.</param>
+/// <param name="Body">The body of the scene, by its index when drawn; negative for a spawned one.</param>
+/// <param name="Spawn">The index of the action that spawned the body; negative for a body of the scene.</param>
+/// <param name="Position">The new position, in metres; for a grab the grab point from the body's centre, for a keyframe the hand's
+/// position.</param>
+/// <param name="Velocity">The new velocity, in m/s; for an impulse the change of velocity, for a keyframe the hand's velocity.</param>
+/// <param name="Spec">For a spawn the spec of the new body; for an impulse that of the body it acts on.</param>
+/// <param name="Spin">The spin of a spawn, in rad/s.</param>
 internal sealed record CheckAction(
     double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec, Vector3D Spin = default)
 {

@@ -9,11 +9,11 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>One session as a seed draws it: scene, players, links, clocks, who comes and goes when, and what is done.</summary>
-/// <remarks>Depends on the seed and on the options' peers and profile only. What is left out of it afterwards shifts nothing of the rest.</remarks>
+/// <summary>One seeded session: scene, players, links, clocks, when players join and leave, and their actions.</summary>
+/// <remarks>Depends only on the seed and on the peers and profile in the options. Leaving a part out changes nothing else.</remarks>
 internal sealed class CheckCase
 {
-    /// <summary>For so long of shared time things are done, in seconds.</summary>
+    /// <summary>How long players act, in seconds of shared time.</summary>
     internal const double Length = 10;
 
     private const int FewestActions = 27;
@@ -23,31 +23,31 @@ internal sealed class CheckCase
     private const int FewestKeyframes = 2;
     private const int MaxKeyframes = 10;
 
-    /// <summary>Who needs longer than this for a round trip is there from the start as a rule: to get in takes several.</summary>
+    /// <summary>The round trip above which a player is usually in from the start, since joining takes several.</summary>
     private const double SlowMilliseconds = 500;
 
     private const double HeapPercent = 7;
     private const double BoxPercent = 4;
     private const double OrbitPercent = 6;
-    private const double PitPercent = 27; // with the heaps on an open floor a third
+    private const double PitPercent = 27; // a third, counting heaps on an open floor
 
-    /// <summary>Of heaps each step is an event in every world, so they take few peers.</summary>
+    /// <summary>The most peers of a scene with heaps, where every step is an event in every world.</summary>
     private const int MaxPeersOfHeap = 3;
 
     private const double FullLinkPercent = 25;
 
     /// <summary>
-    /// Of links, in bit/s. What a drawn session says fits into 64 kbit/s, whatever is repeated; a fifth of that shows a controller that never backs off:
-    /// of 900 sessions drawn from 12 to 64 kbit/s one made so keeps somebody out, or loses him, in 12, and what should be in none.
+    /// The lowest rate of links, in bit/s. The traffic of a seeded session fits into 64 kbit/s with all repeats. A fifth of that shows a
+    /// controller that never backs off: of 900 sessions at 12 to 64 kbit/s, one made so keeps a player out or loses one in 12. No other
+    /// session should.
     /// </summary>
     private const double LowestRate = 12e3;
     private const double HighestRate = 10e6;
     private const double StopPercent = 15;
-    private const double LongestEntry = 30; // seconds, from the first question to the world: six round trips of 4 s, and what is lost
+    private const double LongestEntry = 30; // seconds from the first request to the world: six round trips of 4 s, and losses
 
     /// <summary>
-    /// Half of the peers look for contacts by the index; most of these from the first body on, the others from fewer than so many on, which
-    /// spawns reach in play.
+    /// The percentage of peers with neighbour lists, most of them from the first body on, the others once spawns were added.
     /// </summary>
     private const double IndexPercent = 50;
     private const double FromTheFirstPercent = 70;
@@ -61,8 +61,8 @@ internal sealed class CheckCase
     private const ulong MaxAttempts = 20;
 
     /// <summary>
-    /// What a scene may cost, as events that it takes alone: persistent contact takes some thousand a second, and a few heaps would take all the time there is.
-    /// A scene that takes more is drawn again; so contacts last for a second or two in all, but for a few sessions.
+    /// The usual budget of a scene, in events that it takes alone. Persistent contact takes some thousand a second, so a few heaps would
+    /// take most of the time. A scene over budget is drawn again, and contacts last a second or two in all except in a few sessions.
     /// </summary>
     private const long UsualEvents = 1_500;
     private const long HeavyEvents = 6_000;
@@ -73,12 +73,12 @@ internal sealed class CheckCase
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckAction> actions = [];
 
-    /// <exception cref="OperationCanceledException">It was asked to stop.</exception>
+    /// <exception cref="OperationCanceledException">The run was cancelled.</exception>
     internal CheckCase(ulong seed, CheckOptions options, CancellationToken cancellation = default)
     {
         Seed = seed;
         SeededRandom random = new(seed);
-        double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own: all other sessions are what they would be without
+        double sort = random.Fork(SortStream).NextDouble() * 100; // a stream of its own, so that all other sessions stay the same
         bool isPit = sort >= 100 - PitPercent;
         isHeap = sort < HeapPercent || isPit;
         DrawPlayers(random.Fork(1), options);
@@ -104,7 +104,7 @@ internal sealed class CheckCase
 
         LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));
 
-        // What is compared at the end is all since the start, or only what a session keeps of itself.
+        // Compares everything since the start, or only what a session keeps by default.
         ExtraHistory = rest.IsLucky(50) ? SimDuration.FromSeconds(60) : SimDuration.Zero;
         BodyIndices = options.Bodies ?? Enumerable.Range(0, room.BodyCount).ToArray();
         ActionIndices = options.Events ?? Enumerable.Range(0, actions.Count).ToArray();
@@ -114,7 +114,7 @@ internal sealed class CheckCase
         Accelerations = CheckScene.Accelerations;
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
 
-        // A hop, what a burst of losses adds to it, the error of a clock that is set by a slow or uneven way.
+        // The delay, what a burst of losses adds to it, and the clock error on a slow or uneven link.
         History = options.History ?? SimDuration.FromMilliseconds(Math.Min(5000, 1000 + (2 * worst)));
     }
 
@@ -127,19 +127,19 @@ internal sealed class CheckCase
     /// <summary>The host, and the clients in the order of their addresses.</summary>
     internal IReadOnlyList<CheckPlayer> Players => players;
 
-    /// <summary>Whether a link has a rate, so that events may wait in its queue, or be refused.</summary>
+    /// <summary>Whether any link has a rate, so that events may wait in its queue or be dropped.</summary>
     internal bool HasFullLinks => players.Exists(p => p.Link.ToHost.Bottleneck is not null || p.Link.FromHost.Bottleneck is not null);
 
-    /// <summary>Whether a process stands still for a time.</summary>
+    /// <summary>Whether any process stalls.</summary>
     internal bool HasStops => players.Exists(p => p.Stop is not null);
 
-    /// <summary>All that was drawn, by ascending time.</summary>
+    /// <summary>All drawn actions, in order of time.</summary>
     internal IReadOnlyList<CheckAction> Actions => actions;
 
-    /// <summary>Which of the scene's bodies there are.</summary>
+    /// <summary>The indices of the scene's bodies that are played.</summary>
     internal IReadOnlyList<int> BodyIndices { get; }
 
-    /// <summary>Which of the actions are done.</summary>
+    /// <summary>The indices of the actions that are played.</summary>
     internal IReadOnlyList<int> ActionIndices { get; }
 
     internal SimDuration History { get; }
@@ -148,10 +148,10 @@ internal sealed class CheckCase
 
     internal SimDuration LookAhead { get; }
 
-    /// <summary>How many steps of islands the scene lets others take ahead, with all that is to be done in it; the same on any machine.</summary>
+    /// <summary>The number of island steps that the scene lets workers take ahead, with all actions; the same on any machine.</summary>
     internal long StepsAhead { get; private set; }
 
-    /// <summary>The body of the scene that had that index when it was drawn; null if it is left out.</summary>
+    /// <summary>Finds the body that had an index when it was drawn; null if it is left out.</summary>
     internal BodyId? BodyDrawnAs(int index)
     {
         for (int i = 0; i < BodyIndices.Count; i++)
@@ -195,7 +195,7 @@ internal sealed class CheckCase
             players.Add(Player(random, link, asks, leaves, random.IsLucky(40)));
         }
 
-        // Who left in order gives the number free, and somebody else may get it.
+        // A player that leaves in order frees its number, which another player may get.
         if (players.FirstOrDefault(p => p.LeavesAtSeconds is not null && !p.IsKilled) is CheckPlayer left)
         {
             LinkProfile link = DrawLink(random, options);
@@ -206,7 +206,10 @@ internal sealed class CheckCase
         }
     }
 
-    /// <summary>Gives links rates and queues, and has a process stand still: in some sessions, from a stream of its own, so all others are what they would be without.</summary>
+    /// <summary>
+    /// Gives links rates and queues and stalls a process, in some sessions. Drawn from a stream of its own, so that all others stay the
+    /// same.
+    /// </summary>
     private void DrawTrouble(SeededRandom random, CheckOptions options)
     {
         SeededRandom ofLinks = random.Fork(1);
@@ -226,7 +229,7 @@ internal sealed class CheckCase
             players[who] = players[who] with { Stop = (at, seconds) };
             for (int peer = 1; peer < players.Count && who == 0; peer++)
             {
-                // Who is on the way in gives up a host that stands for longer than its timeout, and is right to.
+                // A client that is joining gives up on a host that stalls for longer than its timeout, and is right to.
                 bool isInVain = players[peer].AsksAtSeconds is double asks && asks > at - LongestEntry && asks < at + seconds;
                 players[peer] = isInVain ? players[peer] with { AsksAtSeconds = at + seconds } : players[peer];
             }
@@ -263,13 +266,15 @@ internal sealed class CheckCase
 
     private static LinkProfile DrawLink(SeededRandom random, CheckOptions options)
     {
-        // Of the pure delays short ones are more frequent: three quarters below a second.
+        // Short pure delays are more frequent: three quarters are below a second.
         double delay = Math.Round(2000 * random.NextDouble() * Math.Sqrt(random.NextDouble()));
         LinkProfile drawn = random.IsLucky(30) ? LinkProfiles.PureDelay(delay) : random.Pick([.. LinkProfiles.All]);
         return options.Profile ?? drawn;
     }
 
-    /// <summary>Whether the scene, with all that is to be done in it, takes no more events than that, and does not end by itself, as where elastic bodies are squeezed for ever.</summary>
+    /// <summary>
+    /// Whether the scene with all actions stays within a budget of events and ends, which squeezed elastic bodies may never do.
+    /// </summary>
     private bool IsWithin(long budget, CancellationToken cancellation)
     {
         try
@@ -315,7 +320,7 @@ internal sealed class CheckCase
         int removals = 0;
         for (int i = 0; i < count; i++)
         {
-            // In the same instant as the one before, by the same player or another, and often to the same body.
+            // In the same instant as the one before, by the same player or another, and often on the same body.
             bool isTogether = i > 0 && random.IsLucky(25);
             double at = isTogether ? actions[i - 1].AtSeconds : times[i];
             int peer = isTogether && random.IsLucky(60) ? actions[i - 1].Peer : random.NextInt(players.Count);
@@ -346,7 +351,9 @@ internal sealed class CheckCase
         }
     }
 
-    /// <summary>Hands that take a body, move it about and let go of it, or only cease to tell where they are; often two at one time are after the same.</summary>
+    /// <summary>
+    /// Draws hands that grab a body, move it and release it, or stop sending keyframes. Often two are after the same body.
+    /// </summary>
     private void DrawHands(SeededRandom random)
     {
         List<CheckAction> all = [.. actions];
@@ -374,7 +381,7 @@ internal sealed class CheckCase
             Vector3D position = room.DrawPosition();
             for (int keyframes = FewestKeyframes + random.NextInt(MaxKeyframes - FewestKeyframes + 1); keyframes > 0 && at < Length; keyframes--)
             {
-                // Some of the way to anywhere in the room, so it never leaves that.
+                // A part of the way to any place in the room, so that it stays in the room.
                 double gap = random.Pick(0.02, 0.1, 0.1, 0.3);
                 Vector3D velocity = (room.DrawPosition() - position) * 1.5;
                 all.Add(action with { AtSeconds = at, Kind = EventKind.HoldKeyframe, Position = position, Velocity = velocity });
@@ -388,7 +395,7 @@ internal sealed class CheckCase
             }
         }
 
-        // By time, those of one instant as they were drawn; what names a spawn names it by where that is now.
+        // By time; actions of one instant in the order drawn. References to spawns are updated to the new order.
         int[] order = [.. Enumerable.Range(0, all.Count).OrderBy(i => all[i].AtSeconds)];
         int[] place = new int[order.Length];
         for (int i = 0; i < order.Length; i++)

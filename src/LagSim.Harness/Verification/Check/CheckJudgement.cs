@@ -9,16 +9,16 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Holds every peer's world of a session that was played against that of a peer that never had a delay.</summary>
+/// <summary>Compares every peer's world of a played session with a reference that has all events on time.</summary>
 internal static class CheckJudgement
 {
-    /// <summary>What came of the session.</summary>
-    /// <param name="outcome">Which session it is, and what of it was played.</param>
-    /// <param name="drawn">The session as it was drawn.</param>
+    /// <summary>Returns the outcome of a session.</summary>
+    /// <param name="outcome">The session, and the parts of it that were played.</param>
+    /// <param name="drawn">The session as drawn.</param>
     /// <param name="members">Its peers, the host first.</param>
-    /// <param name="log">What the host said of every event.</param>
-    /// <param name="options">What is checked.</param>
-    /// <param name="cancellation">Stops it.</param>
+    /// <param name="log">The host's verdicts on every event.</param>
+    /// <param name="options">The options of the check.</param>
+    /// <param name="cancellation">Stops the comparison.</param>
     internal static CheckOutcome Of(
         CheckOutcome outcome,
         CheckCase drawn,
@@ -30,7 +30,7 @@ internal static class CheckJudgement
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
         SimTime start = members[0].Session.World!.Simulation.Start;
         SimulationOptions usual = new(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1);
-        Simulation alone = log.Replay(drawn.Scene, options.PrepareAlone(usual), end); // no step of it is taken ahead; peers may
+        Simulation alone = log.Replay(drawn.Scene, options.PrepareAlone(usual), end); // the reference takes no step ahead; peers may
         Comparison comparison = Compare(alone, members);
         long lost = members.Sum(m => m.Trace.Lost);
         return outcome with
@@ -81,10 +81,10 @@ internal static class CheckJudgement
         return comparison;
     }
 
-    /// <summary>What is not as it should be, as a sentence; null for nothing.</summary>
+    /// <summary>Returns a sentence about what failed; null if nothing did.</summary>
     private static string? Failure(CheckCase drawn, IReadOnlyList<CheckMember> members, Comparison comparison, long lost, long tooLate)
     {
-        bool mayBeRefused = drawn.HasFullLinks || drawn.HasStops; // who could not be heard in time is refused, and knows it
+        bool mayBeRefused = drawn.HasFullLinks || drawn.HasStops; // events that could not arrive in time are refused
         return comparison.Differing > 0 ? string.Create(
                 CultureInfo.InvariantCulture,
                 $"{comparison.Differing} of {comparison.Compared} compared states and events differ. {comparison.FirstHash}").TrimEnd()

@@ -4,17 +4,17 @@ using LagSim.Testing.Running;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>One peer of a drawn session as that goes on.</summary>
+/// <summary>One peer of a seeded session while it is played.</summary>
 internal sealed class CheckMember
 {
     private readonly List<HealImpacts> heals = [];
 
-    /// <summary>Follows a session, from before it is stepped.</summary>
-    /// <param name="peer">Its address, and its index among the players that were drawn.</param>
-    /// <param name="player">The player as it was drawn.</param>
+    /// <summary>Subscribes to a session. Call it before the first step.</summary>
+    /// <param name="peer">The peer's address, which is also its index among the drawn players.</param>
+    /// <param name="player">The player as drawn.</param>
     /// <param name="session">The session.</param>
-    /// <param name="number">Its number among those that are stepped.</param>
-    /// <param name="log">What the host says.</param>
+    /// <param name="number">The session's index among the stepped sessions.</param>
+    /// <param name="log">The host's log.</param>
     internal CheckMember(int peer, CheckPlayer player, Session session, int number, HostLog log)
     {
         Peer = peer;
@@ -30,23 +30,23 @@ internal sealed class CheckMember
         Trace = new SessionTrace(session, log);
     }
 
-    /// <summary>Its address, and its index among the players that were drawn.</summary>
+    /// <summary>The peer's address, which is also its index among the drawn players.</summary>
     internal int Peer { get; }
 
     internal Session Session { get; }
 
-    /// <summary>Its number among those that are stepped.</summary>
+    /// <summary>The session's index among the stepped sessions.</summary>
     internal int Number { get; }
 
-    /// <summary>What is to be compared of it.</summary>
+    /// <summary>The recorded states and worlds.</summary>
     internal SessionTrace Trace { get; }
 
-    /// <summary>What healing did in each of its worlds.</summary>
+    /// <summary>The impacts that heals changed, for each of its worlds.</summary>
     internal IReadOnlyList<HealImpacts> Heals => heals;
 
     internal bool HasGone { get; set; }
 
-    /// <summary>Whether its process stands still.</summary>
+    /// <summary>Whether its process is stalled.</summary>
     internal bool IsStopped { get; set; }
 
     private void Watch() =>

@@ -3,10 +3,10 @@ using System.Linq;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Lays out what is to happen in a drawn session.</summary>
+/// <summary>Builds the schedule of a seeded session.</summary>
 internal static class CheckPlan
 {
-    /// <summary>All that is to happen from the session's start on, in order.</summary>
+    /// <summary>Returns everything that happens from the session's start on, in order.</summary>
     internal static IReadOnlyList<CheckStep> Of(CheckCase drawn)
     {
         List<CheckStep> plan = [];
@@ -35,6 +35,6 @@ internal static class CheckPlan
 
         plan.AddRange(drawn.ActionIndices.Select(index => new CheckStep(drawn.Actions[index].AtSeconds, CheckStepKind.Act, index)));
         plan.Add(new CheckStep(CheckCase.Length, CheckStepKind.End, 0));
-        return [.. plan.OrderBy(step => step.AtSeconds)]; // stable: actions of one instant in the order in which they were drawn
+        return [.. plan.OrderBy(step => step.AtSeconds)]; // stable: actions of one instant stay in the order drawn
     }
 }

@@ -13,25 +13,25 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Plays a drawn session in virtual time, and keeps what is to be compared.</summary>
+/// <summary>Plays a seeded session in virtual time and records what is compared.</summary>
 internal sealed class CheckPlay
 {
-    /// <summary>What a clock of a machine reads at least: true time begins this far from its origin.</summary>
+    /// <summary>True time begins this far from its origin, so that no machine's clock reads below zero.</summary>
     private const double Origin = 10;
 
-    /// <summary>How long peers may take to get in, and events to get everywhere, in seconds; far longer than on the worst of links.</summary>
+    /// <summary>The timeout for clients to join and for events to arrive, in seconds. Far longer than the worst link needs.</summary>
     private const double Timeout = 120;
 
-    /// <summary>Clocks of one session are not further apart, but on slow and uneven ways.</summary>
+    /// <summary>The longest wait for another peer's clock. Clocks in one session differ by less, except on slow and uneven links.</summary>
     private static readonly SimDuration LongestWait = SimDuration.FromMilliseconds(50);
 
     private readonly CheckCase drawn;
     private readonly CheckOptions options;
     private readonly CancellationToken cancellation;
     private readonly VirtualRun run;
-    private readonly List<CheckMember> members = []; // by address; clients that come late are added when they ask
+    private readonly List<CheckMember> members = []; // by address; clients that join late are added when they ask
     private readonly BodyId?[] spawned;
-    private (double AtSeconds, SimTime Stamp) last = (-1, SimTime.MinValue); // what was done last
+    private (double AtSeconds, SimTime Stamp) last = (-1, SimTime.MinValue); // the last action
 
     internal CheckPlay(CheckCase drawn, CheckOptions options, CancellationToken cancellation)
     {
@@ -42,15 +42,15 @@ internal sealed class CheckPlay
         spawned = new BodyId?[drawn.Actions.Count];
     }
 
-    /// <summary>The peers that have asked by now, the host first.</summary>
+    /// <summary>The peers that have started or asked to join so far, the host first.</summary>
     internal IReadOnlyList<CheckMember> Members => members;
 
-    /// <summary>What the host said of every event.</summary>
+    /// <summary>The host's verdicts on every event.</summary>
     internal HostLog Log { get; } = new();
 
     private HostSession Host => (HostSession)members[0].Session;
 
-    /// <summary>Lets everything happen; a sentence if something came to no end.</summary>
+    /// <summary>Plays everything. Returns a sentence if something did not finish.</summary>
     internal string? Run(IReadOnlyList<CheckStep> plan)
     {
         int expectedClients = drawn.Players.Skip(1).Count(p => p.AsksAtSeconds is null);
@@ -67,7 +67,7 @@ internal sealed class CheckPlay
             return $"Not all were in after {Timeout} s: {States()}.";
         }
 
-        // In true time; the clocks' errors do not matter here.
+        // In true time, where clock errors do not matter.
         SimTime start = run.Clock.Now + (Host.World!.Simulation.Start - Host.SharedTime.Now);
         foreach (CheckStep step in plan)
         {
@@ -105,7 +105,7 @@ internal sealed class CheckPlay
                 Do(step.Index);
                 break;
             default:
-                break; // time has passed until the end
+                break; // the end of the session is reached
         }
     }
 
@@ -115,7 +115,7 @@ internal sealed class CheckPlay
         HostOptions hostOptions = new()
         {
             MaxGivenSpeed = double.PositiveInfinity, // a light ball among heavy ones gets faster than any player may make it
-            PlayerBudget = null, // it is about bits, however dear
+            PlayerBudget = null, // this test is about exactness, at any cost
             Window = new(drawn.History, drawn.LookAhead),
             ExtraHistory = drawn.ExtraHistory,
             RenderedPast = SimDuration.Zero,
@@ -149,12 +149,12 @@ internal sealed class CheckPlay
         CheckMember? member = members.Find(m => m.Peer == address);
         if (member is null || member.Session.State != SessionState.Running)
         {
-            return; // it had not come in yet; so it stays
+            return; // it had not joined yet, so it stays
         }
 
         if (isKilled)
         {
-            // Nothing gets through any more: the host finds out by its silence.
+            // All datagrams are lost from here on: the host notices by the silence.
             run.Network.SetLink(address, 0, new LinkLeg(0, lossPercent: 100));
             run.Network.SetLink(0, address, new LinkLeg(0, lossPercent: 100));
         }
@@ -190,19 +190,19 @@ internal sealed class CheckPlay
             : drawn.BodyDrawnAs(action.Body);
         if (body is not BodyId target)
         {
-            return; // to a body that was left out
+            return; // its body was left out
         }
 
         CheckMember actor = members.Find(m => m.Peer == action.Peer && m.Session.State == SessionState.Running && !m.IsStopped)
             ?? members[0];
         if (actor.IsStopped)
         {
-            return; // nobody is there to do it
+            return; // the player is not in the session
         }
 
         if (action.Kind == EventKind.Impulse && actor.Session.World!.Simulation.SpecOf(target).Mass != action.Spec.Mass)
         {
-            return; // it has not heard of the body, or of another of that name: who spawned it went before anybody heard of it
+            return; // the body is unknown here, or another one has its name: its spawner left before the spawn reached any peer
         }
 
         if (action.AtSeconds == last.AtSeconds)
@@ -216,13 +216,13 @@ internal sealed class CheckPlay
         spawned[index] = action.Kind == EventKind.Spawn ? external.Body : null;
     }
 
-    /// <summary>Lets time pass until a peer's clock reads that, to the tick; not if that is far off, or past.</summary>
+    /// <summary>Advances until a peer's clock reads a given time, to the tick. Does nothing if that is far off or past.</summary>
     private void WaitFor(CheckMember actor, SimTime reading)
     {
         SimDuration left = reading - actor.Session.SharedTime.Now;
         while (left > SimDuration.Zero && left < LongestWait && actor.Session.State == SessionState.Running)
         {
-            // By less than what is left: the clock may run fast.
+            // By less than the remaining time, since the clock may run fast.
             run.AdvanceTo(run.Clock.Now + (left - (left / 16) > SimDuration.OneTick ? left - (left / 16) : SimDuration.OneTick));
             left = reading - actor.Session.SharedTime.Now;
         }

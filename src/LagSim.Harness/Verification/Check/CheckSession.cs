@@ -3,16 +3,16 @@ using System.Threading;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Draws a session from a seed, plays it, and judges what came of it.</summary>
+/// <summary>Draws a session from a seed, plays it, and evaluates the result.</summary>
 internal static class CheckSession
 {
-    /// <summary>Plays the session that the seed draws, or what the options keep of it.</summary>
+    /// <summary>Plays the session of a seed, or the parts of it in the options.</summary>
     /// <exception cref="OperationCanceledException">It was asked to stop before the end: there is no outcome.</exception>
     internal static CheckOutcome Play(ulong seed, CheckOptions options, CancellationToken cancellation)
     {
         CheckCase drawn = new(seed, options, cancellation);
 
-        // One of its own, for the token of all sessions would keep these peers.
+        // Linked, since the token of all sessions would keep these peers alive.
         using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
         CheckPlay play = new(drawn, options, stop.Token);
         CheckOutcome outcome = new() { Seed = drawn.Seed, Bodies = drawn.BodyIndices, Actions = drawn.ActionIndices };

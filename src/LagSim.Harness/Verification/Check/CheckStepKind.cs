@@ -1,23 +1,23 @@
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>What may happen in a drawn session.</summary>
+/// <summary>The kinds of steps in a drawn session.</summary>
 internal enum CheckStepKind
 {
-    /// <summary>A player asks to be let in.</summary>
+    /// <summary>A player asks to join.</summary>
     Ask,
 
     /// <summary>A player leaves, or is killed.</summary>
     Leave,
 
-    /// <summary>A player's process stands still from now on.</summary>
+    /// <summary>A player's process stalls.</summary>
     Stop,
 
-    /// <summary>It goes on.</summary>
+    /// <summary>The process resumes.</summary>
     GoOn,
 
-    /// <summary>An action is done.</summary>
+    /// <summary>A player acts.</summary>
     Act,
 
-    /// <summary>Nothing more is done.</summary>
+    /// <summary>The session ends.</summary>
     End,
 }

@@ -6,19 +6,21 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>
-/// Counts the heals of one world, and those that changed an impact: that of the impacts up to where the world had got before the late event came cut one off for good,
-/// or put one in that was not there. Which impact it is its key tells, that is time to a tick, round and bodies; one that happens again at the
-/// same key is the same one, whatever came of it.
+/// Counts the heals of a world, and those that changed an impact: that removed or added one among the impacts before the world's time when
+/// the late event arrived. An impact is identified by its key, which is its time to a tick, its round and its bodies. One that recurs at
+/// the same key is the same, whatever its result.
 /// </summary>
-/// <remarks>Exact, and as cheap as what a heal rewrites: nothing is looked at twice. What the world does ahead of any heal is not kept.</remarks>
+/// <remarks>
+/// Exact, and as cheap as the heal's rewriting, since nothing is visited twice. Predictions ahead of a heal are not kept.
+/// </remarks>
 internal sealed class HealImpacts : IImpactObserver
 {
     private readonly Simulation simulation;
     private readonly Dictionary<EventKey, (bool Was, bool Is)> touched = [];
-    private long rollbacks; // of the simulation, when the last heal had ended
+    private long rollbacks; // of the simulation, at the end of the last heal
 
     /// <param name="simulation">The world.</param>
-    /// <param name="isOfThePast">Whether what the heal at hand began with lies before the shared time, asked when it has ended.</param>
+    /// <param name="isOfThePast">Whether the current heal began before the shared time. Called at the end of the heal.</param>
     internal HealImpacts(Simulation simulation, Func<HealReport, bool> isOfThePast)
     {
         this.simulation = simulation;
@@ -38,13 +40,13 @@ internal sealed class HealImpacts : IImpactObserver
         };
     }
 
-    /// <summary>How many heals there were that rewrote the past.</summary>
+    /// <summary>The number of heals that rewrote the past.</summary>
     internal long Heals { get; private set; }
 
-    /// <summary>How many of them cut an impact off or put one in.</summary>
+    /// <summary>The number of heals that removed or added an impact.</summary>
     internal long Changed { get; private set; }
 
-    /// <summary>How many events they ran again.</summary>
+    /// <summary>The number of events that heals re-simulated.</summary>
     internal long Events { get; private set; }
 
     public void OnContact(in EventKey impact, in ImpactContact contact) => Note(impact, isThere: true);
@@ -67,7 +69,7 @@ internal sealed class HealImpacts : IImpactObserver
     {
         if (simulation.Rollbacks == rollbacks)
         {
-            return; // nothing is being healed
+            return; // no heal is in progress
         }
 
         touched[impact] = touched.TryGetValue(impact, out (bool Was, bool Is) known) ? (known.Was, isThere) : (!isThere, isThere);

@@ -5,12 +5,12 @@ using LagSim.Testing.Links;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>
-/// Heaps of balls with friction on an open floor, one or two: pyramids of five, which are islands from the first moment on. A few balls lie beside them, to
-/// which most is done.
+/// One or two heaps of balls with friction on an open floor: pyramids of five, which are islands from the start. A few balls lie beside
+/// them, on which players mostly act.
 /// </summary>
 /// <remarks>
-/// Each step of an island is an event in every world, some five hundred a second. So rolling resistance soon ends what moves, and what is done is done in the
-/// first seconds. No ball is heavier than four others.
+/// Each step of an island is an event in every world, some five hundred a second. So rolling resistance soon stops motion, and players act
+/// in the first seconds only. No ball is heavier than four others.
 /// </remarks>
 internal sealed class HeapScene : CheckScene
 {
@@ -18,7 +18,7 @@ internal sealed class HeapScene : CheckScene
     private const double Apart = 3;
     private const int OfHeap = 5;
 
-    /// <summary>A ball's half of the side of a heap, in metres: nobody begins in another, and all touch at once.</summary>
+    /// <summary>Half the side of a heap in which all balls touch at the start without overlap, in metres.</summary>
     private const double Side = Radius + 1e-8;
 
     private readonly SeededRandom random;
@@ -49,13 +49,13 @@ internal sealed class HeapScene : CheckScene
         }
     }
 
-    internal override long? MaxEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // else two heaps and forces would seldom be within it
+    internal override long? MaxEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // two heaps with forces would seldom be within the usual budget
 
     internal override double BusySeconds => 4;
 
     internal override int FewestHands => 1;
 
-    internal override double GraspSeconds => 0.8; // while there still are heaps
+    internal override double GraspSeconds => 0.8; // while the heaps still stand
 
     internal override int DrawHeld(SeededRandom from) => from.IsLucky(75) ? from.NextInt(OfHeap * centres.Length) : base.DrawHeld(from);
 
@@ -64,7 +64,10 @@ internal sealed class HeapScene : CheckScene
     private BodySpec DrawSpec(ForceSet forces) => new(
         Radius, random.Pick(0.5, 1, 1, 1, 2), random.Pick(0, 0, 0, 0.3), forces: forces, tolerance: 1e-5, friction: friction, rollingResistance: rolling);
 
-    /// <summary>One of the forces or several, or none; none that pulls elsewhere and so never lets it rest. Of balls in heaps alone: any other would roll by steps.</summary>
+    /// <summary>
+    /// One or several of the forces, or none; none that pulls elsewhere, since that heap would never rest. Only on balls in heaps: any
+    /// other would roll in steps.
+    /// </summary>
     private ForceSet DrawForces()
     {
         ForceSet forces = ForceSet.None;
@@ -82,14 +85,14 @@ internal sealed class HeapScene : CheckScene
         return from.IsLucky(40) ? from.NextInt(heaped) : heaped + from.NextInt(BodyCount - heaped);
     }
 
-    /// <summary>Above a heap, or as far beside it as nothing is hit.</summary>
+    /// <summary>Above a heap, or beside it where nothing is hit.</summary>
     internal override Vector3D DrawPosition() =>
         new(random.Pick(centres) + random.NextDouble(-0.5, 0.5), random.NextDouble(1.2, 2), random.NextDouble(-0.5, 0.5) + (random.IsLucky(25) ? 0 : -Apart));
 
     internal override Vector3D DrawSpin(in BodySpec spec) => DrawVelocity(30);
 
     internal override Vector3D DrawVelocity(double most) =>
-        new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * (most / 6); // slow: what is kicked soon rests again
+        new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * (most / 6); // slow, so that a kicked ball soon rests again
 
     protected override void AddSurroundings(SceneBuilder builder)
     {
@@ -101,7 +104,7 @@ internal sealed class HeapScene : CheckScene
         }
     }
 
-    /// <summary>Four balls in a square, and on them one more.</summary>
+    /// <summary>Adds four balls in a square, and one on top of them.</summary>
     private void AddPyramid(double x)
     {
         for (int n = 0; n < 4; n++)

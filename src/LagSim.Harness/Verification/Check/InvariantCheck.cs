@@ -9,20 +9,27 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Random sessions against the one invariant: whatever came when, every peer's world is that of a peer that never had a delay, bit for bit.</summary>
-/// <remarks>In virtual time. Each session is drawn from its own seed and played on one thread, so every figure but the time taken is the same in every run.</remarks>
+/// <summary>
+/// The check of the one invariant by random sessions: whatever arrives when, every peer's world equals the reference, which has all events
+/// on time, bit for bit.
+/// </summary>
+/// <remarks>
+/// In virtual time. Each session is drawn from its own seed and played on one thread, so every figure except the time taken is the same in
+/// every run.
+/// </remarks>
 public static class InvariantCheck
 {
-    /// <summary>Of so many failing sessions the least that fails is looked for; the others are only named.</summary>
+    /// <summary>The most failing sessions that are shrunk; the others are only named.</summary>
     public const int MaxShrunk = 3;
 
     private static readonly TimeSpan ProgressEvery = TimeSpan.FromMilliseconds(100);
 
     /// <summary>Plays all sessions, several at a time.</summary>
-    /// <param name="options">What is checked.</param>
-    /// <param name="progress">Called on the caller's thread now and then with how many sessions are done; null for nobody.</param>
-    /// <param name="cancellation">Ends it early, with a report of the sessions that were done by then; those in progress are given up.</param>
-    /// <exception cref="ArgumentException">An option is out of its range; the sentence names it.</exception>
+    /// <param name="options">The options.</param>
+    /// <param name="progress">Called from time to time on the caller's thread with the number of finished sessions; may be null.</param>
+    /// <param name="cancellation">Ends it early, with a report of the sessions that were done by then; those in progress are given
+    /// up.</param>
+    /// <exception cref="ArgumentException">An option is out of range; the sentence names it.</exception>
     public static CheckReport Run(CheckOptions options, Action<int>? progress = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -73,12 +80,12 @@ public static class InvariantCheck
             }
             catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
             {
-                stopped.Add(seed); // it is not done; what was done is reported
+                stopped.Add(seed); // unfinished; the finished sessions are reported
             }
             catch (Exception failure)
             {
                 Interlocked.CompareExchange(ref fault, failure, null);
-                Interlocked.Exchange(ref next, options.Sessions); // the others have nothing to go on for
+                Interlocked.Exchange(ref next, options.Sessions); // the other workers have no more to do
             }
         }
 
@@ -90,12 +97,12 @@ public static class InvariantCheck
             }
             catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
             {
-                // The workers end by themselves; what they have done is reported.
+                // The workers end by themselves; their finished sessions are reported.
             }
         }
     }
 
-    /// <summary>The command that plays one session, or what is kept of it.</summary>
+    /// <summary>Returns the command that plays one session, or the parts of it in the options.</summary>
     internal static string Command(CheckOutcome of, CheckOptions options, bool isShrunk)
     {
         bool isPart = isShrunk || (options.Bodies ?? options.Events) is not null;

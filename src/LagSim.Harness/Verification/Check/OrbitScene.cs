@@ -4,11 +4,11 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Random balls on orbits around a static sphere that pulls them, in a closed room of 5 m without gravity.</summary>
+/// <summary>Random balls on orbits around an attracting static sphere, in a closed room of 5 m without gravity.</summary>
 /// <remarks>
-/// Most are pulled by the inverse square and fly by the closed form of Kepler's problem, until they meet each other, a wall or the sphere, on which what is slow
-/// comes to lie; others are pulled by another power, or through a wind besides. So contact lasts on what is round, under a force, with and without resistance to
-/// rolling.
+/// Most are attracted by the inverse square and fly by the closed form of Kepler's problem, until they meet each other, a wall or the
+/// sphere, on which slow balls come to rest. Others are attracted by another power, or through a wind as well. So contact lasts on a round
+/// surface, under a force, with and without rolling resistance.
 /// </remarks>
 internal sealed class OrbitScene : CheckScene
 {
@@ -35,7 +35,7 @@ internal sealed class OrbitScene : CheckScene
         int count = 8 + random.NextInt(3);
         for (int i = 0; i < count; i++)
         {
-            // Two rings of five across each other, at a bit less or more than the speed of a circle.
+            // Two crossed rings of five, slightly slower or faster than circular speed.
             double radius = i < 5 ? 1.2 : 1.9;
             double turn = ((i % 5) + random.NextDouble(0, 0.2)) * (2 * Math.PI / 5);
             (double sin, double cos) = Math.SinCos(turn);
@@ -56,7 +56,7 @@ internal sealed class OrbitScene : CheckScene
             tolerance: random.Pick(1e-3, 1e-5), friction: friction, rollingResistance: rolling);
     }
 
-    /// <summary>Above the sphere, so that no hand lets go of a ball inside it.</summary>
+    /// <summary>Above the sphere, so that no hand releases a ball inside it.</summary>
     internal override Vector3D DrawPosition() => new(random.NextDouble(-1, 1) * 2, random.NextDouble(0.7, 2), random.NextDouble(-1, 1) * 2);
 
     internal override Vector3D DrawSpin(in BodySpec spec) => MayTurn(spec) ? DrawVelocity(10) : Vector3D.Zero;

@@ -3,8 +3,13 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>A heap in a pit: 8 to 12 unequal balls with friction fall into it as a loose cloud, and are lifted, kicked and pushed about there.</summary>
-/// <remarks>Its contact tolerance is drawn too, so islands step at 64 Hz in some and at 256 in others. What is done ends in time for the heap to come to rest.</remarks>
+/// <summary>
+/// A heap in a pit: 8 to 12 unequal balls with friction fall into it as a loose cloud, where players lift, kick and push them.
+/// </summary>
+/// <remarks>
+/// Its contact tolerance is drawn too, so islands step at 64 Hz in some scenes and at 256 Hz in others. Actions end in time for the heap to
+/// come to rest.
+/// </remarks>
 internal sealed class PitScene : CheckScene
 {
     private static readonly double[] Frictions = [0, 0.2, 0.5, 1];
@@ -43,7 +48,7 @@ internal sealed class PitScene : CheckScene
 
     internal override int FewestHands => 1;
 
-    /// <summary>One of the two forces that leave a heap in peace: what drags, and what brakes what turns across it.</summary>
+    /// <summary>Draws one of the two forces that let a heap rest: a drag, and one that slows a body turning across it.</summary>
     internal override BodySpec DrawSpec()
     {
         double radius = random.NextDouble(0.15, 0.29);
@@ -52,7 +57,7 @@ internal sealed class PitScene : CheckScene
             radius, radius * radius * radius * random.Pick(50, 50, 50, 500), restitution, forces: forces, tolerance: 1e-5, friction: friction, rollingResistance: rolling);
     }
 
-    /// <summary>Above the heap, or in it.</summary>
+    /// <summary>Draws a position above the heap, or in it.</summary>
     internal override Vector3D DrawPosition() => new(Across(), random.NextDouble(0.5, 2.5), Across());
 
     internal override Vector3D DrawSpin(in BodySpec spec) => DrawVelocity(20);
@@ -63,7 +68,7 @@ internal sealed class PitScene : CheckScene
     protected override void AddSurroundings(SceneBuilder builder)
     {
         builder.WithContactTolerance(tolerance).AddPlane("floor", Vector3D.Up, 0.0);
-        AddWalls(builder, half, 5, 1); // a ceiling that nobody reaches
+        AddWalls(builder, half, 5, 1); // a ceiling out of reach
         AddForces(builder, 2, Vector3D.Zero);
         if (hasPeg)
         {

@@ -8,13 +8,15 @@ using LagSim.Timelines;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>What a session met of what is rarely drawn: seen in the world that had all on time, at every event and right before those of players.</summary>
+/// <summary>
+/// The rare features of a session, found in the reference at every event and right before those of players.
+/// </summary>
 public readonly record struct SceneFeatures
 {
     private const int Large = 5;
     private const double Touching = 1e-6; // metres
 
-    /// <summary>Each by the name that scripts know it by, in their order.</summary>
+    /// <summary>The features, by the names that scripts use, in order.</summary>
     public static IReadOnlyList<(string Name, Func<SceneFeatures, bool> IsMet)> All { get; } =
     [
         ("large_island", met => met.LargeIsland), ("hand_in_island", met => met.HandInIsland), ("removal_from_island", met => met.RemovalFromIsland),
@@ -23,19 +25,19 @@ public readonly record struct SceneFeatures
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
     ];
 
-    /// <summary>Five bodies or more that touched moved by common steps.</summary>
+    /// <summary>Five or more touching bodies moved as an island.</summary>
     public bool LargeIsland { get; init; }
 
     /// <summary>A hand took a body of an island of two or more, moving or at rest.</summary>
     public bool HandInIsland { get; init; }
 
-    /// <summary>One of such an island was removed.</summary>
+    /// <summary>A body of such an island was removed.</summary>
     public bool RemovalFromIsland { get; init; }
 
-    /// <summary>The Magnus force bent the path of a body that flew.</summary>
+    /// <summary>The Magnus force bent the path of a body in flight.</summary>
     public bool Magnus { get; init; }
 
-    /// <summary>A body on which a force acts besides gravity was in persistent contact under both.</summary>
+    /// <summary>A body with a force other than gravity was in persistent contact under both.</summary>
     public bool ForceInContact { get; init; }
 
     /// <summary>Contact steps were taken.</summary>
@@ -44,27 +46,27 @@ public readonly record struct SceneFeatures
     /// <summary>The world was a periodic box.</summary>
     public bool PeriodicBox { get; init; }
 
-    /// <summary>A body flew by the closed form of an inverse-square pull.</summary>
+    /// <summary>A body flew by the closed form of an inverse-square attraction.</summary>
     public bool ClosedOrbit { get; init; }
 
-    /// <summary>A body flew under a pull whose power is below zero, and that has no closed form.</summary>
+    /// <summary>A body flew under an attraction with a negative power and without a closed form.</summary>
     public bool OtherPull { get; init; }
 
-    /// <summary>A drag acted on a body whose medium moves.</summary>
+    /// <summary>A drag acted on a body in a moving medium.</summary>
     public bool Wind { get; init; }
 
     /// <summary>A body flew by <see cref="MotionLaw.DormandPrince54"/> with fixed steps.</summary>
     public bool FixedSteps { get; init; }
 
-    /// <summary>A body on which a force acts besides gravity was in persistent contact with a static sphere.</summary>
+    /// <summary>A body with a force other than gravity was in persistent contact with a static sphere.</summary>
     public bool ForceOnSphere { get; init; }
 
-    /// <summary>A body on which a force acts besides gravity was in persistent contact with resistance to rolling.</summary>
+    /// <summary>A body with a force other than gravity was in persistent contact with rolling resistance.</summary>
     public bool ForceWithRolling { get; init; }
 
-    /// <param name="alone">The world, advanced to its end, with a history without end.</param>
-    /// <param name="accepted">What players did in it.</param>
-    /// <param name="stepsAhead">How many contact steps were taken.</param>
+    /// <param name="alone">The world, advanced to its end, with unlimited history.</param>
+    /// <param name="accepted">The accepted events of players.</param>
+    /// <param name="stepsAhead">The number of contact steps.</param>
     internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long stepsAhead)
     {
         SceneFeatures met = new() { StepsAhead = stepsAhead > 0, PeriodicBox = alone.Scene.Box.Exists };
@@ -99,7 +101,7 @@ public readonly record struct SceneFeatures
 
                 if (state.Motion == MotionLaw.Constrained && !met.LargeIsland)
                 {
-                    // All of an island open their pieces with one key; others, beside it, may do so as well.
+                    // All bodies of an island begin their segments with one key; others, beside it, may do so as well.
                     int count = steps[entry.Key] = steps.GetValueOrDefault(entry.Key) + 1;
                     if (count >= Large)
                     {
@@ -144,7 +146,10 @@ public readonly record struct SceneFeatures
         }
     }
 
-    /// <summary>How many bodies that move by common steps, or by that other law as well, touch each other, one by one, from a body on; none if it is not such a one.</summary>
+    /// <summary>
+    /// Returns the number of touching bodies that move in contact steps, or by the other given law, reachable from a body; none if that
+    /// body does not.
+    /// </summary>
     private static int CountIsland(List<(BodyId Body, BodySpec Spec, BodyState State)> there, int from, MotionLaw other)
     {
         if (!IsOf(there[from].State))

@@ -5,8 +5,11 @@ using System.Threading;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>Finds the least of a failing session that still fails, by delta debugging (Zeller and Hildebrandt 2002): what is done first, then the bodies.</summary>
-/// <remarks>Deterministic; the effort is bounded by how often it may play.</remarks>
+/// <summary>
+/// Finds the least of a failing session that still fails, by delta debugging (Zeller and Hildebrandt 2002): first the actions, then the
+/// bodies.
+/// </summary>
+/// <remarks>Deterministic. The effort is bounded by the number of replays.</remarks>
 internal sealed class Shrinking
 {
     private readonly ulong seed;
@@ -35,7 +38,7 @@ internal sealed class Shrinking
         }
         catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
         {
-            // The least that was found by then.
+            // The least that was found so far.
         }
 
         return shrinking.Least;
@@ -57,7 +60,7 @@ internal sealed class Shrinking
 
     private bool CanPlay => plays > 0 && !cancellation.IsCancellationRequested;
 
-    /// <summary>Leaves out a half, a quarter and so on, down to one by one, for as long as what is left fails.</summary>
+    /// <summary>Leaves out a half, a quarter and so on, down to one at a time, as long as the rest fails.</summary>
     private void Reduce(IReadOnlyList<int> all, Predicate<IReadOnlyList<int>> fails)
     {
         IReadOnlyList<int> kept = all;

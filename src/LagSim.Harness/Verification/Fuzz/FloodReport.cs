@@ -1,17 +1,18 @@
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>What a flood over real sockets did to a host and a client.</summary>
+/// <summary>The results of a flood over real sockets against a host and a client.</summary>
 /// <param name="Seconds">How long it lasted.</param>
-/// <param name="GarbageSent">Datagrams of a stranger: noise, and what looks like the protocol.</param>
-/// <param name="ReplaysSent">True datagrams of the session, sent again from where they came.</param>
-/// <param name="Received">How many datagrams both peers took in; what a full socket drops is not among them.</param>
-/// <param name="Malformed">How many of those were refused by a decoder.</param>
-/// <param name="Ignored">How many were well formed and no business of who got them.</param>
-/// <param name="EventsDone">How many events the two peers did meanwhile.</param>
-/// <param name="EventsAgreed">How many of them both have.</param>
-/// <param name="RetainedBytes">By how much the memory in use grew from its first fifth to its end, both sessions going on.</param>
-/// <param name="MaxLatenessMilliseconds">The furthest that shared time ran beyond what a world had been simulated to.</param>
-/// <param name="Failure">What must not be, as a sentence; null for nothing.</param>
+/// <param name="GarbageSent">The datagrams from a stranger: noise, and imitations of the protocol.</param>
+/// <param name="ReplaysSent">The session's own datagrams, replayed from their true addresses.</param>
+/// <param name="Received">The datagrams that both peers received, without those dropped by a full socket.</param>
+/// <param name="Malformed">The datagrams refused by a decoder.</param>
+/// <param name="Ignored">The datagrams that were well-formed but not meant for their receiver.</param>
+/// <param name="EventsDone">The number of events that the two peers made meanwhile.</param>
+/// <param name="EventsAgreed">The number of events that both have.</param>
+/// <param name="RetainedBytes">How much the memory in use grew from the first fifth of the flood to its end, with both sessions
+/// running.</param>
+/// <param name="MaxLatenessMilliseconds">The furthest that shared time ran ahead of a simulated world, in milliseconds.</param>
+/// <param name="Failure">The failure, as a sentence; null for none.</param>
 public sealed record FloodReport(
     double Seconds,
     long GarbageSent,

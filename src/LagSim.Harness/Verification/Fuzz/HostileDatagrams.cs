@@ -8,7 +8,10 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>Datagrams that nobody should send: noise, noise behind a true header, true ones changed, cut, joined or played again, and true forms with made-up values.</summary>
+/// <summary>
+/// A source of hostile datagrams: noise, noise behind a valid header, valid datagrams changed, cut, joined or replayed, and valid forms
+/// with random values.
+/// </summary>
 /// <remarks>Deterministic by its seed. Not thread-safe.</remarks>
 public sealed class HostileDatagrams
 {
@@ -18,17 +21,17 @@ public sealed class HostileDatagrams
     private readonly List<(byte[] Datagram, int From, int To)> seen = [];
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
 
-    /// <summary>A source of such datagrams.</summary>
+    /// <summary>Creates a source.</summary>
     internal HostileDatagrams(SeededRandom random)
     {
         ArgumentNullException.ThrowIfNull(random);
         this.random = random;
     }
 
-    /// <summary>Of a true datagram, played again as it was, who sent it to whom; null for any other.</summary>
+    /// <summary>For an unchanged replay, the sender and the receiver of the original; null for any other.</summary>
     public (int From, int To)? Replayed { get; private set; }
 
-    /// <summary>Shows it a true datagram, of which to make others.</summary>
+    /// <summary>Adds a valid datagram to derive others from.</summary>
     public void Learn(ReadOnlySpan<byte> datagram, int from, int to)
     {
         if (seen.Count < Kept)
@@ -41,7 +44,7 @@ public sealed class HostileDatagrams
         }
     }
 
-    /// <summary>The next one.</summary>
+    /// <summary>Returns the next datagram.</summary>
     public byte[] Next()
     {
         int kind = seen.Count == 0 ? Below(3) : Below(10);
@@ -122,7 +125,7 @@ public sealed class HostileDatagrams
         return bytes;
     }
 
-    /// <summary>A true form with values drawn, the session's number sometimes that of a datagram seen.</summary>
+    /// <summary>Returns a valid form with random values, sometimes with the session number of a real datagram.</summary>
     private byte[] MadeUp()
     {
         int length = Below(11) switch

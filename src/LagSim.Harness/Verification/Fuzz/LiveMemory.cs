@@ -2,10 +2,12 @@ using System;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>The memory that is held: what is left once all that nobody refers to has been collected.</summary>
+/// <summary>The live memory: what is left after a full garbage collection.</summary>
 internal static class LiveMemory
 {
-    /// <summary>Collects, and reads how many bytes are held. Others may go on meanwhile; what they have just let go counts too, some ten kilobytes.</summary>
+    /// <summary>
+    /// Collects, and returns the bytes in use. With other threads at work, some ten kilobytes of just released memory count too.
+    /// </summary>
     internal static long Read()
     {
         GC.Collect(GC.MaxGeneration, GCCollectionMode.Forced, blocking: true);

@@ -13,28 +13,32 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>A host and a client over real UDP sockets, flooded at full speed: a stranger sends garbage to both, and their own datagrams are played again.</summary>
+/// <summary>
+/// A flood at full speed against a host and a client over real UDP sockets: a stranger sends garbage to both, and their own datagrams are
+/// replayed.
+/// </summary>
 public static class RealFlood
 {
     /// <summary>
-    /// By how much the memory in use may grow from the flood's first fifth to its end. The two sessions keep six seconds of a world of one ball; what waits in their carriers
-    /// and what their threads have just let go differs from look to look by up to 4 MB. Of 200 bytes kept for each of the datagrams that
-    /// ten seconds bring in on a slow machine, 100,000, there would be 16 MB, and of 1 kB for each of 20,000 as much.
+    /// The allowed growth of the memory in use from the flood's first fifth to its end. The two sessions keep six seconds of a world of one
+    /// ball. The contents of carriers and memory just released by their threads vary by up to 4 MB between measurements. Keeping 200 bytes
+    /// for each of the 100,000 datagrams that ten seconds bring in on a slow machine would take 16 MB, and so would 1 kB for each of
+    /// 20,000.
     /// </summary>
     private const long MaxGrowth = 12_000_000;
 
     private static readonly TimeSpan Timeout = TimeSpan.FromSeconds(20);
 
     /// <summary>Floods until either limit is reached.</summary>
-    /// <param name="seconds">For how long at most, above zero.</param>
-    /// <param name="packets">How many datagrams at most, at least 1.</param>
-    /// <param name="seed">What the garbage is.</param>
-    /// <param name="progress">Called now and then with the seconds passed; null for nobody.</param>
+    /// <param name="seconds">The longest duration, in seconds, above zero.</param>
+    /// <param name="packets">The most datagrams, at least 1.</param>
+    /// <param name="seed">The seed of the garbage.</param>
+    /// <param name="progress">Called from time to time with the seconds passed; may be null.</param>
     /// <param name="cancellation">Ends it.</param>
     public static FloodReport Run(double seconds, long packets, ulong seed, Action<double>? progress, CancellationToken cancellation) =>
         Run(seconds, packets, seed, progress, static port => port, cancellation);
 
-    /// <summary>The same, with something between each session and its port.</summary>
+    /// <summary>The same, with a wrapper between each session and its port.</summary>
     internal static FloodReport Run(
         double seconds, long packets, ulong seed, Action<double>? progress, Func<IDatagramPort, IDatagramPort> between, CancellationToken cancellation)
     {
@@ -106,7 +110,7 @@ public static class RealFlood
             Math.Max(host.Session.World!.MaxLateness.ToMilliseconds(), client.Session.World!.MaxLateness.ToMilliseconds()), failure);
     }
 
-    /// <summary>Waits until both have everything, and compares their worlds; a sentence for what is wrong.</summary>
+    /// <summary>Waits until both have everything, and compares their worlds. Returns a sentence for a failure.</summary>
     private static string? Settle(PeerThread host, PeerThread client, long done)
     {
         long deadline = Stopwatch.GetTimestamp() + (long)(Timeout.TotalSeconds * Stopwatch.Frequency);

@@ -13,29 +13,30 @@ namespace LagSim.Harness.Verification.Fuzz;
 
 /// <summary>Sessions of a host and two clients in virtual time, under hostile datagrams from their first connect request on.</summary>
 /// <remarks>
-/// <para>In every other session all of them come from strangers' addresses, or are true ones played again from their own: that session must go on
-/// and all its worlds agree. In the others they bear the peers' own addresses; then nothing may throw, and that is all that can be asked.</para>
-/// <para>Deterministic: the same seed and number of packets give the same report, but for the memory.</para>
+/// <para>In every other session all hostile datagrams come from strangers' addresses, or are replays from the true ones. That session must
+/// continue and all its worlds agree. In the others they have the peers' own addresses. Then nothing may throw, and no more can be
+/// required.</para>
+/// <para>Deterministic: the same seed and number of datagrams give the same report, except the memory.</para>
 /// </remarks>
 public static class SessionFuzz
 {
-    /// <summary>Of packets that strangers send to one session.</summary>
+    /// <summary>The number of datagrams that strangers send to one session.</summary>
     private const int PacketsOfStrangers = 2_000;
 
-    /// <summary>Of packets that bear peers' own addresses: a session seldom outlives more.</summary>
+    /// <summary>The number of datagrams with peers' own addresses: a session seldom survives more.</summary>
     private const int PacketsOfPeers = 200;
     private const int Peers = 3;
 
     /// <summary>
-    /// Memory is looked at in every so manieth session of strangers that gets all its packets, while it goes on: after the first quarter of them, when
-    /// what an honest session keeps is there, and after the last. A forced collection takes some milliseconds.
+    /// The interval, in full-length sessions under strangers' datagrams, at which memory is measured: after the first quarter of the
+    /// datagrams, when an honest session has allocated what it keeps, and after the last. A forced collection takes some milliseconds.
     /// </summary>
     private const int LookEvery = 5;
 
     /// <summary>
-    /// By how much the memory of a living session may grow over its last 1,500 packets. A window of entries that come out of order may grow to its full
-    /// 4,096, a megabyte; what else an honest session keeps, and what collections leave lying about, was 41 kB at most in 4,000 sessions. Of a
-    /// kilobyte kept for each hostile datagram there would be 1.5 MB.
+    /// The allowed growth of a running session's memory over its last 1,500 datagrams. A window of entries that arrive out of order may
+    /// grow to its full 4,096, a megabyte. Everything else that an honest session and the collector keep was 41 kB at most in 4,000
+    /// sessions. A kilobyte kept for each hostile datagram would be 1.5 MB.
     /// </summary>
     private const long MaxGrowth = 1_200_000;
 
@@ -43,15 +44,15 @@ public static class SessionFuzz
     private const int Strangers = 5;
     private static readonly SimDuration Pace = SimDuration.FromMilliseconds(1);
 
-    /// <summary>Sends so many packets, spread over sessions.</summary>
-    /// <param name="packets">How many, at least 1.</param>
-    /// <param name="seed">What they are.</param>
-    /// <param name="progress">Called now and then with how many have been sent; null for nobody.</param>
+    /// <summary>Sends a number of datagrams, spread over sessions.</summary>
+    /// <param name="packets">The number of datagrams, at least 1.</param>
+    /// <param name="seed">The seed of the datagrams.</param>
+    /// <param name="progress">Called from time to time with the number sent; may be null.</param>
     /// <param name="cancellation">Ends it between two sessions.</param>
     public static FuzzReport Run(long packets, ulong seed, Action<long>? progress, CancellationToken cancellation) =>
         Run(packets, seed, progress, static port => port, cancellation);
 
-    /// <summary>The same, with something between each session and its port.</summary>
+    /// <summary>The same, with a wrapper between each session and its port.</summary>
     internal static FuzzReport Run(long packets, ulong seed, Action<long>? progress, Func<IDatagramPort, IDatagramPort> between, CancellationToken cancellation)
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(packets, 1);
@@ -67,14 +68,14 @@ public static class SessionFuzz
             progress?.Invoke(report.Packets);
             if (report.Sessions == 2)
             {
-                atFirst = LiveMemory.Read(); // what is made once is there now
+                atFirst = LiveMemory.Read(); // everything allocated once exists now
             }
         }
 
         return report with { RetainedBytes = report.Sessions > 2 ? LiveMemory.Read() - atFirst : 0 };
     }
 
-    /// <summary>One session.</summary>
+    /// <summary>Plays one session.</summary>
     private sealed class Round
     {
         private readonly ulong seed;

@@ -4,7 +4,7 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>A port that remembers what was sent through it and can send any of it again, from another thread.</summary>
+/// <summary>A port that remembers what was sent through it and can replay any of it, from another thread.</summary>
 internal sealed class TappedPort : IDatagramPort
 {
     private const int Kept = 256;
@@ -39,7 +39,7 @@ internal sealed class TappedPort : IDatagramPort
 
     public void Dispose() => inner.Dispose();
 
-    /// <summary>Sends one of the remembered datagrams again, to whom it went; false if there is none yet.</summary>
+    /// <summary>Replays one of the remembered datagrams to its original address; returns false if there is none yet.</summary>
     internal bool SendAgain()
     {
         lock (gate)

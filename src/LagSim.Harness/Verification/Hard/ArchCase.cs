@@ -9,29 +9,31 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Arches of balls: what stands by friction or by rolling resistance alone, a hundredth above what statics asks for; and an inverted
-/// hanging chain, with its thrust.
+/// Arches of balls that stand only by friction or rolling resistance, a hundredth above what statics requires; and an inverted hanging
+/// chain, with its thrust.
 /// </summary>
 /// <remarks>
-/// <para>A link is the line of centres of two balls that touch; it slopes by an angle t. Through each contact goes a thrust H along the
-/// horizontal, the same through all, and V along the vertical, the weight between it and the top. So it presses with
-/// N = H cos t + V sin t, and rubs with T = V cos t - H sin t.</para>
-/// <para>A ball does not turn if what rubs on it and the moments of its two contacts cancel: the moment of the next link is that of the
+/// <para>A link is the line of centres of two touching balls; it slopes by an angle t. Each contact transmits a horizontal thrust H, the
+/// same through all, and a vertical V, the weight between it and the top. So its normal force is N = H cos t + V sin t, and its friction T
+/// = V cos t - H sin t.</para>
+/// <para>A ball does not turn if its friction forces and the moments of its two contacts cancel: the moment of the next link is that of the
 /// one before less r times the T of both. Friction allows T up to mu N, and rolling resistance a moment up to c r N.</para>
 /// </remarks>
 internal sealed class ArchCase : IHardCase
 {
     private const double Tolerance = 1e-6, Radius = 0.5;
 
-    /// <summary>How near to the edge of falling all of it stands.</summary>
+    /// <summary>How far the arches are from the edge of falling, as a fraction.</summary>
     private const double Near = 0.01;
 
-    /// <summary>Rolling resistance of the chain whose thrust is looked at, and for how long that is.</summary>
+    /// <summary>The rolling resistance of the chain whose thrust is measured, and the duration in seconds.</summary>
     private const double Resistance = 0.01, Watched = 0.5;
 
     private const double Degree = Math.PI / 180;
 
-    /// <summary>What a ball on three that touch asks for: the tangent of half the angle whose sine is the root of a third.</summary>
+    /// <summary>
+    /// The friction required by a ball on three touching ones: the tangent of half the angle whose sine is the root of a third.
+    /// </summary>
     private static readonly double OnThree = Math.Sqrt(3) - Math.Sqrt(2);
 
     public string Name => "arch";
@@ -52,7 +54,7 @@ internal sealed class ArchCase : IHardCase
         yield return Hanging(context, 3, 1.05).Last() with { Note = "a twentieth steeper" };
     }
 
-    /// <summary>All that stands by friction or resistance, at so many times what statics asks for.</summary>
+    /// <summary>Arches that stand by friction or resistance, at a multiple of what statics requires.</summary>
     private IEnumerable<HardRow> Standing(HardContext context, double part)
     {
         yield return Stays("a ball on three that touch, friction of balls", OnThree, OnBalls(part * OnThree, 1), 6);
@@ -93,10 +95,11 @@ internal sealed class ArchCase : IHardCase
     private static double Drift(Simulation simulation, double seconds) => Worst(Enumerable.Range(0, simulation.BodyCount)
         .Select(n => (Read(simulation, n, seconds).Position - simulation.Scene.Bodies[n].Position).Length));
 
-    /// <summary>A ball on three that touch, on a floor.</summary>
+    /// <summary>A ball on three touching ones, on a floor.</summary>
     /// <remarks>
-    /// What comes from above passes through where a lower ball touches the floor, or that ball would turn: so it is half the angle between
-    /// line of centres and vertical off the normal. A third of a weight comes down that way, and four thirds press on the floor.
+    /// The force from above passes through the point where a lower ball touches the floor, or that ball would turn. So its angle to the
+    /// normal is half that between the line of centres and the vertical. A third of a weight comes down that way, and four thirds press on
+    /// the floor.
     /// </remarks>
     private static Scene OnBalls(double friction, double floor)
     {
@@ -112,10 +115,10 @@ internal sealed class ArchCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>Two balls, their link level, between two static spheres; their masses differ by a part of their sum.</summary>
+    /// <summary>Two balls with a level link between two static spheres; their masses differ by a fraction of their sum.</summary>
     /// <remarks>
-    /// As much rubs between them as on either sphere, T. The weights give T (1 + cos t) = half their difference times cos t, and H is half
-    /// their sum over tan t. The level link presses least, with H: so mu is that part times tan(t/2).
+    /// The friction T between them equals that on either sphere. The weights give T (1 + cos t) = half their difference times cos t, and H
+    /// is half their sum over tan t. The level link has the least normal force, H, so mu is that fraction times tan(t/2).
     /// </remarks>
     private static Scene Pair(double unlike, double slope, double friction)
     {
@@ -125,8 +128,10 @@ internal sealed class ArchCase : IHardCase
             .AddBody("light", new BodySpec(Radius, 1 - unlike, 0, friction: friction), V(Radius)).Build();
     }
 
-    /// <summary>The friction that a ball asks for on two, each on a static sphere, without resistance: the T of a lower ball's two links
-    /// cancel, which gives H.</summary>
+    /// <summary>
+    /// The friction required by a ball on two others, each on a static sphere, without resistance: the T of a lower ball's two links
+    /// cancel, which gives H.
+    /// </summary>
     private static double OnTwo(double upper, double lower)
     {
         double thrust = 0.5 * (Math.Cos(upper) + (3 * Math.Cos(lower))) / (Math.Sin(upper) + Math.Sin(lower));
@@ -136,10 +141,10 @@ internal sealed class ArchCase : IHardCase
             / ((thrust * Math.Cos(slope)) + (weight * Math.Sin(slope)));
     }
 
-    /// <summary>The rolling resistance that an arch asks for where there is enough friction.</summary>
+    /// <summary>The rolling resistance required by an arch with enough friction.</summary>
     /// <remarks>
-    /// Moments are m - r S at all links, S being the sum of both T of each ball down to there, for one m that may be any. They are within
-    /// c r N if any two links have |S - S'| at most c (N + N'). At one thrust the c of the worst two is least, on either side of it more.
+    /// Moments are m - r S at all links, with S the sum of both T of each ball down to there, for any one m. They are within c r N if any
+    /// two links have |S - S'| at most c (N + N'). At one thrust the c of the worst two is least; on either side of it, it is larger.
     /// </remarks>
     private static double MinResistance(double[] slopes)
     {
@@ -173,7 +178,7 @@ internal sealed class ArchCase : IHardCase
     private static Scene Arch(double[] slopes, double friction, double resistance) =>
         Arch(new SceneBuilder("arch"), slopes, new BodySpec(Radius, 1, 0, friction: friction, rollingResistance: resistance));
 
-    /// <summary>A ball at the top, and links that slope so from there down to a static sphere on either side.</summary>
+    /// <summary>A ball at the top, and links of given slopes from there down to a static sphere on either side.</summary>
     private static Scene Arch(SceneBuilder builder, double[] slopes, BodySpec ball)
     {
         Vector3D at = V(0);
@@ -190,12 +195,12 @@ internal sealed class ArchCase : IHardCase
         return Between(builder, at, ball.Friction).Build();
     }
 
-    /// <summary>Two static spheres that carry an arch, and smooth walls that keep it in its plane, on which nothing presses.</summary>
+    /// <summary>Two static spheres that carry an arch, and smooth walls, without load, that keep it in its plane.</summary>
     private static SceneBuilder Between(SceneBuilder builder, Vector3D right, double friction) => builder
         .AddPlane("front", V(0, 0, 1), -Radius, 0, 0).AddPlane("back", V(0, 0, -1), -Radius, 0, 0)
         .AddStaticSphere("left", V(-right.X, right.Y), Radius, 0, friction).AddStaticSphere("right", right, Radius, 0, friction);
 
-    /// <summary>An inverted hanging chain in steps without end; its thrust is the weight of as many balls as are on either side.</summary>
+    /// <summary>An inverted hanging chain that never rests. Its thrust is the weight of as many balls as are on either side.</summary>
     private IEnumerable<HardRow> Hanging(HardContext context, int side, double steeper)
     {
         BodySpec ball = new(
@@ -234,10 +239,10 @@ internal sealed class ArchCase : IHardCase
             "the weight above a link over its tangent");
     }
 
-    /// <summary>By what part rolling resistance allows an inverted hanging chain another thrust.</summary>
+    /// <summary>The fraction by which rolling resistance allows an inverted hanging chain another thrust.</summary>
     /// <remarks>
-    /// At H nothing rubs. At H' the moments of two links differ by r (H - H') times the sum of both sines of each ball between, of which
-    /// they allow c r (N + N'). There N is H / cos t + (H' - H) cos t.
+    /// At H there is no friction. At H' the moments of two links differ by r (H - H') times the sum of both sines of each ball between,
+    /// which c r (N + N') bounds. There N is H / cos t + (H' - H) cos t.
     /// </remarks>
     private static double Allowed(int side)
     {

@@ -8,13 +8,13 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Zero, negative, subnormal, huge and no numbers wherever a number enters a scene: a sentence that names the value and what is allowed, at once, or a right
-/// answer.
+/// Invalid numbers wherever a number enters a scene: zero, negative, subnormal, huge, and NaN. The result must be an immediate error that
+/// names the value and what is allowed, or a right answer.
 /// </summary>
 internal sealed class BadInputCase : IHardCase
 {
     private const double Apart = 10; // metres that the ball falls, at least
-    private const double Swing = 100; // rad/s of a spring that tells one step from another
+    private const double Swing = 100; // rad/s of a spring, so stiff that steps differ visibly
 
     private static readonly double[] Values =
     [
@@ -24,8 +24,8 @@ internal sealed class BadInputCase : IHardCase
     ];
 
     /// <summary>
-    /// Where a number enters: a scene with it, and where a ball of it, let go at rest, must be a second later by the textbook; null where it must be finite,
-    /// or end by a sentence, and no more is known.
+    /// An input: a scene with it, and the textbook position of a ball released at rest, a second later; null where it only has to be finite
+    /// or end with an error.
     /// </summary>
     private static readonly (string What, Func<double, SceneBuilder> Scene, Func<double, double?> Place)[] Inputs =
     [
@@ -91,8 +91,9 @@ internal sealed class BadInputCase : IHardCase
         .AddBody("ball", new BodySpec(0.5, 1, 0.5, MotionLaw.RungeKutta4, step, ForceSet.Of(0)), default);
 
     /// <summary>
-    /// Where the classical Runge-Kutta method with steps h takes what starts at rest at the anchor of a spring of w² N/m: (Re R(i w h)^(1/h) - 1) g / w², with
-    /// R(z) = 1 + z + z²/2 + z³/6 + z⁴/24. Null where w h is so large that the method follows nothing; what is too short to be a step would be as good as none.
+    /// Returns the position by the classical Runge-Kutta method with steps h of a body that starts at rest at the anchor of a spring of w²
+    /// N/m: (Re R(i w h)^(1/h) - 1) g / w², with R(z) = 1 + z + z²/2 + z³/6 + z⁴/24. Null where w h is so large that the method is
+    /// unstable, or h too short to be a step.
     /// </summary>
     private static double? StepsOf(double h)
     {
@@ -102,11 +103,15 @@ internal sealed class BadInputCase : IHardCase
             : h > 5e-3 ? null : (Math.Cos(Swing) - 1) * Gravity / (Swing * Swing);
     }
 
-    /// <summary>How far what starts at rest has fallen after a second, against c of linear drag on 1 kg: g (1 + (exp(-c) - 1) / c) / c.</summary>
+    /// <summary>
+    /// Returns the distance fallen from rest after a second, against linear drag c on 1 kg: g (1 + (exp(-c) - 1) / c) / c.
+    /// </summary>
     private static double? Dragged(double c) =>
         -Gravity * (c > 1e-3 ? (1 + ((Math.Exp(-c) - 1) / c)) / c : 0.5 - (c / 6) + (c * c / 24) - (c * c * c / 120));
 
-    /// <summary>Where what starts at rest at the anchor of a spring is after a second: -g (1 - cos w) / w^2.</summary>
+    /// <summary>
+    /// Returns the position after a second of a body that starts at rest at the anchor of a spring: -g (1 - cos w) / w^2.
+    /// </summary>
     private static double? Sprung(double k)
     {
         double half = Math.Sqrt(k) / 2, sinc = half > 1e-9 ? Math.Sin(half) / half : 1;
@@ -133,7 +138,7 @@ internal sealed class BadInputCase : IHardCase
         };
     }
 
-    /// <summary>What is wrong with what came of a value; null if nothing is.</summary>
+    /// <summary>Returns what is wrong with the result for a value; null if nothing is.</summary>
     private static string? Fault(HardContext context, double value, Func<double, SceneBuilder> scene, Func<double, double?> place, ref int refused)
     {
         Scene built;
@@ -164,7 +169,7 @@ internal sealed class BadInputCase : IHardCase
         }
         catch (SimulationException end)
         {
-            return place(value) is null ? null : "ended later: " + end.Message; // what no textbook knows may end in a singularity, by a sentence
+            return place(value) is null ? null : "ended later: " + end.Message; // without a textbook answer it may end in a singularity, with an error
         }
     }
 }

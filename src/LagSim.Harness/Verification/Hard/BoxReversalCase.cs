@@ -7,15 +7,15 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A ball in a box: where unfolding says it is after many hits, and back at the start when its velocity is reversed.</summary>
+/// <summary>A ball in a box. After many hits it is where unfolding puts it, and back at the start when its velocity is reversed.</summary>
 /// <remarks>
-/// Flat walls neither magnify nor damp: what a hit leaves in the velocity moves the place by as much times the time that follows, and no more. In a box along
-/// the axes a hit turns one component round exactly. In one that is turned each hit rounds the velocity; its walls are not quite at right angles then, which
-/// reversal takes back.
+/// Flat walls neither magnify nor damp: an error in velocity after a hit moves the position by that times the remaining time, and no more.
+/// In a box along the axes a hit reverses one component exactly. In a rotated box each hit rounds the velocity; its walls are not quite at
+/// right angles then, which reversal undoes.
 /// </remarks>
 internal sealed class BoxReversalCase : IHardCase
 {
-    private const double Side = 1; // of the room that the centre has
+    private const double Side = 1; // of the room for the centre
     private static readonly Vector3D Start = V(0.125, -0.25, 0.0625);
     private static readonly Vector3D Velocity = V(0.8125, 0.59375, 0.40625 + (1.0 / 1024)); // binary fractions, so that unfolding is exact
 
@@ -101,7 +101,7 @@ internal sealed class BoxReversalCase : IHardCase
             "the start");
     }
 
-    /// <summary>Where free flight from there ends, folded into the room.</summary>
+    /// <summary>Returns the end of free flight, folded into the room.</summary>
     private static double Fold(double from, double speed, double seconds)
     {
         const decimal side = (decimal)Side;

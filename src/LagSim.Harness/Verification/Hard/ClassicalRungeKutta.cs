@@ -4,10 +4,12 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Textbook integrators of x'' = f(t, x, v), written apart from the engine: what it is held against, and what it must not be.</summary>
+/// <summary>
+/// Textbook integrators of x'' = f(t, x, v), written independently of the engine: its references, and wrong methods.
+/// </summary>
 internal static class ClassicalRungeKutta
 {
-    /// <summary>An acceleration as a function of time, place and velocity.</summary>
+    /// <summary>An acceleration as a function of time, position and velocity.</summary>
     internal delegate Vector3D Acceleration(double t, Vector3D x, Vector3D v);
 
     /// <summary>One step of some method.</summary>
@@ -33,7 +35,9 @@ internal static class ClassicalRungeKutta
         return (x + (middle * h), v + (f(t + (h / 2), x + (v * (h / 2)), middle) * h));
     }
 
-    /// <summary>As the thesis's code has it: fourth order for the velocity, and the position moved with the velocity at the end.</summary>
+    /// <summary>
+    /// The step of the thesis's code: fourth order for the velocity, and the position moved with the velocity at the end.
+    /// </summary>
     internal static (Vector3D X, Vector3D V) ThesisStep(Acceleration f, double t, Vector3D x, Vector3D v, double h)
     {
         (_, Vector3D end) = Step(f, t, x, v, h);
@@ -47,7 +51,9 @@ internal static class ClassicalRungeKutta
         return (x, x.Y < floor && v.Y < 0 ? V(v.X, -e * v.Y, v.Z) : v);
     };
 
-    /// <summary>When a body that starts at rest bounces on y = 0 if each contact acts at the end of its step.</summary>
+    /// <summary>
+    /// Returns the times at which a body that starts at rest bounces on y = 0 if each contact acts at the end of its step.
+    /// </summary>
     internal static double[] SnappedTimes(Acceleration f, Vector3D x, double e, double h, int steps)
     {
         List<double> times = [];
@@ -66,7 +72,7 @@ internal static class ClassicalRungeKutta
         return [.. times];
     }
 
-    /// <summary>So many steps from a state at time zero.</summary>
+    /// <summary>A number of steps from a state at time zero.</summary>
     internal static (Vector3D X, Vector3D V) Run(Method method, Acceleration f, Vector3D x, Vector3D v, double h, long steps)
     {
         for (long n = 0; n < steps; n++)
@@ -77,7 +83,7 @@ internal static class ClassicalRungeKutta
         return (x, v);
     }
 
-    /// <summary>The same acceleration for the textbook's method.</summary>
+    /// <summary>The same acceleration in the form of the textbook's method.</summary>
     internal static Acceleration Of(IAcceleration force) => (t, x, v) => force.At(t, x, v);
 
     /// <summary>The acceleration of 1 kg by a force of the library.</summary>

@@ -7,13 +7,14 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Inelastic collapse: three balls in a line, or two and a wall, meet infinitely often below a known restitution, and finitely often above it.
+/// Inelastic collapse: three balls in a line, or two and a wall, meet infinitely often below a known restitution, and finitely often above
+/// it.
 /// </summary>
 internal sealed class CollapseCase : IHardCase
 {
     private const int Infinite = 100_000;
 
-    /// <summary>Slower than this in m/s the rules for persistent contact have a say, and a place of some metres is too coarse.</summary>
+    /// <summary>The speed in m/s below which the rules for persistent contact apply, and positions of some metres are too coarse.</summary>
     private const double Resolved = 1e-7;
 
     private static readonly double ThreeBalls = 7 - (4 * Math.Sqrt(3));
@@ -85,7 +86,10 @@ internal sealed class CollapseCase : IHardCase
             };
     }
 
-    /// <summary>How often they meet, from their speeds alone: contacts alternate, and each is a linear map of the two rates at which the gaps grow.</summary>
+    /// <summary>
+    /// Returns how often they meet, from their speeds alone: contacts alternate, and each is a linear map of the two rates at which the
+    /// gaps grow.
+    /// </summary>
     private static int Count(bool isWall, double e, out double apart, out double slowest)
     {
         // The gap between the first two (or the wall and the near ball) closes first.

@@ -13,23 +13,25 @@ namespace LagSim.Harness.Verification.Hard;
 /// slipping and of rolling.
 /// </summary>
 /// <remarks>
-/// <para>In a square shaft of less than two balls' width they sit in opposite corners, each on the one below: without friction statics
-/// says what each contact carries, from the top down.</para>
-/// <para>On a slope of angle a only the lowest of n balls has friction. It slips where mu is below n tan a, with
-/// g sin a - mu g cos a / n; and it rolls where a resistance c is, with (n g sin a - c g cos a) / (n + 2/5).</para>
+/// <para>In a square shaft of less than two balls' width they sit in opposite corners, each on the one below. Without friction, statics
+/// gives the load of each contact, from the top down.</para>
+/// <para>On a slope of angle a only the lowest of n balls has friction. It slips where mu is below n tan a, with g sin a - mu g cos a / n;
+/// and with a resistance c it rolls, with (n g sin a - c g cos a) / (n + 2/5).</para>
 /// </remarks>
 internal sealed class ColumnCase : IHardCase
 {
     private const double Standing = 1e-6, Sliding = 1e-7; // contact tolerances, in metres
     private const double Radius = 0.5;
 
-    /// <summary>For how long pushes are added up, in seconds.</summary>
+    /// <summary>The time over which pushes are added up, in seconds.</summary>
     private const double Watched = 0.5;
 
-    /// <summary>How far a ball of the shaft is from its axis along either wall; a line of centres has the same slope to either.</summary>
+    /// <summary>
+    /// The distance of a ball in the shaft from its axis along either wall. A line of centres has the same slope to either wall.
+    /// </summary>
     private const double Aside = 0.25;
 
-    /// <summary>How much higher the next ball is, and how far it is aside for that.</summary>
+    /// <summary>The height of the next ball above a ball, and its offset to the side relative to that.</summary>
     private static readonly double Rise = Math.Sqrt((4 * Radius * Radius) - (8 * Aside * Aside)), Slope = 2 * Aside / Rise;
 
     public string Name => "column";
@@ -88,7 +90,7 @@ internal sealed class ColumnCase : IHardCase
 
     private const string Other = "what moves taken for what stays, or the other way round";
 
-    /// <summary>A column in a shaft in steps without end, held against what these or other masses should do there.</summary>
+    /// <summary>A column in a shaft that never rests, compared with the loads of these or other masses.</summary>
     private IEnumerable<HardRow> Stands(HardContext context, double[] masses, double[] expected, double friction)
     {
         const double Wall = -Aside - Radius;
@@ -128,10 +130,12 @@ internal sealed class ColumnCase : IHardCase
         double drift = Worst(ends.Select((end, n) => (end - simulation.Scene.Bodies[n].Position).Length));
         double depth = Worst(ends.Select((end, n) => n == 0 ? Radius - end.Y : (2 * Radius) - (end - ends[n - 1]).Length));
         IEnumerable<HardRow> rows = Carried(masses, friction, seconds, drift, depth, friction > 0 ? double.NaN : Amiss(expected, forces));
-        return friction > 0 ? rows.SkipLast(1) : rows; // with friction walls carry too, nobody knows how much
+        return friction > 0 ? rows.SkipLast(1) : rows; // with friction, walls carry an unknown part
     }
 
-    /// <summary>By how much a contact carries another force than statics says, over the weight of its upper ball and all above.</summary>
+    /// <summary>
+    /// Returns how far the force at a contact is from that of statics, relative to the weight of its upper ball and all above.
+    /// </summary>
     private static double Amiss(double[] masses, Dictionary<(BodyId Body, BodyId Partner, int Surface), Vector3D> forces)
     {
         List<double> errors = [];
@@ -174,7 +178,7 @@ internal sealed class ColumnCase : IHardCase
             "the weight above, and times the tangent of a line of centres");
     }
 
-    /// <summary>A wrong method: a heavy ball on one of a kilogram on a floor, by 200 plain sweeps a step that begin with nothing.</summary>
+    /// <summary>A wrong method: a heavy ball on one of a kilogram on a floor, by 200 plain sweeps a step without warm starting.</summary>
     /// <returns>How far the heavy ball has sunk in two seconds.</returns>
     private static double PlainSweeps(double mass)
     {
@@ -195,11 +199,13 @@ internal sealed class ColumnCase : IHardCase
         return depth;
     }
 
-    /// <summary>A row down a slope between smooth walls, held against what it should do at one friction or resistance of the lowest ball,
-    /// which has another in a control; both as parts beside what holds.</summary>
+    /// <summary>
+    /// A row down a slope between smooth walls, compared with theory at a friction or resistance of the lowest ball. A control has another
+    /// one. Both are relative to the one that would hold the row.
+    /// </summary>
     private IEnumerable<HardRow> Slides(HardContext context, int balls, bool rolls, double nearness, double actual)
     {
-        const double Edge = 0.6; // of friction, or of resistance, and what holds
+        const double Edge = 0.6; // of friction or resistance, relative to the one that holds
         double seconds = context.Size(1.0, 2.0), tangent = Edge / balls;
         double cosine = 1 / Math.Sqrt(1 + (tangent * tangent)), sine = tangent * cosine;
         double brake = Math.Min(1, 1 + nearness) * Edge * Gravity * cosine;

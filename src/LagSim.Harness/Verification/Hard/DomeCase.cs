@@ -9,18 +9,19 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A ball slides off a dome, which carries it until the dome would have to pull: persistent contact on what is round, and its end.</summary>
+/// <summary>
+/// A ball slides off a dome, which carries it until the dome would have to pull: persistent contact on a round surface, and its end.
+/// </summary>
 /// <remarks>
-/// In steps of h the ball moves on chords, which lead away from the dome by (v h)^2/(2 R) at most. It is let go once it is d/4 off it.
-/// Where the dome ceases to push the
-/// gap grows as g sin(a) w t^3/2, w being the angular velocity, so that is (d/(2 g sin(a) w))^(1/3) later, on a path that is free by then.
-/// All else is of the second
-/// order at ticks, where velocities are the means of both sides.
+/// In steps of h the ball moves on chords, which lead away from the dome by (v h)^2/(2 R) at most. It is released once it is d/4 off the
+/// dome. Where the dome ceases to push, the gap grows as g sin(a) w t^3/2, with w the angular velocity, so the release is (d/(2 g sin(a)
+/// w))^(1/3) later, on a path that is free by then. All other errors are of the second order at ticks, where velocities are the means of
+/// both sides.
 /// </remarks>
 internal sealed class DomeCase : IHardCase
 {
     private const double Reach = 2; // of the dome's radius and the ball's
-    private const double Flight = 0.2; // s, for which it is watched once it is let go
+    private const double Flight = 0.2; // s after the release
 
     public string Name => "dome";
 
@@ -89,7 +90,7 @@ internal sealed class DomeCase : IHardCase
             (Read(simulation, 0, let + Flight).Position - Exact(start, SimTime.FromSeconds(let + Flight).ToSeconds())).Length);
     }
 
-    /// <summary>A wrong method: of the first order, and nothing keeps it on the dome.</summary>
+    /// <summary>A wrong method: of the first order, without anything that keeps the ball on the dome.</summary>
     private static Seen Tangents(double step)
     {
         double angle = 0.1, v = 0, worst = 0, off = 0, t = 0, place = 0;
@@ -110,8 +111,10 @@ internal sealed class DomeCase : IHardCase
         return new Seen(Math.Atan2(p.X, p.Y) + 0.05 - Leaves(0.1), worst, 10 * worst, off, place, place);
     }
 
-    /// <summary>Where an exact ball is: by 20,000 classical Runge-Kutta steps on the dome, and on a parabola from where that would have to
-    /// pull.</summary>
+    /// <summary>
+    /// Returns the exact position of the ball: by 20,000 classical Runge-Kutta steps on the dome, and on a parabola from where the dome
+    /// would have to pull.
+    /// </summary>
     private static Vector3D Exact(double start, double seconds)
     {
         const int Steps = 20_000;
@@ -143,7 +146,7 @@ internal sealed class DomeCase : IHardCase
         new SceneBuilder("dome").WithContactTolerance(d).AddStaticSphere("dome", V(0), Reach - 0.5, 0)
         .AddBody("ball", Ball(e: 0), OnDome(angle)).Build();
 
-    // From the angle at which it begins it takes some ln(1/angle) times sqrt(R/g); by then it has fallen off.
+    // From its starting angle it takes some ln(1/angle) times sqrt(R/g); by then it has fallen off.
     private static double Length(double angle) => (Math.Log(10 / angle) + 1) * Math.Sqrt(Reach / Gravity);
 
     private static double Angle(Vector3D position) => Math.Atan2(position.X, position.Y);

@@ -6,7 +6,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A ball that falls along a line against some drag, and bounces, hop by hop: by every law that applies.</summary>
+/// <summary>A ball that falls along a line against drag and bounces, bounce by bounce, by every motion law that applies.</summary>
 internal abstract class DragCase : IHardCase
 {
     private const double E = 0.9;
@@ -17,20 +17,20 @@ internal abstract class DragCase : IHardCase
 
     public abstract string Title { get; }
 
-    /// <summary>From where it bounces, in metres.</summary>
+    /// <summary>The height from which it bounces, in metres.</summary>
     protected abstract double Height { get; }
 
-    /// <summary>For how long it bounces.</summary>
+    /// <summary>The duration of the bounces.</summary>
     protected abstract double BounceSeconds { get; }
 
-    /// <summary>By which part the drag of the controls is off, of a fall and of bounces.</summary>
+    /// <summary>The fraction by which the drag of the controls is off, for a fall and for bounces.</summary>
     protected abstract (double Fall, double Bounces) Wrong { get; }
 
     protected abstract string FallReference { get; }
 
     protected abstract string BounceReference { get; }
 
-    /// <summary>Whence the bound of fixed steps is: of a fall, and of bounces.</summary>
+    /// <summary>The source of the bound of fixed steps, for a fall and for bounces.</summary>
     protected abstract (string Fall, string Bounces) StepArguments { get; }
 
     public IEnumerable<HardRow> Rows(HardContext context)
@@ -58,25 +58,28 @@ internal abstract class DragCase : IHardCase
         yield return FallRow(steps, x.Y, 0) with { Note = "the thesis's update of the position" };
     }
 
-    /// <summary>Whether the library has the flight in closed form.</summary>
+    /// <summary>Whether the library has a closed form of the flight.</summary>
     protected abstract bool HasClosedForm { get; }
 
-    /// <summary>The drag on 1 kg, so many times as strong.</summary>
+    /// <summary>Returns the drag on 1 kg, scaled by a factor.</summary>
     protected abstract Force Drag(double factor);
 
-    /// <summary>How far it has fallen from rest.</summary>
+    /// <summary>Returns the distance fallen from rest.</summary>
     protected abstract double Depth(double seconds);
 
-    /// <summary>What the acceleration is at a velocity, upwards.</summary>
+    /// <summary>Returns the acceleration at a velocity, upwards.</summary>
     protected abstract double Acceleration(double v);
 
-    /// <summary>The next flight from a height, upwards at a speed or at rest, to height zero, and the highest place of it.</summary>
+    /// <summary>Returns the next flight from a height, upwards at a speed or at rest, to height zero, and its highest position.</summary>
     protected abstract Hop Next(double height, double up);
 
-    /// <summary>How far off fixed steps leave a fall.</summary>
+    /// <summary>Returns the error of fixed steps in a fall.</summary>
     protected abstract double StepError(double step, double seconds);
 
-    /// <summary>How far off fixed steps leave place and speed after a flight, the contact at its end being found on the quintic of its step.</summary>
+    /// <summary>
+    /// Returns the errors of fixed steps in position and speed after a flight, with the contact at its end found on the quintic of its
+    /// step.
+    /// </summary>
     protected abstract (double Place, double Speed) StepErrors(double step, Hop hop);
 
     /// <summary>The laws, steps and tolerances.</summary>
@@ -138,8 +141,8 @@ internal abstract class DragCase : IHardCase
     }
 
     /// <summary>A flight from one bounce to the next.</summary>
-    /// <param name="Seconds">How long it takes.</param>
-    /// <param name="Up">The speed upwards at its start.</param>
-    /// <param name="Speed">The speed downwards at its end.</param>
+    /// <param name="Seconds">The duration, in seconds.</param>
+    /// <param name="Up">The upward speed at the start, in m/s.</param>
+    /// <param name="Speed">The downward speed at the end, in m/s.</param>
     protected readonly record struct Hop(double Seconds, double Up, double Speed);
 }

@@ -7,7 +7,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A dropped ball with restitution, against the closed form of all its bounces and of where they end (Zeno).</summary>
+/// <summary>A dropped ball with restitution, against the closed form of all its bounces and of their end (Zeno).</summary>
 internal sealed class DropCase : IHardCase
 {
     private const double Height = 1;
@@ -57,7 +57,7 @@ internal sealed class DropCase : IHardCase
     {
         double speed = Gravity * FirstImpact; // before the first impact
         double expected = FirstImpact, worst = 0, roundings = 0;
-        double steps = law == MotionLaw.Ballistic ? 0 : 1 / Step; // a second, each of which rounds the place
+        double steps = law == MotionLaw.Ballistic ? 0 : 1 / Step; // per second; each of them rounds the position
         for (int n = 1; n <= seen.Impacts.Length; n++)
         {
             worst = Math.Max(worst, Math.Abs(seen.Impacts[n - 1] - expected));
@@ -65,8 +65,8 @@ internal sealed class DropCase : IHardCase
             double hop = 2 * speed / Gravity;
             expected += hop;
 
-            // A place that is off by d is crossed d/v later, and changes the speed by g d/v; a speed that is off by a part of itself makes all hops to come,
-            // 2v/(g (1 - e)), longer by that part.
+            // An error of d in position moves the impact by d/v in time, and changes the speed by g d/v. A relative error of the speed
+            // makes all following bounces, 2v/(g (1 - e)), longer by that fraction.
             double place = (4 + (steps * hop)) * Rounding.Unit * Radius, toCome = 2 * speed / (Gravity * (1 - e));
             roundings += (place / speed) + (((Gravity * place / (speed * speed)) + (Rounding.PerContact * Rounding.Unit)) * toCome);
         }

@@ -6,7 +6,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A ball that bounces without loss: what rounding to ticks may and may not do to its time and energy.</summary>
+/// <summary>A ball that bounces without loss. Bounds the effect of rounding to ticks on its time and energy.</summary>
 internal sealed class ElasticBounceCase : IHardCase
 {
     private static readonly double FirstImpact = Math.Sqrt(2 / Gravity);
@@ -64,7 +64,9 @@ internal sealed class ElasticBounceCase : IHardCase
         (2 * Rounding.Walk(Rounding.PerContact * (double)contacts)) + (8 * Rounding.Unit),
         "twice the speed's walk by 8 roundings a contact, four times its rms, and 8 roundings to read it: 8 u sqrt(8n/3)", "g h, as at the start");
 
-    /// <summary>The same bounces as an engine of ticks has them that reflects at the tick nearest to the root and puts the ball on the floor there.</summary>
+    /// <summary>
+    /// The same bounces by a tick-based engine that reflects at the tick nearest to the root and puts the ball on the floor there.
+    /// </summary>
     private static double ReflectAtTick(int contacts, int bits)
     {
         double tick = Math.ScaleB(1, -bits), v = 0, gap = 1;
@@ -82,7 +84,8 @@ internal sealed class ElasticBounceCase : IHardCase
     }
 
     /// <summary>
-    /// Steps of a millisecond, exact in between, reflected at the end of the step that crosses the floor; the energy half way up after the last contact.
+    /// Steps of a millisecond, exact in between, reflected at the end of the step that crosses the floor. Returns the energy half way up
+    /// after the last contact.
     /// </summary>
     private static double StepWise(int contacts)
     {

@@ -8,20 +8,25 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A gas of hard spheres in a periodic box that has forgotten its lattice: what kinetic theory says of it, and what is counted in it.</summary>
+/// <summary>
+/// A gas of hard spheres in a periodic box that has forgotten its lattice, with the predictions of kinetic theory and the measurements.
+/// </summary>
 internal static class EquilibriumGas
 {
     internal const double Radius = GasScene.Radius;
     internal const double Diameter = 2 * Radius;
 
-    /// <summary>Which part of a gas must have met how often before its lattice is forgotten: a few impacts each.</summary>
+    /// <summary>
+    /// The mean number of impacts of a body until the lattice is forgotten.
+    /// </summary>
     private const int ImpactsToForget = 10;
 
     /// <summary>The contact value of the pair correlation (Carnahan and Starling 1969).</summary>
     internal static double ContactValue(double fraction) => (1 - (fraction / 2)) / Math.Pow(1 - fraction, 3);
 
     /// <summary>
-    /// The compressibility factor by the virial series in the fraction, coefficients B2 to B10 (Clisby and McCoy, J. Stat. Phys. 122, 15, 2006).
+    /// The compressibility factor by the virial series in the volume fraction, coefficients B2 to B10 (Clisby and McCoy, J. Stat. Phys.
+    /// 122, 15, 2006).
     /// </summary>
     internal static double VirialPressure(double fraction, out double rest)
     {
@@ -34,17 +39,19 @@ internal static class EquilibriumGas
             sum += term;
         }
 
-        // Successive coefficients grow by about a fifth here, so what follows is nearly geometric.
+        // Successive coefficients grow by about a fifth here, so the remainder is nearly geometric.
         double ratio = 1.2 * fraction;
         rest = term * ratio / (1 - ratio);
         return sum + rest;
     }
 
-    /// <summary>Impacts a second of each sphere, by Enskog: 4 sqrt(pi) n d^2 g sqrt(T/m), T in joules; of spheres of 1 kg.</summary>
+    /// <summary>Impacts per second of each sphere, by Enskog: 4 sqrt(pi) n d^2 g sqrt(T/m), T in joules; for spheres of 1 kg.</summary>
     internal static double Frequency(double fraction, double temperature) =>
         24 * fraction * ContactValue(fraction) / Diameter * Math.Sqrt(temperature / Math.PI);
 
-    /// <summary>Two thirds of the kinetic energy for each body, in the frame of their centre of mass, which takes one body's share.</summary>
+    /// <summary>
+    /// Two thirds of the kinetic energy for each body, in the frame of their centre of mass, which takes one body's share.
+    /// </summary>
     internal static double Temperature(Simulation simulation, SimTime time)
     {
         Vector3D mean = Vector3D.Zero;
@@ -60,7 +67,7 @@ internal static class EquilibriumGas
         return (squares - (mean.LengthSquared / bodies)) / (3 * (bodies - 1));
     }
 
-    /// <summary>The same bodies where a simulation has them, in the same box, with another restitution.</summary>
+    /// <summary>Returns the same bodies at their simulated positions, in the same box, with another restitution.</summary>
     internal static Scene WithRestitution(Simulation simulation, double e)
     {
         SceneBuilder builder = Floating("granular").WithPeriodicBox(simulation.Scene.Box.Size);
@@ -82,7 +89,7 @@ internal static class EquilibriumGas
         return simulation;
     }
 
-    /// <summary>Runs for so many impacts more, or some more than that.</summary>
+    /// <summary>Runs for at least a number of further impacts.</summary>
     internal static void AdvanceByImpacts(HardContext context, Simulation simulation, long impacts, double from, double to)
     {
         long before = simulation.ImpactsProcessed, done;
@@ -94,7 +101,7 @@ internal static class EquilibriumGas
         }
     }
 
-    /// <summary>How many contacts there were, and how fast they closed.</summary>
+    /// <summary>Returns the number of contacts, and their closing speeds.</summary>
     internal sealed class ImpactSums : IImpactObserver
     {
         internal long Contacts { get; private set; }

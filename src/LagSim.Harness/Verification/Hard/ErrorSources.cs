@@ -4,22 +4,22 @@ using System.Collections.Generic;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// How errors of a body that flies along a line and bounces off a floor are passed on, to first order, each source by itself; their sizes are added only at the
-/// end.
+/// The propagation of errors of a body that flies along a line and bounces off a floor, to first order. Each source is propagated by
+/// itself, and sizes are added only at the end.
 /// </summary>
 /// <remarks>
-/// Of v' = f(v) a flight multiplies an error of the speed by f(v1)/f(v0) and moves the place by (v1 - v0)/f(v0) of it. A contact passes it on by its saltation
-/// matrix (Leine and Nijmeijer 2004): who is dx too high is late by dt = -dx/v, and speed and place right after, at the same time, are off by -e dv - (e a +
-/// a') dt and -e dx.
+/// For v' = f(v), a flight multiplies an error of the speed by f(v1)/f(v0) and moves the position by (v1 - v0)/f(v0) of it. A contact
+/// propagates it by its saltation matrix (Leine and Nijmeijer 2004): a body that is dx too high is late by dt = -dx/v, and its speed and
+/// position right after, at the same time, are off by -e dv - (e a + a') dt and -e dx.
 /// </remarks>
 internal sealed class ErrorSources
 {
     private readonly List<(double Place, double Speed)> sources = [];
 
-    /// <summary>One more source, of either sign.</summary>
+    /// <summary>Adds a source, of either sign.</summary>
     internal void Add(double place, double speed) => sources.Add((place, speed));
 
-    /// <summary>A flight from one speed and acceleration to others.</summary>
+    /// <summary>Propagates through a flight from one speed and acceleration to others.</summary>
     internal void Fly(double from, double accelerationFrom, double to, double accelerationTo)
     {
         for (int n = 0; n < sources.Count; n++)
@@ -29,7 +29,9 @@ internal sealed class ErrorSources
         }
     }
 
-    /// <summary>A contact with the floor, with the velocity and acceleration before it and the acceleration after it.</summary>
+    /// <summary>
+    /// Propagates through a contact with the floor, with the velocity and acceleration before it and the acceleration after it.
+    /// </summary>
     internal void Bounce(double e, double velocity, double acceleration, double accelerationAfter)
     {
         for (int n = 0; n < sources.Count; n++)
@@ -40,7 +42,7 @@ internal sealed class ErrorSources
         }
     }
 
-    /// <summary>By how much a contact at that speed is off in time, at most.</summary>
+    /// <summary>Returns the largest error in time of a contact at a speed.</summary>
     internal double Delay(double speed)
     {
         double sum = 0;

@@ -8,7 +8,9 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>The same events in the same order whichever index names the pairs to ask, and however many threads run a world of their own at a time.</summary>
+/// <summary>
+/// The events must be the same, in the same order, with any broad phase and any number of threads that each run a world.
+/// </summary>
 internal sealed class EventOrderCase : IHardCase
 {
     private static readonly int[] Threads = [2, 3, 7];
@@ -61,7 +63,7 @@ internal sealed class EventOrderCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>Each of so many threads runs the scene at the same time, every other with an index.</summary>
+    /// <summary>Runs the scene on a number of threads at the same time, every other one with neighbour lists.</summary>
     private static World[] Together(HardContext context, Scene scene, double seconds, int threads, Action<double> report)
     {
         World[] worlds = new World[threads];
@@ -80,7 +82,7 @@ internal sealed class EventOrderCase : IHardCase
             }
             catch (Exception failure)
             {
-                failures[n] = failure; // told by the thread that asked
+                failures[n] = failure; // reported by the calling thread
             }
         }
     }

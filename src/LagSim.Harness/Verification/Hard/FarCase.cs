@@ -8,7 +8,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Worlds far from the origin: the same events in the same order, and what the coarser places cost.</summary>
+/// <summary>Worlds far from the origin: the same events in the same order, and the cost of the coarser positions.</summary>
 internal sealed class FarCase : IHardCase
 {
     private const int Compared = 30;

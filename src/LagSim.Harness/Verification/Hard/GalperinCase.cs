@@ -55,7 +55,7 @@ internal sealed class GalperinCase : IHardCase
         long some;
         do
         {
-            some = 20_000; // most impacts happen within a moment, so progress is told by their number
+            some = 20_000; // most impacts happen within a moment, so progress is by their number
             context.Report(Math.Min(1, simulation.ImpactsProcessed / (double)expected));
         }
         while (!simulation.TryAdvanceTo(end, ref some));

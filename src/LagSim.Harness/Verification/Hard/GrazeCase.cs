@@ -7,7 +7,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Contacts that just happen or just do not: spheres that graze, a ceiling at the apex.</summary>
+/// <summary>Contacts that barely happen or barely miss: grazing spheres, and a ceiling at the apex.</summary>
 internal sealed class GrazeCase : IHardCase
 {
     public string Name => "graze";
@@ -25,7 +25,7 @@ internal sealed class GrazeCase : IHardCase
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
-        // Who looks at distances once a millisecond, at whichever instants those are, misses what touches for less.
+        // Sampling distances once a millisecond, at any phase, misses a shorter touch.
         yield return Row("spheres", MotionLaw.Ballistic, (off, isHit) =>
             Enumerable.Range(0, 3000).Any(n => new Vector3D(-3 + (2 * ((n + 0.5) / 1000)), 1 + off, 0).Length < 1) == isHit) with
         { Note = "looked at once a millisecond" };
@@ -63,7 +63,7 @@ internal sealed class GrazeCase : IHardCase
     /// <summary>Deeper and shallower by 1e-2 m down to where rounding decides, and exactly touching, which is no contact.</summary>
     private HardRow Row(string what, MotionLaw law, Func<double, bool, bool> isRight)
     {
-        // A place of some metres that goes through 16 roundings cannot tell finer than this; of steps each counts.
+        // A position of some metres after 16 roundings cannot resolve less than this; of steps each counts.
         double finest = law == MotionLaw.Ballistic ? 1e-14 : 1e-12;
         List<double> wrong = isRight(0, false) ? [] : [0];
         int asked = 1;

@@ -6,10 +6,14 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A sphere wedged between two planes with friction rolls or slips down along them: two contacts that rub at once, with a smaller arm than the radius.</summary>
+/// <summary>
+/// A sphere between two planes with friction rolls or slips down along them: two contacts with friction at once, with a smaller arm than
+/// the radius.
+/// </summary>
 /// <remarks>
-/// The planes rise at an angle t to either side, the groove falls at an angle b. Each contact lies cos(t) of the radius below the axis, and both together push 1 / cos(t) times what the groove carries. So it rolls with
-/// g sin b / (1 + 2/5 / cos² t), which needs friction of f cos(t) / (g cos b), f being what is lacking to g sin b; else it slips with g sin b - mu g cos b / cos t.
+/// The planes rise at an angle t to either side, and the groove falls at an angle b. Each contact is cos(t) of the radius below the axis,
+/// and the two normal forces add up to 1 / cos(t) times the load on the groove. So it rolls with g sin b / (1 + 2/5 / cos² t), which needs
+/// friction of f cos(t) / (g cos b), where f is g sin b less that; else it slips with g sin b - mu g cos b / cos t.
 /// </remarks>
 internal sealed class GrooveCase : IHardCase
 {
@@ -17,12 +21,14 @@ internal sealed class GrooveCase : IHardCase
     private const double Seconds = 2;
     private const double Tolerance = 1e-6;
 
-    /// <summary>Bounds allow a contact to close by this part of the tolerance in a step: ten times what the sweeps leave.</summary>
+    /// <summary>
+    /// The fraction of the tolerance by which bounds allow a contact to close in a step: ten times what the sweeps leave.
+    /// </summary>
     private const double SweepPart = 0.05;
 
     private const double Coarse = 1.0 / 256;
 
-    /// <summary>sin b, and cos b, of a fall of 3 in 4.</summary>
+    /// <summary>sin b and cos b of a fall of 3 in 4.</summary>
     private const double Sine = 0.6, Cosine = 0.8;
 
     public string Name => "groove";
@@ -55,8 +61,9 @@ internal sealed class GrooveCase : IHardCase
         yield return Order(context, Coarse) with { Note = ContactSteps.SameSteps };
     }
 
-    /// <summary>Where the sides meet at a right angle sweeps settle at once, and the friction of the first half step is all that is
-    /// off.</summary>
+    /// <summary>
+    /// Where the sides meet at a right angle, sweeps converge at once, and the only error is the friction of the first half step.
+    /// </summary>
     private HardRow Order(HardContext context, double fine)
     {
         double[] places = [.. new[] { Coarse, fine }

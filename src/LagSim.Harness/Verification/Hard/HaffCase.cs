@@ -9,9 +9,9 @@ namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>A granular gas cools by Haff's law as long as it stays homogeneous.</summary>
 /// <remarks>
-/// An impact takes (1 - e^2) T from two spheres in the mean, since the square of the closing speed is 4T/m at contact; so T = T0 (1 + t/tau)^-2 with 1/tau = (1
-/// - e^2) f0/6, f0 Enskog's rate of impacts of a sphere at T0. The distribution of speeds departs from Maxwell's a little, which quickens it by 1 + 3/16 a2
-/// (van Noije and Ernst 1998).
+/// An impact takes (1 - e^2) T from two spheres on average, since the square of the closing speed is 4T/m at contact. So T = T0 (1 +
+/// t/tau)^-2 with 1/tau = (1 - e^2) f0/6, where f0 is Enskog's rate of impacts of a sphere at T0. The distribution of speeds departs from
+/// Maxwell's a little, which speeds it up by 1 + 3/16 a2 (van Noije and Ernst 1998).
 /// </remarks>
 internal sealed class HaffCase : IHardCase
 {

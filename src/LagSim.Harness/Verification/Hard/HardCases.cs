@@ -8,7 +8,7 @@ namespace LagSim.Harness.Verification.Hard;
 /// <summary>The catalogue of hard cases. A new case is one file and one line here.</summary>
 public static class HardCases
 {
-    /// <summary>All of them, in the order of the catalogue.</summary>
+    /// <summary>All cases, in the order of the catalogue.</summary>
     public static IReadOnlyList<IHardCase> All { get; } =
     [
         new DropCase(),
@@ -47,7 +47,7 @@ public static class HardCases
         new BadInputCase(),
     ];
 
-    /// <summary>The case of that name.</summary>
+    /// <summary>Returns the case of a name.</summary>
     public static bool TryGet(string name, [NotNullWhen(true)] out IHardCase? found)
     {
         found = All.FirstOrDefault(c => c.Name == name);
@@ -55,12 +55,13 @@ public static class HardCases
     }
 
     /// <summary>Runs some cases, one after the other.</summary>
-    /// <param name="cases">Which.</param>
-    /// <param name="scale">How large the sizes are.</param>
-    /// <param name="seed">The luck of what is drawn.</param>
-    /// <param name="areControls">Whether to run the deliberately wrong methods in place of the engine.</param>
-    /// <param name="progress">Is told how many cases are done, with the part of the one at hand, and its name.</param>
-    /// <param name="cancellation">Ends it early, with the rows of the cases that were done by then; the one in progress is given up.</param>
+    /// <param name="cases">The cases.</param>
+    /// <param name="scale">The scale of the sizes.</param>
+    /// <param name="seed">The seed of random numbers.</param>
+    /// <param name="areControls">Whether to run the deliberately wrong methods instead of the engine.</param>
+    /// <param name="progress">Called with the number of finished cases, including the fraction of the current one, and its name.</param>
+    /// <param name="cancellation">Ends it early, with the rows of the cases that were done by then; the one in progress is given
+    /// up.</param>
     /// <returns>The rows in the order of the cases.</returns>
     public static IReadOnlyList<HardRow> Run(
         IReadOnlyList<IHardCase> cases, HardScale scale, ulong seed, bool areControls = false, Action<double, string>? progress = null,
@@ -80,7 +81,7 @@ public static class HardCases
             }
             catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
             {
-                break; // what was done is reported
+                break; // the finished cases are reported
             }
         }
 

@@ -5,15 +5,15 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>What a hard case is run with. One case at a time, on one thread.</summary>
+/// <summary>The context of a hard case. One case at a time, on one thread.</summary>
 public sealed class HardContext
 {
     private readonly Action<double> progress;
 
-    /// <summary>A context.</summary>
-    /// <param name="scale">How large the sizes are.</param>
-    /// <param name="seed">The luck of what is drawn.</param>
-    /// <param name="progress">Is told from time to time which part of the case is done, 0 to 1.</param>
+    /// <summary>Creates a context.</summary>
+    /// <param name="scale">The scale of the sizes.</param>
+    /// <param name="seed">The seed of random numbers.</param>
+    /// <param name="progress">Called from time to time with the fraction of the case that is done, 0 to 1.</param>
     /// <param name="cancellation">Ends it early, by an <see cref="OperationCanceledException"/>.</param>
     public HardContext(HardScale scale, ulong seed = 1, Action<double>? progress = null, CancellationToken cancellation = default)
     {
@@ -23,31 +23,31 @@ public sealed class HardContext
         this.progress = progress ?? (_ => { });
     }
 
-    /// <summary>How large the sizes are.</summary>
+    /// <summary>The scale of the sizes.</summary>
     public HardScale Scale { get; }
 
-    /// <summary>The luck of what is drawn.</summary>
+    /// <summary>The seed of random numbers.</summary>
     public ulong Seed { get; }
 
-    /// <summary>Asks for an end.</summary>
+    /// <summary>Cancels the case.</summary>
     public CancellationToken Cancellation { get; }
 
-    /// <summary>The sizes of this scale: all at the full one, those that are quick at the small one.</summary>
+    /// <summary>Returns the sizes of this scale: all sizes at the full one, the quick ones at the small one.</summary>
     internal T[] Sizes<T>(T[] small, T[] full) => Scale == HardScale.Full ? full : small;
 
     internal T Size<T>(T small, T full) => Scale == HardScale.Full ? full : small;
 
-    /// <summary>Says which part of the case is done.</summary>
+    /// <summary>Reports the fraction of the case that is done.</summary>
     internal void Report(double part)
     {
         Cancellation.ThrowIfCancellationRequested();
         progress(part);
     }
 
-    /// <summary>A simulation that keeps a second of its past, or so much.</summary>
+    /// <summary>Creates a simulation that keeps a second of history, or a given length.</summary>
     internal Simulation Simulate(Scene scene, SimDuration? history = null) => new(scene, new SimulationOptions(default, history, cancellation: Cancellation));
 
-    /// <summary>A simulation that has been run and keeps everything.</summary>
+    /// <summary>Creates a simulation that keeps everything, and runs it.</summary>
     internal Simulation Run(Scene scene, double seconds)
     {
         Simulation simulation = Simulate(scene, SimDuration.MaxValue);

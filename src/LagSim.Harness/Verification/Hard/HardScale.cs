@@ -1,11 +1,11 @@
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>How large the sizes of the hard cases are.</summary>
+/// <summary>The scale of the hard cases.</summary>
 public enum HardScale
 {
-    /// <summary>Some seconds for all of them: what tests run.</summary>
+    /// <summary>Takes some seconds for all cases: what tests run.</summary>
     Small = 0,
 
-    /// <summary>The sizes that the catalogue names: some minutes for all of them.</summary>
+    /// <summary>The sizes in the catalogue: takes some minutes for all cases.</summary>
     Full = 1,
 }

@@ -8,7 +8,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Small worlds, and what the hard cases ask of them.</summary>
+/// <summary>Small worlds, and the queries of the hard cases.</summary>
 internal static class HardWorlds
 {
     internal const double Gravity = 9.81;
@@ -34,7 +34,7 @@ internal static class HardWorlds
 
     internal static double[] ImpactTimes(Simulation simulation, BodyId body) => Impacts(simulation, body).Select(entry => entry.Key.Time.ToSeconds()).ToArray();
 
-    /// <summary>When a body bounced, and of how many pieces its path consisted since the bounce before.</summary>
+    /// <summary>Returns the times at which a body bounced, and the number of segments of its path since the bounce before.</summary>
     internal static List<(double Time, int Pieces)> Hops(Simulation simulation, BodyId body)
     {
         List<(double Time, int Pieces)> hops = [];
@@ -56,7 +56,7 @@ internal static class HardWorlds
     internal static Vector3D Momentum(Simulation simulation, double seconds) => Enumerable.Range(0, simulation.BodyCount).Aggregate(
         Vector3D.Zero, (sum, n) => sum + (Read(simulation, n, seconds).Velocity * simulation.SpecOf(BodyId.OfScene(n)).Mass));
 
-    /// <summary>The largest of some distances; NaN if any is, so that nothing is passed by a comparison that fails.</summary>
+    /// <summary>Returns the largest of some errors; NaN for none. Throws if one is NaN, since a comparison would ignore it.</summary>
     internal static double Worst(IEnumerable<double> errors)
     {
         double worst = double.NaN;

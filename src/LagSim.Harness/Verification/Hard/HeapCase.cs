@@ -10,12 +10,12 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Heaps: what falls into a box with friction, a ball that only friction keeps on two others, a leaning tower that only rolling resistance keeps from falling, and
-/// a pyramid of balls in steps without end.
+/// Heaps: balls that fall into a box with friction, a ball that only friction keeps on two others, a leaning tower that only rolling
+/// resistance keeps from falling, and a pyramid of balls that never rests.
 /// </summary>
 internal sealed class HeapCase : IHardCase
 {
-    /// <summary>Contact tolerances, in metres: of what falls into a box, of a few balls that stand, and of the pyramid.</summary>
+    /// <summary>The contact tolerances, in metres: of balls that fall into a box, of a few standing balls, and of the pyramid.</summary>
     private const double Falling = 1e-5, Standing = 1e-6, OfPyramid = 1e-7;
 
     /// <summary>The edge of the pyramid's base, in balls; 30 balls then, with some 150 contacts.</summary>
@@ -56,7 +56,7 @@ internal sealed class HeapCase : IHardCase
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
-        // A ball on a stiff spring in place of a contact, by Euler's steps.
+        // A ball on a stiff spring instead of a contact, by Euler's steps.
         double y = 1, v = 0, most = 0, depth = 0;
         const double step = 1.0 / 512;
         for (double t = 0; t < 3; t += step)
@@ -77,12 +77,12 @@ internal sealed class HeapCase : IHardCase
         }
     }
 
-    /// <summary>A floor with four walls, so far from its middle.</summary>
+    /// <summary>A floor with four walls at a distance from its middle.</summary>
     private static SceneBuilder Bin(SceneBuilder builder, double half, double friction) => builder.AddPlane("floor", Vector3D.Up, 0.0, 0, friction)
         .AddPlane("west", V(1), -half, 0, friction).AddPlane("east", V(-1), -half, 0, friction)
         .AddPlane("north", V(0, 0, 1), -half, 0, friction).AddPlane("south", V(0, 0, -1), -half, 0, friction);
 
-    /// <summary>Balls on a loose grid above a floor with four walls, all as rough as each other.</summary>
+    /// <summary>Balls on a loose grid above a floor with four walls, all with the same friction.</summary>
     private static Scene Box(int balls, double friction, ulong seed)
     {
         SeededRandom random = new(seed);
@@ -99,7 +99,10 @@ internal sealed class HeapCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>A square pyramid in a bin that is as wide as its base. A program's own force is its weight: of that nobody knows what it will do, so nothing ever rests.</summary>
+    /// <summary>
+    /// A square pyramid in a bin that is as wide as its base. Its weight is a user-defined force, of which the engine does not know the
+    /// potential, so it never rests.
+    /// </summary>
     private static Scene Pyramid(double friction, double width)
     {
         SceneBuilder builder = new SceneBuilder("pyramid").WithGravity(Vector3D.Zero).WithContactTolerance(OfPyramid)
@@ -118,8 +121,10 @@ internal sealed class HeapCase : IHardCase
         return builder.Build();
     }
 
-    /// <summary>The largest gain of energy at ticks, turning included, over all that went before, as part of the energy at the start; and
-    /// how deep anything was in anything.</summary>
+    /// <summary>
+    /// Returns the largest gain of energy at ticks, rotation included, over the least before, relative to the energy at the start; and the
+    /// deepest overlap.
+    /// </summary>
     private static double Largest(HardContext context, Simulation simulation, double seconds, out double depth)
     {
         double least = SceneEnergy.Of(simulation, SimTime.Zero), start = least, gain = 0;
@@ -162,8 +167,10 @@ internal sealed class HeapCase : IHardCase
         return depth;
     }
 
-    /// <summary>What is exact in free flight is off by the second order at ticks: places by d or two, speeds by the square of a kick g h,
-    /// which is 2 g d.</summary>
+    /// <summary>
+    /// In free flight, which is exact, the error is of the second order at ticks: positions by d or two, speeds by the square of a kick g
+    /// h, which is 2 g d.
+    /// </summary>
     private HardRow Gain(string size, double gain) => new(
         Name, size, gain, "energy_gain_relative", 3 * Falling / 0.4,
         "all of it lifted by 2 d, d being 1e-5 m, and half the square of a kick, g d, as part of the energy of what lies 0.4 m high as the"
@@ -174,7 +181,10 @@ internal sealed class HeapCase : IHardCase
         Name, size, depth, "depth_m", 2 * Falling, "two of d, 1e-5 m: a fall in a step, and the turning of a line of centres in one", "no"
             + " ball is in another or in a plane");
 
-    /// <summary>A ball on two that touch, on a floor: friction keeps them so from the tangent of 15 degrees on, half the angle between the line of centres and the vertical.</summary>
+    /// <summary>
+    /// A ball on two touching ones, on a floor. Friction holds them from the tangent of 15 degrees on, half the angle between the line of
+    /// centres and the vertical.
+    /// </summary>
     private HardRow Stays(HardContext context, double friction)
     {
         BodySpec ball = new(0.5, 1, 0, friction: friction);
@@ -189,10 +199,11 @@ internal sealed class HeapCase : IHardCase
     }
 
     /// <summary>
-    /// A tower of equal balls on a floor, the line of centres aslant. What is above the k-th contact from the top weighs k balls, with its centre k radii up that
-    /// line; so rolling resistance c, which takes a moment of c r times what presses, holds it to k tan = c, and the lowest contact of two gives way first.
+    /// A tower of equal balls on a floor, with an oblique line of centres. The part above the k-th contact from the top weighs k balls,
+    /// with its centre k radii up that line. So rolling resistance c, which takes a moment of c r times the normal force, holds it to k tan
+    /// = c, and the lowest contact of two gives way first.
     /// </summary>
-    /// <remarks>At the start each ball turns by what a heap leaves of that when it comes to rest.</remarks>
+    /// <remarks>At the start each ball spins as much as a heap leaves when it comes to rest.</remarks>
     private HardRow Leans(HardContext context, int balls, double part)
     {
         const double Resistance = 0.05, Seconds = 3;
@@ -231,7 +242,7 @@ internal sealed class HeapCase : IHardCase
         }
 
         double step = ContactSteps.Step(OfPyramid), most = Edge * ContactSteps.Closing * OfPyramid;
-        bool isStepped = simulation.EventsProcessed > 0.9 * seconds / step; // else nothing was shown
+        bool isStepped = simulation.EventsProcessed > 0.9 * seconds / step; // else nothing was tested
         string size = FormattableString.Invariant($"a pyramid of {pyramid.Bodies.Count}, mu {friction}, {seconds} s");
         drift = isStepped ? drift : double.NaN;
         yield return new HardRow(Name, size, drift, "drift_m", most,
@@ -244,7 +255,7 @@ internal sealed class HeapCase : IHardCase
             Name, size, gain, "energy_gain_relative_standing", weight * most / start,
             "all of it lifted by as much as it may drift", "the energy at the start");
 
-        // The weight is a program's own force, of whose potential nobody knows.
+        // The weight is a user-defined force, of which the engine does not know the potential.
         double Energy(double at) => SceneEnergy.Of(simulation, SimTime.FromSeconds(at))
             + Enumerable.Range(0, pyramid.Bodies.Count).Sum(n => Gravity * pyramid.Bodies[n].Spec.Mass * Read(simulation, n, at).Position.Y);
     }

@@ -7,13 +7,15 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Three balls that a spring presses together swing to and fro over a floor, as one island, for a long time: the energy of a method that keeps it is off by what it was in the first period.</summary>
+/// <summary>
+/// Three balls that springs press together oscillate over a floor, as one island, for a long time. The energy error of a symplectic method
+/// stays what it was in the first period.
+/// </summary>
 /// <remarks>
-/// A spring of its own holds each to the middle of the row across which they swing, so the outer ones push on the inner one for ever, and
-/// the floor carries all. Contact steps are leapfrog (Hairer,
-/// Lubich and Wanner, Geometric Numerical Integration, I.1.4): of an oscillator that keeps v^2 + (1 - (omega h)^2/4) omega^2 x^2 at ticks,
-/// v being the mean of both sides, so the energy is off by up to
-/// (omega h)^2/4 of itself, however long it swings, and its phase by (omega h)^2/24 of itself. Within a step its velocity is that of the
+/// Each is held by its own spring to the middle of the row across which they oscillate, so the outer ones push on the inner one for ever,
+/// and the floor carries all. Contact steps are leapfrog (Hairer, Lubich and Wanner, Geometric Numerical Integration, I.1.4): for an
+/// oscillator it conserves v^2 + (1 - (omega h)^2/4) omega^2 x^2 at ticks, v being the mean of both sides, so the energy is off by up to
+/// (omega h)^2/4 of itself, however long it runs, and its phase by (omega h)^2/24 of itself. Within a step its velocity is that of the
 /// middle, off by up to a h/2, and so the energy by omega h/2.
 /// </remarks>
 internal sealed class IslandEnergyCase : IHardCase
@@ -97,7 +99,7 @@ internal sealed class IslandEnergyCase : IHardCase
             yield return row with { Note = ContactSteps.SameSteps };
         }
 
-        // Euler's steps, which put the contact right only by how fast it opens: the energy grows with each, and what is off stays off.
+        // Euler's steps, which correct the contact only by its opening speed: the energy grows with each step, and errors stay.
         double z = 0, v = Swing, apart = 0, y = 0, fall = 0, place = 0;
         for (double t = 0; t < 10; t += Step)
         {
@@ -116,7 +118,7 @@ internal sealed class IslandEnergyCase : IHardCase
         }
     }
 
-    /// <summary>What swings, in J, of three balls of 1 kg.</summary>
+    /// <summary>Returns the energy of the oscillation, in J, of three balls of 1 kg.</summary>
     private static double Kinetic => 1.5 * Swing * Swing;
 
     private static Scene Scene(double tolerance) =>

@@ -7,12 +7,12 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A jammed hopper: a smooth ball, a little too large for the hole between four static spheres, is stuck in it under a heap. It sits as deep
-/// as geometry says, whatever lies on it.
+/// A jammed hopper: a smooth ball, slightly too large for the hole between four static spheres, is stuck in it under a heap. Its depth is
+/// that of the geometry, whatever the load.
 /// </summary>
 /// <remarks>
-/// The line from a rim's centre to the plug rises by a small angle t, so a load W presses each of the four contacts with W / (4 sin t), and
-/// what a contact is deep, the plug is deeper by 1 / sin t. The plug has no friction, else it could stick above its place.
+/// The line from a rim's centre to the plug rises by a small angle t, so a load W presses each of the four contacts with W / (4 sin t). The
+/// plug is deeper than a contact by 1 / sin t. The plug has no friction, else it could stick above its position.
 /// </remarks>
 internal sealed class JamCase : IHardCase
 {

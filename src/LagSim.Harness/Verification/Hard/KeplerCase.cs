@@ -10,18 +10,19 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// An orbit around a centre, against Kepler's equation: on fixed steps no further off than the classical method is at that step; in closed form and under error
-/// control no further than what each piece may be off by, passed on along the orbit.
+/// An orbit around a centre, against Kepler's equation. On fixed steps the error is at most that of the classical method at that step; in
+/// closed form and under error control at most the tolerance of each segment, passed on along the orbit.
 /// </summary>
 /// <remarks>
-/// A place that is off by dx and a velocity by dv change the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is late by 3 a/mu of
-/// that times t, and as far off as it moves in that. Everything else comes round with the orbit, magnified by 10/(1 - e) at the most.
+/// An error of dx in position and dv in velocity changes the energy by mu/r^2 dx + v dv, and so the mean motion: a time t later the body is
+/// late by 3 a/mu of that times t, and is off by its motion in that time. All other errors come round with the orbit, magnified by 10/(1 -
+/// e) at most.
 /// </remarks>
 internal sealed class KeplerCase : IHardCase
 {
     private const double Step = 1.0 / 64;
-    private const double Period = 8; // of what is not on fixed steps
-    private const int Places = 16; // at which it is looked at
+    private const double Period = 8; // of laws without fixed steps
+    private const int Places = 16; // samples of a period
 
     private static readonly double[] Slopes = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 
@@ -81,10 +82,12 @@ internal sealed class KeplerCase : IHardCase
     private static (double E, int Steps)[] Orbits(HardContext context) =>
         context.Sizes([(0.0, 256), (0.5, 1024)], [(0.0, 256), (0.5, 1024), (0.9, 16_384), (0.99, 131_072), (0.999, 2_097_152)]);
 
-    /// <summary>Near the centre of a narrow orbit, 1 - e away from it, a micrometre each step would say nothing of where the body ends.</summary>
+    /// <summary>
+    /// Near the centre of a narrow orbit, 1 - e away from it, an error of a micrometre a step would say nothing about where the body ends.
+    /// </summary>
     private static double[] Tolerances(HardContext context, double e) => context.Sizes([1e-9], e <= 0.9 ? [1e-6, 1e-9, 1e-12] : [1e-9, 1e-12]);
 
-    /// <summary>The places that are looked at, the last of them after a period.</summary>
+    /// <summary>The sampled positions, the last of them after a period.</summary>
     private static (Vector3D[] Seen, Simulation Simulation) Fly(HardContext context, KeplerOrbit orbit, HardFlight flight, double period)
     {
         Scene scene = Floating("kepler").AddForce(orbit.Pull).AddBody("planet", flight.Ball(1e-6), orbit.Position(0), orbit.StartVelocity).Build();
@@ -155,7 +158,7 @@ internal sealed class KeplerCase : IHardCase
         };
     }
 
-    /// <summary>What the errors of the pieces up to a time have become by then.</summary>
+    /// <summary>Returns the errors of all segments up to a time, propagated to that time.</summary>
     private static double Passed(KeplerOrbit orbit, HardFlight flight, double t, (double Seconds, BodyState State)[] pieces)
     {
         double speed = orbit.SpeedAt(orbit.Position(t).Length), added = 0, squares = 0;

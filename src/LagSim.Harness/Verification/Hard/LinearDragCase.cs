@@ -7,9 +7,9 @@ namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>Drag in proportion to the speed, falling and bouncing, against exponentials.</summary>
 /// <remarks>
-/// The velocity obeys v' = k (u - v), u the terminal one. On that the classical method multiplies v - u by R(-kh) a step, R(z) = 1 + z + z^2/2 + z^3/6 +
-/// z^4/24, and x + (v - ut)/k is kept, as every linear invariant is. So its own error is known exactly, without contacts; a contact passes errors on by its
-/// saltation.
+/// The velocity obeys v' = k (u - v), with u the terminal one. The classical method multiplies v - u by R(-kh) a step, R(z) = 1 + z + z^2/2
+/// + z^3/6 + z^4/24, and conserves x + (v - ut)/k, as it does every linear invariant. So its own error is known exactly, without contacts;
+/// a contact propagates errors by its saltation.
 /// </remarks>
 internal sealed class LinearDragCase : DragCase
 {

@@ -7,12 +7,13 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A force across the velocity, of a magnetic field or of a spin: a helix, or with gravity, which is to it what an electric field is, one that drifts across
-/// it; the speed must not decay.
+/// A force across the velocity, of a magnetic field or of a spin. The path is a helix, which drifts with gravity as it would in an electric
+/// field. The speed must not decay.
 /// </summary>
 /// <remarks>
-/// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z less z^5/120 and
-/// smaller terms. v - x cross omega, which is linear, is kept, so the place is off by as much as the velocity over omega.
+/// The classical method turns the velocity, less its drift, by R(iz) a step, z = omega h: |R| = sqrt(1 - z^6/72 + z^8/576), its argument z
+/// less z^5/120 and smaller terms. It conserves v - x cross omega, which is linear, so the error of the position is that of the velocity
+/// over omega.
 /// </remarks>
 internal sealed class MagneticCase : IHardCase
 {
@@ -55,7 +56,7 @@ internal sealed class MagneticCase : IHardCase
             }
         }
 
-        // The bounds of the other laws are seen to be bounds by a classical method in their place.
+        // A classical method in place of the other laws must exceed their bounds.
         foreach (HardFlight flight in new[] { HardFlight.Closed(0), HardFlight.Controlled(1e-9) })
         {
             (Vector3D x, Vector3D v) end = ClassicalRungeKutta.Run(
@@ -72,7 +73,7 @@ internal sealed class MagneticCase : IHardCase
             .Concat(context.Sizes([(0.0, 10)], [(0, 100), (1e-9, 100.0)]).Select(s => (HardFlight.Closed(s.Item1), 2 * Math.PI, s.Item2)))
             .Concat(context.Sizes([(1e-9, 10.0)], [(1e-6, 100), (1e-9, 100), (1e-12, 100.0)]).Select(s => (HardFlight.Controlled(s.Item1), 2 * Math.PI, s.Item2)));
 
-    /// <summary>What gives 1 kg the acceleration v x omega about z: a field, or a spin that it needs.</summary>
+    /// <summary>Returns the force that gives 1 kg the acceleration v x omega about z: a field, or one that needs a spin.</summary>
     private static Force Across(bool isMagnus, double omega, out Vector3D spin)
     {
         spin = isMagnus ? V(0, 0, -2 * omega) : Vector3D.Zero;
@@ -118,8 +119,8 @@ internal sealed class MagneticCase : IHardCase
             yield break;
         }
 
-        // What a piece leaves of the velocity goes round with it, and moves the place by no more than over omega; the textbook's angle has roundings of its
-        // own.
+        // An error of a segment in velocity rotates with it, and moves the position by at most that over omega. The textbook's angle has
+        // its own roundings.
         double fast = flight.ErrorOf(pieces, Start.Length + (2 * drift.Length)), far = flight.ErrorOf(pieces, place.Length + (2 * radius));
         yield return new HardRow(Name, size, speed, "speed_relative", fast / across, flight.Argument + ", none of it magnified", works);
         yield return new HardRow(

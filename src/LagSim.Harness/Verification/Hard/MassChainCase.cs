@@ -6,7 +6,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A line of elastic balls of unequal masses: each passes on what the closed form says, and momentum and energy stay.</summary>
+/// <summary>
+/// A line of elastic balls of unequal masses. Each passes on the speed of the closed form, and momentum and energy are conserved.
+/// </summary>
 internal sealed class MassChainCase : IHardCase
 {
     public string Name => "mass-chain";
@@ -103,7 +105,7 @@ internal sealed class MassChainCase : IHardCase
             for (int n = 0; n < Masses.Length; n++)
             {
                 builder.AddBody($"ball {n}", Ball(mass: Masses[n], e: e), V(at), V(n == 0 ? 1 : 0));
-                double gap = Math.Max(speeds[n] / 2, 1e-6); // half a second each, or what a slow one takes for a micrometre
+                double gap = Math.Max(speeds[n] / 2, 1e-6); // half a second each, or the time in which a slow one moves a micrometre
                 end += gap / speeds[n];
                 at += 1 + gap;
             }

@@ -10,13 +10,13 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Impacts of spheres with friction and spin: a bounce that grips or slips, a ball that backspin brings back, one between floor and ceiling, and that energy
-/// never grows.
+/// Impacts of spheres with friction and spin: a bounce that grips or slips, a ball that backspin brings back, and one between floor and
+/// ceiling. Energy must never grow.
 /// </summary>
 /// <remarks>
-/// Of a solid sphere with slip u = v + r w on a floor, and a normal velocity n: it grips, and leaves with no slip and v - 2/7 u, if that is no more than
-/// friction can do, mu (1 + e) n; else v changes by that, and r w by 5/2 of it (Garwin 1969, with a tangential restitution of zero: nothing here springs back
-/// along the surface, as a super ball does).
+/// A solid sphere has slip u = v + r w on a floor, and a normal velocity n. It grips, and leaves with no slip and v - 2/7 u, if that is
+/// within the limit of friction, mu (1 + e) n; else v changes by the limit, and r w by 5/2 of it (Garwin 1969, with a tangential
+/// restitution of zero: nothing here springs back along the surface, as a super ball does).
 /// </remarks>
 internal sealed class ObliqueCase : IHardCase
 {
@@ -74,10 +74,10 @@ internal sealed class ObliqueCase : IHardCase
                 + "mu (1 + e) n, r w - 5/2 of it");
     }
 
-    /// <summary>The velocities along after each bounce of an elastic ball between a floor and a ceiling.</summary>
+    /// <summary>Returns the tangential velocities after each bounce of an elastic ball between a floor and a ceiling.</summary>
     private static double[] Ladder(HardContext context, int bounces, double mu)
     {
-        // Nine heights between the surfaces: a flight takes 8/40 s, which are no whole ticks.
+        // Nine heights between the surfaces: a flight takes 8/40 s, which is no whole number of ticks.
         Scene scene = Floating("between").AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddPlane("ceiling", V(0, -1), V(0, 9))
             .AddBody("ball", new BodySpec(Radius, 1, 1, friction: mu), V(0, 4.5), V(7, -40)).Build();
         List<double> along = [];
@@ -89,7 +89,7 @@ internal sealed class ObliqueCase : IHardCase
         return [.. along];
     }
 
-    /// <summary>Each surface turns the ball the other way: after the first grip its slip on the next is twice its speed.</summary>
+    /// <summary>Each surface reverses the spin's effect: after the first grip its slip on the next is twice its speed.</summary>
     private HardRow Between(int bounces, double[] along)
     {
         double worst = along.Length >= bounces ? 0 : double.NaN;
@@ -104,7 +104,7 @@ internal sealed class ObliqueCase : IHardCase
             "8 roundings a grip of the turning, which is taken from the speed and is 7/3 of what is left at most, twice", "5/7 v (3/7)^(n-1)");
     }
 
-    /// <summary>Four random spheres that meet aslant and turning, and a floor: how much energy they gain at the most.</summary>
+    /// <summary>Four random spheres that collide obliquely and spinning, and a floor. Returns their largest gain of energy.</summary>
     private HardRow Energy(HardContext context, int scenes, double e, double sign)
     {
         double worst = double.NegativeInfinity;
@@ -128,7 +128,7 @@ internal sealed class ObliqueCase : IHardCase
                 double now = SceneEnergy.Of(simulation, SimTime.FromSeconds(0.1 * k));
                 bool isInSteps = Enumerable.Range(0, 4).Any(body => Read(simulation, body, 0.1 * k).Motion == MotionLaw.Constrained);
                 worst = isInSteps || double.IsNaN(before) ? worst : Math.Max(worst, sign * (now - before) / start);
-                before = isInSteps ? double.NaN : now; // velocities are those of the middle of a step there: island-energy and heap are for those
+                before = isInSteps ? double.NaN : now; // velocities are those of the middle of a step there, which island-energy and heap cover
             }
 
             context.Report((double)n / scenes);

@@ -7,7 +7,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A harmonic oscillator: the classical method changes its amplitude by a factor that theory knows, and is stable up to omega h = 2.828.</summary>
+/// <summary>
+/// A harmonic oscillator. The classical method changes its amplitude by a factor known from theory, and is stable up to omega h = 2.828.
+/// </summary>
 internal sealed class OscillatorCase : IHardCase
 {
     private const double Step = 1.0 / 32;
@@ -21,7 +23,8 @@ internal sealed class OscillatorCase : IHardCase
         foreach ((double z, int steps) in context.Sizes([(0.25, 2000), (2.8, 100)],
             [(1.0 / 16, 100_000), (0.25, 100_000), (1, 10_000), (2, 500), (2.8, 1000), (2.828, 1000)]))
         {
-            // Of the library's own spring the engine knows the rate, and halves a step above 2.785; a program's it follows to the edge.
+            // The engine knows the rate of the library's own spring, and halves a step above 2.785. It follows a user-defined one to the
+            // edge.
             bool isHalved = z > RungeKutta4.MaxRateTimesStep;
             yield return Row(z, steps, isHalved ? 2 : 1, Run(context, Spring(z), steps));
             if (isHalved)
@@ -42,10 +45,10 @@ internal sealed class OscillatorCase : IHardCase
         }
     }
 
-    /// <summary>Whose angular frequency times the step is z.</summary>
+    /// <summary>A spring whose angular frequency times the step is z.</summary>
     private static Force Spring(double z) => Force.Spring("spring", default, z / Step * (z / Step));
 
-    /// <summary>Place and velocity after so many steps.</summary>
+    /// <summary>Returns position and velocity after a number of steps.</summary>
     private static (Vector3D X, Vector3D V) Run(HardContext context, Force spring, int steps)
     {
         Scene scene = Floating("oscillator").AddForce(spring).AddBody("ball", HardFlight.Steps(Step).Ball(0.01), V(1)).Build();

@@ -5,11 +5,11 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Drag in proportion to the square of the speed, falling and bouncing, against tanh and ln cosh, hop by hop.</summary>
+/// <summary>Drag in proportion to the square of the speed, falling and bouncing, against tanh and ln cosh, bounce by bounce.</summary>
 /// <remarks>
-/// On v' = f(v) the classical method's local error is at most 73/720 M L^4 h^5 (Lotkin 1951, also Ralston 1962), where |f| is at most M, |f'| at most L and
-/// |f''| at most L^2/M; one L less for the place, the integral. Where the speed changes sign f'' jumps: that step is off by at most k (gh)^2 h. Drag only ever
-/// damps an error of the speed.
+/// On v' = f(v) the classical method's local error is at most 73/720 M L^4 h^5 (Lotkin 1951, also Ralston 1962), where |f| is at most M,
+/// |f'| at most L and |f''| at most L^2/M; one L less for the place, the integral. Where the speed changes sign f'' jumps: that step is off
+/// by at most k (gh)^2 h. Drag only ever damps an error of the speed.
 /// </remarks>
 internal sealed class QuadraticDragCase : DragCase
 {
@@ -65,7 +65,7 @@ internal sealed class QuadraticDragCase : DragCase
         return ((turn * t) + (place * t) + (0.5 * speed * t * t) + quintic, turn + (speed * t));
     }
 
-    /// <summary>Of place and speed, a second, up to that speed.</summary>
+    /// <summary>Returns the error in position and speed per second, up to a speed.</summary>
     private static (double Place, double Speed) LocalErrors(double step, double speed)
     {
         double most = Gravity + (K * speed * speed), steep = Math.Max(2 * K * speed, Math.Sqrt(2 * K * most));

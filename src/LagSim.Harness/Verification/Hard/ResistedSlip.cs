@@ -6,16 +6,22 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A solid sphere that slips against rolling resistance, by its equations: v its velocity, q = r w x n that with which it would roll.</summary>
+/// <summary>
+/// A solid sphere that slips against rolling resistance, by its equations: v its velocity, q = r w x n the velocity at which it would roll.
+/// </summary>
 /// <remarks>
-/// Friction takes mu N from v along v - q, and its moment gives 5/2 of that to q; the moment c N r of resistance takes 5/2 c N from q along q, where N is what presses, by mass.
+/// Friction takes mu N from v along v - q, and its moment adds 5/2 of that to q. The moment c N r of resistance takes 5/2 c N from q along
+/// q. N is the normal force divided by the mass.
 /// </remarks>
 internal static class ResistedSlip
 {
-    /// <summary>How it moves, how it turns, how far it has come, and when it began to roll; NaN if it did not.</summary>
+    /// <summary>The velocity, the rolling velocity, the distance, and the time at which it began to roll; NaN if it did not.</summary>
     internal readonly record struct OnALine(double V, double Q, double Way, double Rolls);
 
-    /// <summary>On a level floor with v and q on one line, where everything is even between the instants at which v - q, q or v becomes zero.</summary>
+    /// <summary>
+    /// On a level floor with v and q on one line, where accelerations are constant between the instants at which v - q, q or v becomes
+    /// zero.
+    /// </summary>
     internal static OnALine After(double seconds, double mu, double c, double v, double q)
     {
         double way = 0, t = 0, rolls = double.NaN;
@@ -50,7 +56,10 @@ internal static class ResistedSlip
         return new OnALine(v, q, way, rolls);
     }
 
-    /// <summary>On a plane, where v and q need not be on one line, by so many steps of MathNet's Runge-Kutta method of order four; while it slips and turns.</summary>
+    /// <summary>
+    /// On a plane, where v and q need not be on one line, by a number of steps of MathNet's Runge-Kutta method of order four, while it
+    /// slips and turns.
+    /// </summary>
     internal static (Vector3D X, Vector3D V, Vector3D Q) After(double seconds, int steps, double mu, double c, double pressing, Vector3D pull, Vector3D v, Vector3D q)
     {
         Vector<double> start = Vector<double>.Build.Dense([0, 0, 0, v.X, v.Y, v.Z, q.X, q.Y, q.Z]);

@@ -7,7 +7,9 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>What lies still: on a plane, on a slope, on another ball, in a small pile. No drift, no gain of energy, a finite number of events.</summary>
+/// <summary>
+/// Bodies at rest on a plane, on a slope, on another ball, and in a small pile. No drift, no gain of energy, a finite number of events.
+/// </summary>
 internal sealed class RestCase : IHardCase
 {
     /// <summary>The contact tolerance of the balls on each other.</summary>
@@ -49,7 +51,10 @@ internal sealed class RestCase : IHardCase
         }
     }
 
-    /// <summary>Steps that put what has sunk in as far above the surface, with half its speed: it trembles, and has an impact every other step or so.</summary>
+    /// <summary>
+    /// Steps that push a sunken ball out to the same height above the surface, with half its speed: it trembles, and has an impact every
+    /// other step or so.
+    /// </summary>
     private static (double Drift, long Impacts) Tremble(double step)
     {
         double worst = 0, v = 0, y = 0;
@@ -83,7 +88,7 @@ internal sealed class RestCase : IHardCase
         yield return new HardRow(Name, size, simulation.EventsProcessed - events, "events", 0, "a body at rest asks for nothing", "nothing happens");
     }
 
-    /// <summary>How far a ball has slid down 30 degrees in 3 s.</summary>
+    /// <summary>Returns how far a ball slides down 30 degrees in 3 s.</summary>
     private static BodyState Slope(HardContext context, double gravity)
     {
         Vector3D normal = V(0.5, Math.Sqrt(0.75));
@@ -106,7 +111,7 @@ internal sealed class RestCase : IHardCase
         .AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.5)
         .AddBody("below", Ball(e: 0.5), V(0, 0.5)).AddBody("above", Ball(e: 0.5), V(0, 1.5)).Build();
 
-    /// <summary>A ball on two, between two walls.</summary>
+    /// <summary>A ball on two others, between two walls.</summary>
     private static Scene Pile()
     {
         const double half = 0.55;

@@ -11,12 +11,16 @@ namespace LagSim.Harness.Verification.Hard;
 /// <content>Slipping against rolling resistance, by closed form and in an island's steps; turning on the spot in steps.</content>
 internal sealed partial class RollingCase
 {
-    /// <summary>The contact tolerance of what moves in steps, and how long these are: the weight is a program's own force, as large as
-    /// gravity is elsewhere.</summary>
+    /// <summary>
+    /// The contact tolerance of bodies in steps, and the length of these: the weight is a user-defined force, as large as gravity in the
+    /// other cases.
+    /// </summary>
     private const double Tolerance = 1e-5;
     private static readonly double Step = ContactSteps.Step(Tolerance);
 
-    /// <summary>How a ball is thrown along the floor: its friction, its resistance, its speed, and that with which its spin would have it roll.</summary>
+    /// <summary>
+    /// A throw along the floor: friction, resistance, speed, and the speed at which its spin would roll.
+    /// </summary>
     private static readonly (double Mu, double C, double Speed, double Turn)[] Throws = [(0.3, 0.1, 2, 0), (0.3, 0.02, 2, -3), (0.2, 0.1, 1, 4), (0.3, 0.3, 2, 0), (0.5, 0.4, 3, -1)];
 
     private IEnumerable<HardRow> ResistedRows(HardContext context)
@@ -76,7 +80,7 @@ internal sealed partial class RollingCase
     private static BodySpec Resisting(double mu, double c, bool inSteps = false) =>
         new(Radius, 1, 0, MotionLaw.Automatic, forces: inSteps ? ForceSet.Of(0) : ForceSet.None, tolerance: 1e-9, friction: mu, rollingResistance: c);
 
-    /// <summary>Its weight is a program's own force, and so the ball moves in steps, alone as it is.</summary>
+    /// <summary>The weight is a user-defined force, so even a single ball moves in steps.</summary>
     private static Simulation OnFloorInSteps(HardContext context, BodySpec ball, Vector3D velocity, Vector3D spin, double seconds) => context.Run(
         new SceneBuilder("steps").WithGravity(Vector3D.Zero).WithContactTolerance(Tolerance)
             .AddForce(Force.Supplied(new SuppliedWeight())).AddPlane("floor", Vector3D.Up, Vector3D.Zero)
@@ -86,7 +90,7 @@ internal sealed partial class RollingCase
     private static string Thrown(double mu, double c, double speed, double turn) =>
         FormattableString.Invariant($"mu {mu}, resistance {c}, thrown at {speed} m/s, turning as if rolling at {turn} m/s");
 
-    /// <summary>Thrown along the floor, until it rests.</summary>
+    /// <summary>A ball thrown along the floor, until it rests.</summary>
     private IEnumerable<HardRow> ResistedSlipping(HardContext context, double mu, double c, double speed, double turn, double actual)
     {
         ResistedSlip.OnALine rest = ResistedSlip.After(double.MaxValue, mu, c, speed, turn);
@@ -108,7 +112,7 @@ internal sealed partial class RollingCase
             "what two ticks of friction and resistance change, for as long as it moves, and 16 roundings", "even motion between slip, turning and way becoming nothing");
     }
 
-    /// <summary>The same in steps: watched in the middle of the slipping, and when it rolls.</summary>
+    /// <summary>The same in steps, sampled in the middle of the slip, and during rolling.</summary>
     private IEnumerable<HardRow> InSteps(HardContext context, double mu, double c, double speed, double turn, double actual)
     {
         double slips = ResistedSlip.After(double.MaxValue, mu, c, speed, turn).Rolls;
@@ -125,7 +129,7 @@ internal sealed partial class RollingCase
                 "what friction and resistance change in a step, where the turning and where the slip ends", "even motion between slip, turning and way becoming nothing");
             if (part < 1)
             {
-                continue; // its way is that without resistance
+                continue; // its path is that without resistance
             }
 
             yield return new HardRow(
@@ -134,7 +138,7 @@ internal sealed partial class RollingCase
         }
     }
 
-    /// <summary>Slipping and turning aslant to each other, on a floor or a slope, where both directions turn.</summary>
+    /// <summary>Slip and spin at an angle to each other, on a floor or a slope, where both directions turn.</summary>
     private IEnumerable<HardRow> Aslant(HardContext context, bool isSlope, double c, double actual)
     {
         const double mu = 0.4, piece = 1.0 / 128;
@@ -152,7 +156,7 @@ internal sealed partial class RollingCase
         yield return new HardRow(Name, size, (state.Position - x - way).Length, "position_m", bound * seconds, Argument + ", for as long as is watched", "20000 Runge-Kutta steps");
     }
 
-    /// <summary>Turns about the normal in contact steps, until it does not turn at all.</summary>
+    /// <summary>A ball that spins about the normal in contact steps, until it stops.</summary>
     private IEnumerable<HardRow> TurningInSteps(HardContext context, double resistance, double actual)
     {
         const double turning = 4;

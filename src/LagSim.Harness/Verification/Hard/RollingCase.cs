@@ -7,11 +7,14 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, turning on the spot, down a slope, against the textbook's formulas.</summary>
+/// <summary>
+/// A solid sphere on a plane with friction: from slipping to rolling, from rolling to rest, spinning on the spot, and down a slope, against
+/// the textbook's formulas.
+/// </summary>
 /// <remarks>
-/// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it rolls with 5/7 g (sin
-/// a - c cos a) if 2/7 tan a + 5/7 c is at most mu, else it slips with g (sin a - mu cos a). All pieces are parabolas, so a change from one to the next, which happens at a tick,
-/// is all that is not exact but for rounding.
+/// Slip, the velocity of the surface, loses 7/2 mu g a second and is gone after 2 v/(7 mu g), with 5/7 of the speed left. Down a slope it
+/// rolls with 5/7 g (sin a - c cos a) if 2/7 tan a + 5/7 c is at most mu, else it slips with g (sin a - mu cos a). All segments are
+/// parabolas, so the only error besides rounding is that a change of segments happens at a tick.
 /// </remarks>
 internal sealed partial class RollingCase : IHardCase
 {
@@ -81,7 +84,7 @@ internal sealed partial class RollingCase : IHardCase
     private static Simulation OnFloor(HardContext context, BodySpec ball, Vector3D velocity, Vector3D spin, double seconds) => context.Run(
         new SceneBuilder("floor").AddPlane("floor", Vector3D.Up, Vector3D.Zero).AddBody("ball", ball, V(0, Radius), velocity, spin: spin).Build(), seconds);
 
-    /// <summary>Thrown along the floor, with no spin but in the control, watched for twice as long as it slips.</summary>
+    /// <summary>A ball thrown along the floor, with no spin except in the control, simulated for twice the duration of the slip.</summary>
     private IEnumerable<HardRow> Slipping(HardContext context, double mu, double speed, double spin)
     {
         double slips = 2 * speed / (7 * mu * Gravity), end = SimTime.FromSeconds(2 * slips).ToSeconds();
@@ -106,7 +109,7 @@ internal sealed partial class RollingCase : IHardCase
             "what friction does in a tick, for as long as is watched, and 16 roundings", "v t - mu g t^2/2, then 5/7 v t");
     }
 
-    /// <summary>Rolls along the floor until it rests.</summary>
+    /// <summary>A ball that rolls along the floor until it rests.</summary>
     private HardRow Resisted(HardContext context, double resistance, double actual)
     {
         const double speed = 1;
@@ -121,7 +124,7 @@ internal sealed partial class RollingCase : IHardCase
             (Rounding.Tick * Rounding.Tick * brake) + (16 * Rounding.Unit * way), "what is left of the way in a tick, and 16 roundings", "7 v^2/(10 c g)");
     }
 
-    /// <summary>Turns about the normal, where it stands, until it rests.</summary>
+    /// <summary>A ball that spins about the normal, on the spot, until it rests.</summary>
     private IEnumerable<HardRow> Turning(HardContext context, double resistance, double actual)
     {
         const double turning = 4;
@@ -140,7 +143,9 @@ internal sealed partial class RollingCase : IHardCase
             Name, size, Math.Abs(rests - stops), "time_s", Rounding.Tick + (16 * Rounding.Unit * stops), "a tick, and 16 roundings", "2 w r/(5 c g)");
     }
 
-    /// <summary>Let go on a slope of 3 in 4, with friction above or below what rolling needs, which is more where something resists it.</summary>
+    /// <summary>
+    /// A ball released on a slope of 3 in 4, with friction above or below what rolling needs, which is more with rolling resistance.
+    /// </summary>
     private IEnumerable<HardRow> Slope(HardContext context, double nearness, double actual, double c)
     {
         const double sine = 0.6, cosine = 0.8, seconds = 2;

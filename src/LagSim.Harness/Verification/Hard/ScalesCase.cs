@@ -10,8 +10,8 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// Random scenes of all sizes, masses, speeds, gravities and forces, by every law, with friction and spin, static spheres and periodic boxes: no state is ever
-/// without a number.
+/// Random scenes of all sizes, masses, speeds, gravities and forces, by every law, with friction and spin, static spheres and periodic
+/// boxes. No state may ever be NaN or infinite.
 /// </summary>
 internal sealed class ScalesCase : IHardCase
 {
@@ -34,7 +34,7 @@ internal sealed class ScalesCase : IHardCase
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
-        // Bounces of all restitutions by plain roots, rounded to ticks, without the rule that only what closes is a contact.
+        // Bounces of all restitutions by plain roots, rounded to ticks, without the rule that only closing pairs are contacts.
         int bad = 0;
         for (int n = 0; n < 100; n++)
         {
@@ -69,11 +69,11 @@ internal sealed class ScalesCase : IHardCase
             }
             catch (SceneException refusal) when (IsOfNumbers(refusal))
             {
-                continue; // not valid, and said so
+                continue; // refused with an error
             }
             catch (SimulationException end) when (IsOfNumbers(end))
             {
-                ended++; // faster than a body may be, too stiff for any step, more than memory allows, and said so
+                ended++; // ended with an error: faster than a body may be, too stiff for any step, or more than memory allows
             }
             catch (Exception failure) when (failure is not OperationCanceledException)
             {
@@ -94,7 +94,7 @@ internal sealed class ScalesCase : IHardCase
         "a number is finite or it is not; a scene that is refused, or ended because a body would become too fast, says so in a sentence",
             "every component of every state");
 
-    /// <summary>A floor and some balls, all of one scale or another; as fast for their size as may be.</summary>
+    /// <summary>A floor and some balls, all of one scale; as fast for their size as allowed.</summary>
     private static (Scene Scene, double Seconds) Free(SeededRandom random)
     {
         double scale = Power(random, -9, 9), speed = scale * Power(random, -6, 6), gravity = random.NextDouble() < 0.2 ? 0 : Power(random, -9, 6);
@@ -118,7 +118,9 @@ internal sealed class ScalesCase : IHardCase
         return (builder.Build(), seconds);
     }
 
-    /// <summary>Lengths, times and masses each of a scale of their own, with forces and gravity about as strong as they must be to matter on it.</summary>
+    /// <summary>
+    /// Lengths, times and masses with a scale of their own each, with forces and gravity about strong enough to matter.
+    /// </summary>
     private static (Scene Scene, double Seconds) Forced(SeededRandom random)
     {
         double length = Power(random, -9, 9), time = Power(random, -9, 9), mass = Power(random, -9, 9), speed = length / time;
@@ -154,7 +156,7 @@ internal sealed class ScalesCase : IHardCase
         return (builder.Build(), Math.Min(1e5, 5 * time));
     }
 
-    /// <summary>Some balls in a box whose opposite sides meet.</summary>
+    /// <summary>Some balls in a periodic box.</summary>
     private static (Scene Scene, double Seconds) Boxed(SeededRandom random)
     {
         double length = Power(random, -7, 9), speed = length * Power(random, -6, 6), size = 10 * length;
@@ -196,7 +198,7 @@ internal sealed class ScalesCase : IHardCase
         return simulation.EventsProcessed;
     }
 
-    /// <summary>Whether a sentence speaks of no state without numbers, as "(NaN, NaN, NaN) m" and "became NaN or infinite" do.</summary>
+    /// <summary>Whether a message mentions no NaN or infinite state, as "(NaN, NaN, NaN) m" and "became NaN or infinite" do.</summary>
     private static bool IsOfNumbers(Exception sentence) =>
         !sentence.Message.Contains("NaN", StringComparison.Ordinal) && !sentence.Message.Contains("Infinity,", StringComparison.Ordinal);
 
@@ -209,7 +211,7 @@ internal sealed class ScalesCase : IHardCase
         _ => random.NextDouble(),
     };
 
-    /// <summary>Of that size, more or less, and now and then by far.</summary>
+    /// <summary>Draws about a given size, and now and then a very different one.</summary>
     private static double Strong(SeededRandom random, double size) => size * (IsLucky(random) ? random.NextDouble() : Power(random, -6, 6));
 
     private static Vector3D Any(SeededRandom random) => V(random.NextGaussian(), random.NextGaussian(), random.NextGaussian());

@@ -8,10 +8,10 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Several contacts at one instant: the symmetric answer, and the same one whatever the order of the bodies.</summary>
+/// <summary>Several contacts at one instant. The answer must be symmetric, and the same for any order of the bodies.</summary>
 internal sealed class SimultaneousCase : IHardCase
 {
-    /// <summary>Two contacts that are solved together cost twice what one does.</summary>
+    /// <summary>The relative error allowed for two contacts solved together: twice that of one.</summary>
     private const double Together = 2 * Rounding.PerContact * Rounding.Unit;
 
     public string Name => "simultaneous";

@@ -34,7 +34,7 @@ internal sealed class SmallFastCase : IHardCase
 
     public IEnumerable<HardRow> Controls(HardContext context)
     {
-        // Who looks once a microsecond sees the two apart and then on the wrong sides, never touching.
+        // Sampling once a microsecond sees the two apart and then on the wrong sides, never touching.
         double[] met = Enumerable.Range(0, 4).Select(n => n * 1e-6).Where(t => Math.Abs(Apart - (2 * Speed * t)) < 2 * Radius).ToArray();
         yield return MeetRow("head-on", met) with { Note = "looked at once a microsecond" };
         yield return RattleRow(MotionLaw.Ballistic, 1e-4, 0) with { Note = "looked at once a microsecond" };

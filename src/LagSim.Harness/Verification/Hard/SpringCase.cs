@@ -8,11 +8,12 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A spring with a damper, from none to far beyond the critical one, and stiff ones, against exponentials, in closed form and under error control.
+/// A spring with a damper, from none to far beyond the critical one, and stiff ones, against exponentials, in closed form and under error
+/// control.
 /// </summary>
 /// <remarks>
-/// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: a place that is off by dx and a velocity by dv never
-/// leave the place off by more than dx + dv/sqrt(kappa).
+/// With the energy (v^2 + kappa x^2)/2 as a measure of distance no error grows, whatever the damping: an error of dx in position and dv in
+/// velocity never moves the position by more than dx + dv/sqrt(kappa).
 /// </remarks>
 internal sealed class SpringCase : IHardCase
 {
@@ -44,7 +45,7 @@ internal sealed class SpringCase : IHardCase
     private static IEnumerable<HardFlight> Flights(HardContext context) =>
         context.Sizes([0.0], [0, 1e-9]).Select(HardFlight.Closed).Concat(context.Sizes([1e-9], [1e-6, 1e-9, 1e-12]).Select(HardFlight.Controlled));
 
-    /// <summary>The angular frequency without damping, the damping over the critical one, and for how long.</summary>
+    /// <summary>The angular frequency without damping, the damping relative to critical, and the duration.</summary>
     private static (double Omega, double Ratio, double Seconds)[] Springs(HardContext context) => context.Sizes(
         [(3, 0, 4), (3, 1, 4), (Stiff, 0.1, 0.01)],
         [(3, 0, 32), (3, 0.1, 4), (3, 1, 4), (3, 3, 4), (3, 100, 4), (Stiff, 0, 0.1), (Stiff, 1, 0.1), (3, 1e4, 4.0)]);
@@ -66,7 +67,8 @@ internal sealed class SpringCase : IHardCase
             worst = Math.Max(worst, Math.Abs(Read(simulation, First, at).Position.X - 2 - exact.Place(start, push, at.ToSeconds())));
         }
 
-        // The place is rounded as its coordinate, 2 and its amplitude; the velocity as omega times the amplitude, and so counts as much once it is over omega.
+        // The position is rounded by its coordinate, 2 plus its amplitude. The velocity is rounded by omega times the amplitude, which
+        // counts the same once divided by omega.
         double amplitude = Math.Sqrt((start * start) + (push * push / kappa)), each = flight.ErrorOf((int)simulation.EventsProcessed, 0);
         double roundings = flight.ErrorOf((int)simulation.EventsProcessed, 2 + (2 * amplitude)) - each;
         double response = flight.Law == MotionLaw.ClosedForm ? 16 * Rounding.Unit * (gamma + omega) * seconds * amplitude : 0;

@@ -6,15 +6,15 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A damped body whose step is as long as its decay, in flight and on a floor: theory's factor where the method is stable, and beyond that a refusal or smaller
-/// steps, never a silent explosion.
+/// A damped body whose step is as long as its decay, in flight and on a floor. It follows theory's factor where the method is stable, and
+/// beyond that gets a refusal or smaller steps, never a silent explosion.
 /// </summary>
 internal sealed class StiffCase : IHardCase
 {
     private const double Step = 1.0 / 64;
     private const int Steps = 50;
 
-    /// <summary>The shortest step of what is in persistent contact, and how many are taken from the middle of the second step on.</summary>
+    /// <summary>The shortest step of bodies in persistent contact, and the number of steps from the middle of the second one on.</summary>
     private const double ShortestOnFloor = 1.0 / (1 << 20);
     private const int StepsOnFloor = 20;
 
@@ -72,8 +72,10 @@ internal sealed class StiffCase : IHardCase
 
     private static double SpeedOnFloor(HardContext context, Force force) => ReadOnFloor(RunOnFloor(context, force), StepsOnFloor);
 
-    /// <summary>By how much it gets slower from the middle of the second step to that of one so many steps later: a member's velocity is
-    /// that of the middle.</summary>
+    /// <summary>
+    /// Returns the slowdown from the middle of the second step to the middle of a number of steps later: a member's velocity is that of the
+    /// middle.
+    /// </summary>
     private static double DecayOnFloor(HardContext context, Force force)
     {
         Simulation simulation = RunOnFloor(context, force);
@@ -89,7 +91,7 @@ internal sealed class StiffCase : IHardCase
         return context.Run(scene, (StepsOnFloor + 2) * ShortestOnFloor);
     }
 
-    /// <summary>The implicit midpoint rule's.</summary>
+    /// <summary>The factor of the implicit midpoint rule.</summary>
     private HardRow DecayRowOnFloor(double z, double decay)
     {
         double factor = (1 - (z / 2)) / (1 + (z / 2));
@@ -126,7 +128,7 @@ internal sealed class StiffCase : IHardCase
         }
         catch (SimulationException end)
         {
-            // To be stopped by the limit of all speeds is no refusal: the sentence has to name the step.
+            // A stop by the limit of all speeds is no refusal: the message has to name the step.
             bool isRefusal = end.Message.Contains("step of", StringComparison.Ordinal) || end.Message.Contains("steps that follow", StringComparison.Ordinal);
             return GrowthRow(z, steps, isRefusal ? 0 : double.PositiveInfinity) with { Note = (isRefusal ? "refused: " : "blew up: ") + end.Message };
         }

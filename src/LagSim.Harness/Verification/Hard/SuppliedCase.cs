@@ -6,7 +6,7 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 namespace LagSim.Harness.Verification.Hard;
 
 /// <summary>
-/// A program's own force: what it supplies acts as the library's force of the same formula does, bit for bit, and its name and version tell worlds apart.
+/// A user-defined force acts as the library's force of the same formula does, bit for bit, and its name and version distinguish worlds.
 /// </summary>
 internal sealed class SuppliedCase : IHardCase
 {
@@ -72,7 +72,7 @@ internal sealed class SuppliedCase : IHardCase
             "the library's force of the same formula, at 64 instants");
     }
 
-    /// <summary>Whether two scenes with such forces are one world.</summary>
+    /// <summary>Whether two scenes with such forces make the same world.</summary>
     private HardRow Told(IAcceleration one, IAcceleration other, bool expected)
     {
         bool isSame = Hash(one) == Hash(other);

@@ -2,7 +2,9 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>A force of the library on 1 kg as a program would supply it: the engine knows its name and version, and nothing of what it is.</summary>
+/// <summary>
+/// A force of the library on 1 kg, supplied as a user-defined force: the engine knows only its name and version.
+/// </summary>
 internal sealed class SuppliedForce(Force force) : IAcceleration
 {
     public string Name => force.Name;

@@ -3,7 +3,10 @@ using static LagSim.Harness.Verification.Hard.HardWorlds;
 
 namespace LagSim.Harness.Verification.Hard;
 
-/// <summary>Weight as a program's own force: of that nobody knows what it will do, so what it presses on anything moves in an island's steps and never rests.</summary>
+/// <summary>
+/// Weight as a user-defined force. The engine does not know its potential, so any body it presses on another moves in an island's steps and
+/// never rests.
+/// </summary>
 internal sealed class SuppliedWeight : IAcceleration
 {
     public string Name => "weight";

@@ -5,18 +5,18 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>One thing that a player does.</summary>
-/// <param name="AtSeconds">When, from the beginning of the attack on.</param>
-/// <param name="Kind">What.</param>
-/// <param name="Spawn">Of one of its own bodies which, by the order of the spawns, from 0; -1 for one of the scene's.</param>
-/// <param name="Body">Of a body of the scene which; of a spawn the one it takes after.</param>
-/// <param name="Place">Where, or how far from the centre.</param>
-/// <param name="Velocity">How fast.</param>
+/// <summary>One action of an attacker.</summary>
+/// <param name="AtSeconds">The time, in seconds from the beginning of the attack.</param>
+/// <param name="Kind">The kind of action.</param>
+/// <param name="Spawn">The index of one of the attacker's spawns, in order, from 0; -1 for a body of the scene.</param>
+/// <param name="Body">The body of the scene; for a spawn the one it copies.</param>
+/// <param name="Place">The position, or the offset from the centre, in metres.</param>
+/// <param name="Velocity">The velocity, in m/s.</param>
 internal sealed record HarmAction(double AtSeconds, EventKind Kind, int Spawn, int Body, Vector3D Place, Vector3D Velocity = default)
 {
-    /// <summary>It as an action.</summary>
+    /// <summary>Converts it to a player's action.</summary>
     /// <param name="scene">The scene.</param>
-    /// <param name="spawned">What the player's spawns so far became.</param>
+    /// <param name="spawned">The bodies that the player has spawned so far.</param>
     internal PlayerAction In(Scene scene, Func<int, BodyId> spawned)
     {
         BodyId body = Spawn >= 0 && Kind != EventKind.Spawn ? spawned(Spawn) : BodyId.OfScene(Body);
@@ -31,11 +31,11 @@ internal sealed record HarmAction(double AtSeconds, EventKind Kind, int Spawn, i
         };
     }
 
-    /// <summary>It as the tool's <c>--do</c> takes it, as far as that can be said: all that begins at rest.</summary>
+    /// <summary>Formats it for the tool's <c>--do</c>, as far as that can express it: bodies that begin at rest.</summary>
     /// <param name="scene">The scene.</param>
-    /// <param name="from">The seconds that the attack begins at.</param>
+    /// <param name="from">The start of the attack, in seconds.</param>
     /// <param name="player">The player's number.</param>
-    /// <param name="sequences">The number of the event that each spawn is.</param>
+    /// <param name="sequences">The event number of each spawn.</param>
     internal string ToText(Scene scene, double from, int player, Func<int, uint> sequences)
     {
         string body = Spawn >= 0 && Kind != EventKind.Spawn ? string.Create(CultureInfo.InvariantCulture, $"{player}.{sequences(Spawn)}.0") : scene.Bodies[Body].Name;

@@ -9,11 +9,13 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>One drawn attack: the scene, the link of who attacks, and what he does.</summary>
-/// <remarks>A function of its seed alone. All of it is within the limits that hosts have had before: 64 bodies, 999 m/s, less than 500 events a second.</remarks>
+/// <summary>One seeded attack: the scene, the attacker's link, and its actions.</summary>
+/// <remarks>
+/// Determined by the seed. Attacks stay within limits that hosts had before: 64 bodies, 999 m/s, less than 500 events a second.
+/// </remarks>
 public sealed class HarmCase
 {
-    /// <summary>For so long things are done, in seconds.</summary>
+    /// <summary>The duration of the attack, in seconds.</summary>
     public const double Seconds = 3;
 
     private const int MaxBodies = 64;
@@ -27,7 +29,7 @@ public sealed class HarmCase
     private readonly double radius;
     private int spawns;
 
-    /// <summary>Draws it.</summary>
+    /// <summary>Draws the attack of a seed.</summary>
     public HarmCase(ulong seed)
     {
         Seed = seed;
@@ -61,16 +63,16 @@ public sealed class HarmCase
         Actions = [.. actions.Where(d => d.AtSeconds < Seconds).OrderBy(d => d.AtSeconds)];
     }
 
-    /// <summary>What it is drawn from.</summary>
+    /// <summary>The seed.</summary>
     public ulong Seed { get; }
 
-    /// <summary>What is tried.</summary>
+    /// <summary>The kind of attack.</summary>
     public HarmKind Kind { get; }
 
     /// <summary>The scene.</summary>
     public Scene Scene { get; }
 
-    /// <summary>How long what is said takes from the one who attacks to the host, in milliseconds; so late it acts.</summary>
+    /// <summary>The one-way delay from the attacker to the host, in milliseconds. Its events are that late.</summary>
     public double LinkMilliseconds { get; }
 
     /// <summary>The restitution of most of the bodies.</summary>
@@ -79,13 +81,13 @@ public sealed class HarmCase
     /// <summary>The friction of most of the bodies.</summary>
     public double Friction { get; }
 
-    /// <summary>Half the width of the room, in m.</summary>
+    /// <summary>Half the width of the room, in metres.</summary>
     public double Width { get; }
 
-    /// <summary>What is done, by time.</summary>
+    /// <summary>The attacker's actions, in order of time.</summary>
     internal IReadOnlyList<HarmAction> Actions { get; }
 
-    /// <summary>All of it in a few words.</summary>
+    /// <summary>Returns a short description.</summary>
     public override string ToString() => string.Create(
         CultureInfo.InvariantCulture,
         $"{Kind} in {Scene.Name}, restitution {Restitution:0.##}, friction {Friction:0.##}, {Actions.Count(d => d.Kind == EventKind.Spawn)}"

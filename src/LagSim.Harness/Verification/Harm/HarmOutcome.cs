@@ -2,33 +2,36 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>What came of one attack.</summary>
+/// <summary>The result of one attack.</summary>
 public sealed record HarmOutcome
 {
-    /// <summary>What was drawn.</summary>
+    /// <summary>The attack.</summary>
     public required HarmCase Case { get; init; }
 
-    /// <summary>The furthest that another's world, or the host's, was behind real time, in seconds.</summary>
+    /// <summary>The furthest that the host's or another player's world fell behind real time, in seconds.</summary>
     public double LateSeconds { get; init; }
 
-    /// <summary>How long after the first of these worlds was late by more than 250 ms the player was out, in seconds; null if he stayed, or none was.</summary>
+    /// <summary>
+    /// How long the attacker stayed after the first of these worlds was more than 250 ms behind, in seconds; null if it stayed to the end,
+    /// or if none was.
+    /// </summary>
     public double? OutSeconds { get; init; }
 
-    /// <summary>How long after that all of them were in real time again, in seconds; null if they were all the while.</summary>
+    /// <summary>How long all worlds took to return to real time after that, in seconds; null if none was behind.</summary>
     public double? BackSeconds { get; init; }
 
-    /// <summary>Whether the player was sent away.</summary>
+    /// <summary>Whether the attacker was disconnected.</summary>
     public bool IsExpelled { get; init; }
 
-    /// <summary>What the host said about it; empty if nothing.</summary>
+    /// <summary>The host's message about it; empty if there is none.</summary>
     public string Sentence { get; init; } = "";
 
-    /// <summary>The most that an honest player used up of his budget at a time, as a part of it.</summary>
+    /// <summary>The largest fraction of its budget that an honest player used.</summary>
     public double HonestPart { get; init; }
 
-    /// <summary>Why the run fails, a sentence for each reason; empty if it passes.</summary>
+    /// <summary>The reasons why the run fails, a sentence each; empty if it passes.</summary>
     public IReadOnlyList<string> Failures { get; init; } = [];
 
-    /// <summary>Whether all is as it should be.</summary>
+    /// <summary>Whether the run passes.</summary>
     public bool IsGood => Failures.Count == 0;
 }

@@ -2,14 +2,14 @@ using System.Collections.Generic;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>What came of one attack that was played with processes.</summary>
-/// <param name="Case">Which.</param>
-/// <param name="LateSeconds">The furthest that the host's world, or another's, was behind real time, in seconds.</param>
-/// <param name="Sentence">What the host said when it sent the player away; empty if it did not.</param>
-/// <param name="Compared">How many committed states of others were held against the host's.</param>
-/// <param name="Failures">Why the run fails, a sentence for each reason; empty if it passes.</param>
+/// <summary>The result of one attack played with processes.</summary>
+/// <param name="Case">The attack.</param>
+/// <param name="LateSeconds">The furthest that the host's or another player's world fell behind real time, in seconds.</param>
+/// <param name="Sentence">The host's message when it disconnected the attacker; empty if it did not.</param>
+/// <param name="Compared">The number of committed states of other players that were compared with the host's.</param>
+/// <param name="Failures">The reasons why the run fails, a sentence each; empty if it passes.</param>
 public sealed record HarmProcessOutcome(HarmCase Case, double LateSeconds, string Sentence, long Compared, IReadOnlyList<string> Failures)
 {
-    /// <summary>Whether all is as it should be.</summary>
+    /// <summary>Whether the run passes.</summary>
     public bool IsGood => Failures.Count == 0;
 }

@@ -15,8 +15,8 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>Plays a drawn attack again with real processes: a host, two that look on, and one that attacks from behind a relay.</summary>
-/// <remarks>What takes how long depends on the machine. Velocities at a spawn are given by an event of their own there.</remarks>
+/// <summary>Replays a drawn attack with real processes: a host, two observers, and an attacker behind a relay.</summary>
+/// <remarks>Timings depend on the machine. The velocity of a spawn is set by a separate event here.</remarks>
 public sealed class HarmProcessRun : IDisposable
 {
     /// <summary>How long it is played, in seconds.</summary>
@@ -34,10 +34,10 @@ public sealed class HarmProcessRun : IDisposable
     private readonly List<string> failures = [];
     private UdpRelay? relay;
 
-    /// <summary>Makes ready to play an attack.</summary>
-    /// <param name="drawn">Which.</param>
+    /// <summary>Prepares an attack.</summary>
+    /// <param name="drawn">The attack.</param>
     /// <param name="tool">The tool's program, and the arguments that it needs before its own.</param>
-    /// <param name="folder">Where the scene is written; it must be there.</param>
+    /// <param name="folder">An existing folder for the scene.</param>
     /// <param name="cancellation">Ends it early.</param>
     public HarmProcessRun(HarmCase drawn, IReadOnlyList<string> tool, string folder, CancellationToken cancellation)
     {
@@ -50,7 +50,7 @@ public sealed class HarmProcessRun : IDisposable
         this.cancellation = cancellation;
     }
 
-    /// <summary>Plays it.</summary>
+    /// <summary>Plays the attack.</summary>
     public HarmProcessOutcome Play()
     {
         string scene = Path.Combine(folder, "scene.json");
@@ -61,7 +61,7 @@ public sealed class HarmProcessRun : IDisposable
             return Outcome(host, [], [$"The host does not listen: {Last(host)}"]);
         }
 
-        // One after the other, so that it is known who is which player.
+        // One after the other, so that each player's number is known.
         List<StallProcess> others = [];
         for (int n = 0; n < Others; n++)
         {
@@ -99,7 +99,7 @@ public sealed class HarmProcessRun : IDisposable
         return Outcome(host, others, []);
     }
 
-    /// <summary>Ends what still runs.</summary>
+    /// <summary>Kills the processes that still run.</summary>
     public void Dispose()
     {
         foreach (StallProcess process in all)
@@ -113,7 +113,7 @@ public sealed class HarmProcessRun : IDisposable
     private HarmProcessOutcome Outcome(StallProcess host, List<StallProcess> others, IEnumerable<string> more)
     {
         failures.AddRange(more);
-        string sentence = host.Lines.FirstOrDefault(line => line.Contains("is sent away", StringComparison.Ordinal)) ?? "";
+        string sentence = host.Lines.FirstOrDefault(line => line.Contains("is disconnected", StringComparison.Ordinal)) ?? "";
         double late = 0;
         long compared = 0;
         foreach (StallProcess process in failures.Count == 0 ? others.Prepend(host) : [])

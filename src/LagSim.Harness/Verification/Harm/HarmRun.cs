@@ -13,16 +13,18 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>Plays one attack in virtual time, on machines that take as long as the work that they do, and looks at how late the others' worlds are.</summary>
+/// <summary>
+/// Plays one attack in virtual time, on machines that take as long as their work, and measures how late the other players' worlds are.
+/// </summary>
 internal sealed class HarmRun
 {
-    /// <summary>A world so far behind real time is a harm.</summary>
+    /// <summary>The lag behind real time above which a world is harmed.</summary>
     internal const double MaxLate = 0.25;
 
-    /// <summary>So long a player may stay that does harm, in seconds; and so long it may take then until all is well.</summary>
+    /// <summary>How long an attacker may stay after the first harm, and how long the recovery may take then, in seconds.</summary>
     internal const double MaxSeconds = 2;
 
-    /// <summary>A world that is no further behind than this is back.</summary>
+    /// <summary>The lag behind real time below which a world has recovered.</summary>
     private const double Back = 0.05;
 
     private const double LookSeconds = 0.01;
@@ -184,7 +186,7 @@ internal sealed class HarmRun
         }
     }
 
-    /// <summary>How far behind real time what a peer can show is, in seconds.</summary>
+    /// <summary>Returns how far behind real time a peer's latest view is, in seconds.</summary>
     private static double Late(Session session) =>
         session.World is null || session.World.RenderedTo >= session.SharedTime.Now ? 0 : (session.SharedTime.Now - session.World.RenderedTo).ToSeconds();
 
@@ -217,7 +219,7 @@ internal sealed class HarmRun
         }
         catch (Exception why) when (why is SceneException or InvalidOperationException or SimulationException)
         {
-            return null; // it may not be done, or not now
+            return null; // not allowed, or not now
         }
     }
 }

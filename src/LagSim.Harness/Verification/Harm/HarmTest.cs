@@ -6,15 +6,17 @@ using System.Threading.Tasks;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>Drawn attacks by one player on everybody's worlds: they go on in real time, or do so again soon, without him.</summary>
-/// <remarks>In virtual time. Each attack is played on one thread from its seed, so every figure is the same in every run.</remarks>
+/// <summary>
+/// Runs seeded attacks by one player. The other players' worlds must stay in real time, or be back in it soon after the attacker is out.
+/// </summary>
+/// <remarks>In virtual time, each attack on one thread from its seed, so every figure is the same in every run.</remarks>
 public static class HarmTest
 {
-    /// <summary>Plays all attacks, several at a time.</summary>
-    /// <param name="options">Which.</param>
-    /// <param name="progress">Called with each outcome as it is there, from any thread but never from two at once; null for nobody.</param>
-    /// <param name="cancellation">Ends it early, with what was done by then.</param>
-    /// <returns>One outcome an attack, in the order of their seeds.</returns>
+    /// <summary>Runs all attacks, several at a time.</summary>
+    /// <param name="options">The attacks to run.</param>
+    /// <param name="progress">Called with each outcome as it is ready, on any thread but never on two at once; may be null.</param>
+    /// <param name="cancellation">Ends the test early. The outcomes so far are returned.</param>
+    /// <returns>One outcome for each attack, in the order of seeds.</returns>
     public static IReadOnlyList<HarmOutcome> Run(HarmOptions options, Action<HarmOutcome>? progress = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -31,7 +33,7 @@ public static class HarmTest
             {
                 try
                 {
-                    // The token of all sessions would keep these.
+                    // A token linked once for all sessions would keep them alive.
                     using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
                     HarmOutcome outcome = new HarmRun(new HarmCase(options.Seed + (ulong)n), options, stop.Token).Play();
                     outcomes[n] = outcome;

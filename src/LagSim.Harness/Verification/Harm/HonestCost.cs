@@ -1,11 +1,11 @@
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>What honest players of a scene cost.</summary>
+/// <summary>The cost of honest players in one scene.</summary>
 /// <param name="Scene">The scene.</param>
-/// <param name="Players">How many play.</param>
-/// <param name="WorkPerSecond">What the costliest of them costs a second, in units of about a microsecond.</param>
-/// <param name="PeakWork">The most that one of them used up of his budget at a time, in the same units.</param>
-/// <param name="Part">That as a part of the budget.</param>
-/// <param name="Events">How much they did.</param>
-/// <param name="Expelled">How many were sent away.</param>
+/// <param name="Players">The number of players.</param>
+/// <param name="WorkPerSecond">The work of the costliest player, in units of about a microsecond per second.</param>
+/// <param name="PeakWork">The largest amount of its budget that a player used, in the same units.</param>
+/// <param name="Part"><paramref name="PeakWork"/> as a fraction of the budget.</param>
+/// <param name="Events">The number of their events.</param>
+/// <param name="Expelled">The number of players that were disconnected.</param>
 public sealed record HonestCost(string Scene, int Players, double WorkPerSecond, double PeakWork, double Part, long Events, int Expelled);

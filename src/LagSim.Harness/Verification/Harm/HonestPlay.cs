@@ -14,11 +14,11 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Harm;
 
-/// <summary>What players cost who mean no harm, in every built-in scene: how far they stay from their budgets.</summary>
+/// <summary>Measures the cost of honest players in every built-in scene: how far they stay within their budgets.</summary>
 /// <remarks>
-/// In virtual time by a seed. Four play, 100 ms from the host, each with four actions a second in the mean, as many as the busiest of the
-/// drawn sessions of <c>lagsim stalls</c>: velocities, impulses and teleports of the scene's bodies, up to six balls of its own, and hands
-/// that hold a body for a second with keyframes every 50 ms.
+/// In virtual time by a seed. Four players, 100 ms from the host, each with four actions a second on average, as many as in the busiest
+/// sessions of <c>lagsim stalls</c>: velocities, impulses and teleports of the scene's bodies, up to six balls of its own, and hands that
+/// hold a body for a second with keyframes every 50 ms.
 /// </remarks>
 public static class HonestPlay
 {
@@ -32,16 +32,15 @@ public static class HonestPlay
     private const int HeapBalls = 32;
 
     /// <summary>
-    /// The scenes that are played: all that are built in, two more crowds, and a heap of 32 balls that are poured as those of <c>lagsim
-    /// accuracy heap</c>.
+    /// The scenes: all built-in ones, two more crowds, and a heap of 32 balls poured like those of <c>lagsim accuracy heap</c>.
     /// </summary>
     public static IReadOnlyList<string> Scenes { get; } = [.. BuiltInScenes.Names, "crowd-1000", "crowd-5000", Heap];
 
     /// <summary>Plays one scene.</summary>
-    /// <param name="scene">Its name.</param>
-    /// <param name="seed">What is drawn from.</param>
-    /// <param name="seconds">How long.</param>
-    /// <param name="budget">What each may cost.</param>
+    /// <param name="scene">The name of the scene.</param>
+    /// <param name="seed">The seed.</param>
+    /// <param name="seconds">The duration, in seconds.</param>
+    /// <param name="budget">The budget of each player.</param>
     /// <param name="cancellation">Ends it early.</param>
     public static HonestCost Play(string scene, ulong seed, double seconds, PlayerBudget budget, CancellationToken cancellation = default)
     {
@@ -174,7 +173,7 @@ public static class HonestPlay
             }
             catch (Exception why) when (why is SceneException or InvalidOperationException)
             {
-                return null; // the scene does not have that, or not there
+                return null; // the scene does not have it, or not there
             }
         }
     }

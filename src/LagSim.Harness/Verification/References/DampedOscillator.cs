@@ -7,7 +7,7 @@ namespace LagSim.Harness.Verification.References;
 /// <param name="kappa">The stiffness over the mass, per second squared.</param>
 internal sealed class DampedOscillator(double gamma, double kappa)
 {
-    /// <summary>The place some time after a place and a velocity.</summary>
+    /// <summary>Returns the position at a time after a given position and velocity.</summary>
     internal double Place(double x, double v, double seconds)
     {
         double half = gamma / 2, square = (half * half) - kappa;

@@ -3,9 +3,11 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Verification.References;
 
-/// <summary>An ellipse with a semi-major axis of 1 m about a centre of pull at the origin, which begins at its far end; by Kepler's equation.</summary>
+/// <summary>
+/// An ellipse with a semi-major axis of 1 m about a centre of attraction at the origin, starting at its far end, by Kepler's equation.
+/// </summary>
 /// <param name="e">The eccentricity, from 0 to below 1.</param>
-/// <param name="period">How long a turn takes, in seconds.</param>
+/// <param name="period">The period, in seconds.</param>
 internal sealed class KeplerOrbit(double e, double period)
 {
     /// <summary>The eccentricity.</summary>
@@ -17,13 +19,13 @@ internal sealed class KeplerOrbit(double e, double period)
     /// <summary>The gravitational parameter of the centre, m^3/s^2.</summary>
     internal double Mu => Motion * Motion;
 
-    /// <summary>The pull.</summary>
+    /// <summary>The attraction.</summary>
     internal Force Pull => Force.Central("sun", Vector3D.Zero, Mu);
 
-    /// <summary>The velocity at the far end, where it begins.</summary>
+    /// <summary>The velocity at the far end, where it starts.</summary>
     internal Vector3D StartVelocity => new(0, -Motion * Math.Sqrt((1 - e) / (1 + e)), 0);
 
-    /// <summary>Where the body is.</summary>
+    /// <summary>Returns the position of the body.</summary>
     internal Vector3D Position(double seconds)
     {
         double mean = Math.PI + (Motion * seconds), anomaly = mean;
@@ -37,6 +39,6 @@ internal sealed class KeplerOrbit(double e, double period)
         return new Vector3D(Math.Cos(anomaly) - e, Math.Sqrt(1 - (e * e)) * Math.Sin(anomaly), 0);
     }
 
-    /// <summary>How fast a body moves at that distance from the centre, in m/s.</summary>
+    /// <summary>Returns the speed at a distance from the centre, in m/s.</summary>
     internal double SpeedAt(double distance) => Math.Sqrt(Mu * ((2 / distance) - 1));
 }

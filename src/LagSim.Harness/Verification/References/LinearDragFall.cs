@@ -7,16 +7,16 @@ namespace LagSim.Harness.Verification.References;
 /// <param name="k">Per second.</param>
 internal sealed class LinearDragFall(double gravity, double k)
 {
-    /// <summary>The velocity that no longer changes, in m/s.</summary>
+    /// <summary>The terminal velocity, in m/s.</summary>
     internal double Terminal => -gravity / k;
 
-    /// <summary>The velocity some time after it was v.</summary>
+    /// <summary>Returns the velocity at a time after a velocity v.</summary>
     internal double Speed(double v, double seconds) => Terminal + ((v - Terminal) * Math.Exp(-k * seconds));
 
-    /// <summary>The height some time after it was y, and the velocity v.</summary>
+    /// <summary>Returns the height at a time after a height y and a velocity v.</summary>
     internal double Height(double y, double v, double seconds) => y + (Terminal * seconds) + ((v - Terminal) / k * (1 - Math.Exp(-k * seconds)));
 
-    /// <summary>When the height is zero again, to a rounding, by bisection from the apex on; within 100 s.</summary>
+    /// <summary>Returns the time at which the height is zero again, to a rounding, by bisection from the apex on; within 100 s.</summary>
     internal double Landing(double y, double v)
     {
         double low = v > 0 ? Math.Log((v - Terminal) / -Terminal) / k : 0, high = 100;

@@ -7,13 +7,13 @@ namespace LagSim.Harness.Verification.References;
 /// <param name="k">Per metre.</param>
 internal sealed class QuadraticDragFall(double gravity, double k)
 {
-    /// <summary>The speed that no longer grows, in m/s.</summary>
+    /// <summary>The terminal speed, in m/s.</summary>
     internal double Terminal { get; } = Math.Sqrt(gravity / k);
 
-    /// <summary>How far what starts at rest has fallen some time later, in metres.</summary>
+    /// <summary>Returns the distance fallen from rest after a time, in metres.</summary>
     internal double Fallen(double seconds) => Terminal * Terminal / gravity * Math.Log(Math.Cosh(gravity * seconds / Terminal));
 
-    /// <summary>How long what starts at that height, upwards at that speed or at rest, takes to height zero, and the speed there.</summary>
+    /// <summary>Returns the time from a height, upwards at a speed or at rest, to height zero, and the speed there.</summary>
     internal (double Seconds, double Speed) Landing(double height, double up)
     {
         double apex = Terminal / gravity * Math.Atan(up / Terminal);

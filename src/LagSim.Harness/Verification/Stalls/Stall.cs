@@ -2,23 +2,23 @@ using System.Globalization;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>One thing that happens to one peer.</summary>
-/// <param name="Kind">What.</param>
-/// <param name="Player">Whose: 0 for the host, clients count from 1.</param>
-/// <param name="AtSeconds">When it begins, after all are in.</param>
-/// <param name="Seconds">How long it lasts.</param>
+/// <summary>One disturbance of one peer.</summary>
+/// <param name="Kind">The kind.</param>
+/// <param name="Player">The peer: 0 for the host, clients count from 1.</param>
+/// <param name="AtSeconds">The time at which it begins, in seconds after all peers are in.</param>
+/// <param name="Seconds">How long it lasts, in seconds.</param>
 public sealed record Stall(StallKind Kind, int Player, double AtSeconds, double Seconds)
 {
-    /// <summary>How often an address changes, while it does.</summary>
+    /// <summary>The interval between changes of an address.</summary>
     public const double ChangeSeconds = 10;
 
-    /// <summary>When it is over.</summary>
+    /// <summary>The time at which it is over, in seconds.</summary>
     public double EndSeconds => AtSeconds + Seconds;
 
-    /// <summary>Whether a client notices it itself: what befalls the host befalls all.</summary>
+    /// <summary>Whether it affects a client: what happens to the host affects all.</summary>
     public bool Touches(int client) => Player == 0 || Player == client;
 
-    /// <summary>All of it in a few words.</summary>
+    /// <summary>Returns a short description.</summary>
     public override string ToString()
     {
         string what = Kind switch

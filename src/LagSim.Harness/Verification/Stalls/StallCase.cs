@@ -6,25 +6,25 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>One drawn session: how many play over which links, how much they do, and what happens to whom.</summary>
-/// <remarks>A function of its seed alone.</remarks>
+/// <summary>One drawn session with stalls: the number of players, their links and rates of actions, and the stalls.</summary>
+/// <remarks>Determined by its seed.</remarks>
 public sealed class StallCase
 {
-    /// <summary>A peer stands still, or is gone, for 1 to 60 s.</summary>
+    /// <summary>The range of a stall: 1 to 60 s.</summary>
     private const double MinSeconds = 1;
     private const double MaxSeconds = 60;
 
-    /// <summary>Between two stalls of one peer it plays at least so long.</summary>
+    /// <summary>The least time between two stalls of one peer.</summary>
     private const double MinPause = 2;
 
-    /// <summary>What is drawn from: a host that is killed loses its world, so that is the rarest.</summary>
+    /// <summary>The kinds to draw from. A killed host loses its world, so that is the rarest.</summary>
     private static readonly StallKind[] Kinds =
     [
         StallKind.HostFrozen, StallKind.HostFrozen, StallKind.HostKilled, StallKind.ClientFrozen, StallKind.ClientFrozen, StallKind.ClientKilled,
         StallKind.ClientKilled, StallKind.PortChanges,
     ];
 
-    /// <summary>Draws it.</summary>
+    /// <summary>Draws the session of a seed.</summary>
     public StallCase(ulong seed)
     {
         Seed = seed;
@@ -44,7 +44,7 @@ public sealed class StallCase
             double at = random.NextDouble(3, 30);
             foreach (Stall before in stalls.Where(s => s.Player == player))
             {
-                bool isBoth = before.Kind != StallKind.PortChanges && kind != StallKind.PortChanges; // ports may change all the while
+                bool isBoth = before.Kind != StallKind.PortChanges && kind != StallKind.PortChanges; // ports may change at any time
                 at = isBoth ? Math.Max(at, before.EndSeconds + MinPause) : at;
             }
 
@@ -54,25 +54,25 @@ public sealed class StallCase
         Stalls = [.. stalls.OrderBy(s => s.AtSeconds)];
     }
 
-    /// <summary>What it is drawn from.</summary>
+    /// <summary>The seed.</summary>
     public ulong Seed { get; }
 
-    /// <summary>How many clients there are.</summary>
+    /// <summary>The number of clients.</summary>
     public int Clients { get; }
 
-    /// <summary>The link of each.</summary>
+    /// <summary>The link of each client.</summary>
     public LinkProfile Link { get; }
 
-    /// <summary>How many events each does a second, in the mean.</summary>
+    /// <summary>The mean number of events per second of each player.</summary>
     public double EventsPerSecond { get; }
 
-    /// <summary>What happens, by time.</summary>
+    /// <summary>The stalls, in order of time.</summary>
     public IReadOnlyList<Stall> Stalls { get; }
 
-    /// <summary>When the last of it is over.</summary>
+    /// <summary>The end of the last stall.</summary>
     public double EndSeconds => Stalls.Max(s => s.EndSeconds);
 
-    /// <summary>All of it in a few words.</summary>
+    /// <summary>Returns a short description.</summary>
     public override string ToString() => string.Create(
         CultureInfo.InvariantCulture, $"{Clients} clients, {Link.Name}, {EventsPerSecond:0.0} events/s each; {string.Join("; ", Stalls)}");
 }

@@ -5,7 +5,7 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>One client of a session with stalls, through all the sessions that it has when it is killed and started again.</summary>
+/// <summary>One client of a session with stalls, across all its restarts.</summary>
 internal sealed class StallClient
 {
     private readonly StallHostLog host;
@@ -19,31 +19,31 @@ internal sealed class StallClient
         coverage = new LogCoverage(host.AcceptedOf, index => index >= 5 && index < 5 + overlooked);
     }
 
-    /// <summary>Which client it is, from 1.</summary>
+    /// <summary>The client's index, from 1.</summary>
     internal int Address { get; }
 
-    /// <summary>The player's number that it got first.</summary>
+    /// <summary>The player's first number.</summary>
     internal int Number { get; set; }
 
-    /// <summary>The session that it has now.</summary>
+    /// <summary>The current session.</summary>
     internal ClientSession Session { get; private set; } = null!;
 
-    /// <summary>What it kept, as a program does in a file.</summary>
+    /// <summary>The pass, kept as a program keeps it in a file.</summary>
     internal PlayerPass Pass { get; private set; }
 
-    /// <summary>How many stalls befall it at the moment, the host's among them.</summary>
+    /// <summary>The number of current stalls that affect it, the host's among them.</summary>
     internal int Stalls { get; set; }
 
-    /// <summary>Since when it is waited for until it is up to date; null while it is not.</summary>
+    /// <summary>The time since which it is not up to date; null while it is.</summary>
     internal SimTime? Since { get; set; }
 
-    /// <summary>Which host it is to hear from, and how much of its log it is to have.</summary>
+    /// <summary>The host it must hear from, and the log entries it must have, to be up to date.</summary>
     internal (HostSession? Host, uint Length) Log { get; set; }
 
-    /// <summary>How many datagrams had come to it by then.</summary>
+    /// <summary>The number of datagrams that it had received by then.</summary>
     internal long Received { get; set; }
 
-    /// <summary>Why it was interrupted, each time.</summary>
+    /// <summary>The reasons of its interruptions.</summary>
     internal List<string> Interruptions { get; } = [];
 
     internal long Copies { get; private set; }
@@ -54,10 +54,10 @@ internal sealed class StallClient
 
     internal long Differed { get; private set; }
 
-    /// <summary>How many accepted events it was to hear of.</summary>
+    /// <summary>The number of accepted events that it should have received.</summary>
     internal long Expected { get; private set; }
 
-    /// <summary>Of how many of those it did not.</summary>
+    /// <summary>The number of those that it did not receive.</summary>
     internal long Lost { get; private set; }
 
     internal void Follow(ClientSession session)
@@ -71,7 +71,7 @@ internal sealed class StallClient
         session.StateCommitted += state => states.Add((session.World!.Simulation.Start, state.Time, state.StateHash));
     }
 
-    /// <summary>At the end: holds what it had against what the hosts had.</summary>
+    /// <summary>Compares its records with the hosts', at the end.</summary>
     internal void Compare()
     {
         (Expected, Lost) = coverage.Count();

@@ -6,10 +6,12 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>What the hosts of one drawn session said: the log and the committed states of each, one after the other if one was killed.</summary>
+/// <summary>
+/// What the hosts of one drawn session said: the log and the committed states of each, one after the other if one was killed.
+/// </summary>
 internal sealed class StallHostLog
 {
-    private readonly Dictionary<(SimTime Start, SimTime Time), ulong> states = []; // a host that was started anew has a world of another start
+    private readonly Dictionary<(SimTime Start, SimTime Time), ulong> states = []; // a restarted host has a world with another start
     private readonly List<(HostSession Host, HashSet<uint> Log)> logs = [];
 
     /// <summary>How many lines of their logs are accepted events, of all hosts.</summary>

@@ -4,30 +4,36 @@ using LagSim.Net.Strategies;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>Which sessions with stalls are drawn.</summary>
+/// <summary>The options of random sessions with stalls.</summary>
 public sealed record StallOptions
 {
-    /// <summary>How many sessions; default 200.</summary>
+    /// <summary>The number of sessions; default 200.</summary>
     public int Sessions { get; init; } = 200;
 
-    /// <summary>The first session's seed; each further one has the next. Default 1.</summary>
+    /// <summary>The seed of the first session. Each further one has the next. Default 1.</summary>
     public ulong Seed { get; init; } = 1;
 
-    /// <summary>How many sessions are played at a time; default as many as there are processors.</summary>
+    /// <summary>The number of sessions played at a time; default the number of processors.</summary>
     public int Workers { get; init; } = Environment.ProcessorCount;
 
-    /// <summary>What peers do with late events; another than the default is to see that the check finds what does not agree.</summary>
+    /// <summary>The strategy of the peers for late events. Another than the default shows that the check finds differences.</summary>
     public string Strategy { get; init; } = LateEventStrategies.Default;
 
-    /// <summary>Whether who is killed keeps its pass; without, it is to be seen that the check finds who comes back as somebody else.</summary>
+    /// <summary>
+    /// Whether a killed client keeps its pass. Without it, the check must find that the client comes back as another player.
+    /// </summary>
     public bool KeepsPasses { get; init; } = true;
 
-    /// <summary>For how long who lost the other asks to be let in again, in seconds; 0 is to see that the check finds who does not come back.</summary>
+    /// <summary>
+    /// How long a client that lost its host asks to rejoin, in seconds. With 0, the check must find that the client does not come back.
+    /// </summary>
     public double RejoinSeconds { get; init; } = 120;
 
-    /// <summary>How many of its accepted entries of the log each client's check overlooks, from the 5th on; to see that what is lost is found.</summary>
+    /// <summary>
+    /// The number of accepted log entries that each client's check ignores, from the 5th on, to show that lost events are found.
+    /// </summary>
     public int Overlooked { get; init; }
 
-    /// <summary>Called with each session that a client opens, before it is stepped; for tests, to put in a fault.</summary>
+    /// <summary>Called with each session that a client opens, before its first step, for tests that inject faults.</summary>
     internal Action<ClientSession>? PrepareClient { get; init; }
 }

@@ -3,48 +3,52 @@ using System.Linq;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>What came of one session with stalls.</summary>
+/// <summary>The result of one session with stalls.</summary>
 public sealed record StallOutcome
 {
-    /// <summary>What was drawn.</summary>
+    /// <summary>The session as drawn.</summary>
     public required StallCase Case { get; init; }
 
-    /// <summary>How many committed states of clients were held against the host's.</summary>
+    /// <summary>The number of committed states of clients that were compared with the host's.</summary>
     public long Compared { get; init; }
 
-    /// <summary>How many of them were not the host's.</summary>
+    /// <summary>The number of those that differ from the host's.</summary>
     public long Differed { get; init; }
 
-    /// <summary>How many accepted events the log of a client was to have, from each copy that it got up to where it came, over all clients.</summary>
+    /// <summary>
+    /// The number of accepted events that clients' logs should have, from each snapshot on to where each log ends, summed over all clients.
+    /// </summary>
     public long Expected { get; init; }
 
-    /// <summary>How many of those it did not have, whether a later copy made up for them or not.</summary>
+    /// <summary>The number of those that are missing, whether or not a later snapshot made up for them.</summary>
     public long Lost { get; init; }
 
-    /// <summary>Accepted events in the logs of all hosts there were.</summary>
+    /// <summary>The number of accepted events in the logs of all hosts.</summary>
     public long Accepted { get; init; }
 
-    /// <summary>Events in those logs that the host refused.</summary>
+    /// <summary>The number of refused events in those logs.</summary>
     public long Refused { get; init; }
 
-    /// <summary>Those of them that came too late: over a link that takes longer than the host's history, that is nearly all of them.</summary>
+    /// <summary>
+    /// The number of events refused as too late. Over a link with more latency than the host's history, that is nearly all.
+    /// </summary>
     public long RefusedTooLate { get; init; }
 
-    /// <summary>How often a client got a fresh copy of the world.</summary>
+    /// <summary>The number of fresh snapshots that clients got.</summary>
     public long Copies { get; init; }
 
-    /// <summary>How often a host that had fallen silent was heard again before anything was lost.</summary>
+    /// <summary>How often a silent host was heard again before anything was lost.</summary>
     public long Regained { get; init; }
 
-    /// <summary>For each stall and client that it touches, how long after its end that client was up to date again, in seconds.</summary>
+    /// <summary>For each stall and each client it affects, the seconds from its end until that client was up to date again.</summary>
     public IReadOnlyList<double> RecoverySeconds { get; init; } = [];
 
-    /// <summary>What is not as it should be, as sentences.</summary>
+    /// <summary>The failures, as sentences.</summary>
     public IReadOnlyList<string> Failures { get; init; } = [];
 
-    /// <summary>The longest of the recoveries; 0 without any.</summary>
+    /// <summary>The longest recovery, in seconds; 0 without any.</summary>
     public double WorstSeconds => RecoverySeconds.DefaultIfEmpty(0).Max();
 
-    /// <summary>Whether all is as it should be.</summary>
+    /// <summary>Whether the session passes.</summary>
     public bool IsGood => Failures.Count == 0 && Compared > 0 && Differed == 0 && Lost == 0;
 }

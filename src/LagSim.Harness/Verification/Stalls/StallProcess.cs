@@ -8,7 +8,7 @@ using System.Threading;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>The tool as a process of its own, with what it says kept: a host, a client or a relay.</summary>
+/// <summary>The tool in its own process, with its output recorded: a host, a client or a relay.</summary>
 internal sealed class StallProcess : IDisposable
 {
     private readonly Process process;
@@ -16,9 +16,9 @@ internal sealed class StallProcess : IDisposable
     private readonly List<string> lines = [];
     private readonly StringBuilder output = new();
 
-    /// <summary>Starts it.</summary>
+    /// <summary>Starts the process.</summary>
     /// <param name="tool">The program, and the arguments that it needs before its own.</param>
-    /// <param name="arguments">Its own.</param>
+    /// <param name="arguments">The arguments of the tool.</param>
     internal StallProcess(IReadOnlyList<string> tool, IEnumerable<string> arguments)
     {
         ProcessStartInfo start = new(tool[0]) { RedirectStandardOutput = true, RedirectStandardError = true, RedirectStandardInput = true };
@@ -41,7 +41,7 @@ internal sealed class StallProcess : IDisposable
         process.BeginOutputReadLine();
     }
 
-    /// <summary>What it said by now, line by line, results and progress.</summary>
+    /// <summary>The output so far, line by line, results and progress.</summary>
     internal string[] Lines
     {
         get
@@ -53,7 +53,7 @@ internal sealed class StallProcess : IDisposable
         }
     }
 
-    /// <summary>What it wrote to its standard output.</summary>
+    /// <summary>The output to stdout.</summary>
     internal string Output
     {
         get
@@ -67,22 +67,22 @@ internal sealed class StallProcess : IDisposable
 
     internal bool HasExited => process.HasExited;
 
-    /// <summary>Sends it a signal by its name, as <c>STOP</c>.</summary>
+    /// <summary>Sends a signal by name, as <c>STOP</c>.</summary>
     internal void Signal(string name)
     {
         using Process kill = Process.Start("kill", [$"-{name}", process.Id.ToString(CultureInfo.InvariantCulture)]);
         kill.WaitForExit();
     }
 
-    /// <summary>Ends it at once, without a goodbye, and waits until it is gone.</summary>
+    /// <summary>Kills the process without a goodbye, and waits until it is gone.</summary>
     internal void Kill()
     {
         process.Kill();
         process.WaitForExit();
     }
 
-    /// <summary>Waits for a line that begins so.</summary>
-    /// <returns>The rest of the line; null if it did not come in time, or the process has ended.</returns>
+    /// <summary>Waits for a line with a prefix.</summary>
+    /// <returns>The rest of the line; null if it did not arrive in time, or if the process has ended.</returns>
     internal string? Await(string beginning, double seconds, CancellationToken cancellation)
     {
         for (Stopwatch watch = Stopwatch.StartNew(); watch.Elapsed.TotalSeconds < seconds;)
@@ -105,7 +105,7 @@ internal sealed class StallProcess : IDisposable
         return null;
     }
 
-    /// <summary>Waits for its end, and for all that it said; false if it goes on.</summary>
+    /// <summary>Waits for the end of the process and all its output; returns false if it still runs.</summary>
     internal bool AwaitEnd(double seconds, CancellationToken cancellation)
     {
         for (Stopwatch watch = Stopwatch.StartNew(); !process.HasExited;)

@@ -13,11 +13,15 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>Plays a drawn session again with real processes: stopped, killed and started again, and behind a relay that changes its ports.</summary>
-/// <remarks>For systems with signals. What the processes do depends on their clocks: whether they agree does not.</remarks>
+/// <summary>
+/// Replays a drawn session with real processes that are stopped, killed and restarted, behind a relay that changes its ports.
+/// </summary>
+/// <remarks>For systems with signals. The processes' actions depend on their clocks; whether they agree does not.</remarks>
 public sealed class StallProcessRun : IDisposable
 {
-    /// <summary>How long processes may take to start and to get in, on links that take seconds and behind ports that change meanwhile.</summary>
+    /// <summary>
+    /// How long processes may take to start and join, on links of seconds and behind changing ports.
+    /// </summary>
     private const double StartSeconds = 180;
 
     private const double LookSeconds = 0.5;
@@ -31,23 +35,22 @@ public sealed class StallProcessRun : IDisposable
     private readonly Stopwatch watch = new();
     private readonly List<StallProcess> all = [];
     private readonly List<StallProcess> hosts = [];
-    private readonly List<StallProcess>[] clients; // by number less one, each with all its lives
+    private readonly List<StallProcess>[] clients; // by number less one, each with all its restarts
     private readonly List<(double Seconds, string Text)>[] actions;
     private readonly List<string> failures = [];
     private readonly UdpRelay[] relays; // of each client
-    private readonly string?[] numbers; // that they got first
+    private readonly string?[] numbers; // the first number that each client got
     private readonly Action<double, string?>? progress;
     private string port = "0";
 
-    /// <summary>Makes ready to play a session.</summary>
-    /// <param name="drawn">Which.</param>
-    /// <param name="recoverySeconds">How long it takes at worst until all are up to date after the last stall, as far as is known.</param>
+    /// <summary>Prepares a session.</summary>
+    /// <param name="drawn">The session.</param>
+    /// <param name="recoverySeconds">The longest known time until all peers are up to date after the last stall, in seconds.</param>
     /// <param name="tool">The tool's program, and the arguments that it needs before its own.</param>
-    /// <param name="folder">Where passes are kept; it must be there.</param>
+    /// <param name="folder">An existing folder for passes.</param>
     /// <param name="cancellation">Ends it early.</param>
-    /// <param name="progress">
-    /// Told, on the thread that plays, how many seconds of <see cref="SecondsOf"/> have gone by, and what happens then where anything does; null for nobody.
-    /// </param>
+    /// <param name="progress">Called on the playing thread with the seconds of <see cref="SecondsOf"/> that have passed, and a description
+    /// of anything that happens; may be null.</param>
     public StallProcessRun(
         StallCase drawn, double recoverySeconds, IReadOnlyList<string> tool, string folder, CancellationToken cancellation, Action<double, string?>? progress = null)
     {
@@ -67,16 +70,18 @@ public sealed class StallProcessRun : IDisposable
         actions = [.. clients.Select(_ => Draw())];
     }
 
-    /// <summary>How long a session is played, in seconds from the moment that all are in: some more until the processes have started and got in.</summary>
-    /// <param name="drawn">Which session.</param>
-    /// <param name="recoverySeconds">How long it takes at worst until all are up to date after the last stall, as far as is known.</param>
+    /// <summary>
+    /// Returns how long a session is played, in seconds, once all are in. Processes need more time to start and join.
+    /// </summary>
+    /// <param name="drawn">The session.</param>
+    /// <param name="recoverySeconds">The longest known time until all peers are up to date after the last stall, in seconds.</param>
     public static double SecondsOf(StallCase drawn, double recoverySeconds)
     {
         ArgumentNullException.ThrowIfNull(drawn);
         return Math.Ceiling(drawn.EndSeconds + (1.5 * recoverySeconds) + 30);
     }
 
-    /// <summary>Plays it.</summary>
+    /// <summary>Plays the session.</summary>
     public StallProcessOutcome Play()
     {
         if (Start())
@@ -106,7 +111,7 @@ public sealed class StallProcessRun : IDisposable
         return new StallProcessOutcome(drawn, compared, differed, failures);
     }
 
-    /// <summary>Ends what still runs.</summary>
+    /// <summary>Kills the processes that still run.</summary>
     public void Dispose()
     {
         foreach (IDisposable part in all.Concat<IDisposable>(relays.OfType<UdpRelay>()))
@@ -154,7 +159,7 @@ public sealed class StallProcessRun : IDisposable
         return host;
     }
 
-    /// <summary>One that comes later does what is left to be done a while after that.</summary>
+    /// <summary>Schedules the remaining actions of a client that joins late, some time after that.</summary>
     private void StartClient(int n)
     {
         double from = clients[n].Count == 0 ? 3 : watch.Elapsed.TotalSeconds + 15;
@@ -260,7 +265,7 @@ public sealed class StallProcessRun : IDisposable
         }
     }
 
-    /// <summary>Holds every state that a client printed against those that a host printed of the same time.</summary>
+    /// <summary>Compares every state that a client printed with the host's of the same time.</summary>
     private (long Compared, long Differed) Compare()
     {
         ILookup<string, string> theirs = hosts.SelectMany(States).ToLookup(s => s.Time, s => s.Hashes);

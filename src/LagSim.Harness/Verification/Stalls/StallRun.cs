@@ -15,16 +15,16 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>Plays one session with stalls in virtual time, and looks at what every peer had of it.</summary>
+/// <summary>Plays one session with stalls in virtual time, and checks every peer's states and events.</summary>
 internal sealed class StallRun
 {
-    /// <summary>What waits at a port while nobody takes it: about as many datagrams as a socket of Linux keeps.</summary>
+    /// <summary>The number of datagrams that a port holds while its process stalls, about as many as a socket of Linux.</summary>
     private const int PortRoom = 256;
 
-    /// <summary>How long peers may take to get in at first, in seconds, and to be up to date after the last stall.</summary>
+    /// <summary>How long peers may take to join at first, and to be up to date after the last stall, in seconds.</summary>
     private const double Timeout = 180;
 
-    /// <summary>All play on for so long after the last has recovered.</summary>
+    /// <summary>How long play continues after the last recovery.</summary>
     private const double PlayOn = 10;
 
     private readonly StallCase drawn;
@@ -38,10 +38,10 @@ internal sealed class StallRun
     private readonly IDatagramPort[] ports;
     private readonly SkewedClock[] clocks;
     private readonly List<StallClient> clients = [];
-    private readonly HashSet<int> dead = []; // killed, and not started again yet
+    private readonly HashSet<int> dead = []; // killed, and not restarted yet
     private readonly List<double> recoveries = [];
     private readonly List<string> failures = [];
-    private ulong sessions; // that were opened, for their numbers
+    private ulong sessions; // the number opened so far, for their numbers
     private int addresses = 1000; // the next new one
 
     internal StallRun(StallCase drawn, StallOptions options, CancellationToken cancellation)
@@ -153,7 +153,7 @@ internal sealed class StallRun
         }
     }
 
-    /// <summary>Until all have heard of all that was done, and the last of it is committed.</summary>
+    /// <summary>Waits until all peers have received all events, and the last one is committed.</summary>
     private void Settle()
     {
         if (!RunUntil(
@@ -240,7 +240,7 @@ internal sealed class StallRun
                 steps.Replace(stall.Player, NewClient(clients[stall.Player - 1]), ports[stall.Player]);
                 break;
             default:
-                return; // each change of the address was over at once
+                return; // each change of the address was instantaneous
         }
 
         foreach (StallClient client in clients.Where(c => stall.Touches(c.Address)))
@@ -259,7 +259,7 @@ internal sealed class StallRun
         }
     }
 
-    /// <summary>From now on it is waited for until a client is up to date again.</summary>
+    /// <summary>Starts to wait until a client is up to date again.</summary>
     private void Await(StallClient client)
     {
         if (client.Stalls == 0)
@@ -301,12 +301,14 @@ internal sealed class StallRun
     private HostOptions Options() => new()
     {
         Cancellation = cancellation,
-        PlayerBudget = null, // who is gone stood still, was killed or moved, and was not sent away
+        PlayerBudget = null, // peers here leave by stalls, kills and new addresses, never by a budget
         Strategy = LateEventStrategies.OfName(options.Strategy),
         RejoinTime = SimDuration.FromSeconds(options.RejoinSeconds),
     };
 
-    /// <summary>Notes who is up to date again: in, reached where it is now, and with all that the host's log had when its stall was over.</summary>
+    /// <summary>
+    /// Records which clients are up to date again: joined, at the present, and with everything in the host's log at the end of the stall.
+    /// </summary>
     private void Look()
     {
         foreach (StallClient client in clients)

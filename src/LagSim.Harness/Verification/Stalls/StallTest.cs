@@ -6,15 +6,17 @@ using System.Threading.Tasks;
 
 namespace LagSim.Harness.Verification.Stalls;
 
-/// <summary>Drawn sessions in which peers stand still, are killed and started again, and change their addresses: play goes on, or resumes by itself.</summary>
+/// <summary>
+/// Runs random sessions in which peers stall, are killed and restarted, and change address. Play must continue, or resume by itself.
+/// </summary>
 /// <remarks>In virtual time. Each session is played on one thread from its seed, so every figure is the same in every run.</remarks>
 public static class StallTest
 {
     /// <summary>Plays all sessions, several at a time.</summary>
-    /// <param name="options">Which.</param>
-    /// <param name="progress">Called with each outcome as it is there, from any thread but never from two at once; null for nobody.</param>
+    /// <param name="options">The sessions to play.</param>
+    /// <param name="progress">Called with each outcome as it is ready, on any thread but never on two at once; may be null.</param>
     /// <param name="cancellation">Ends it early, with what was done by then.</param>
-    /// <returns>One outcome a session, in the order of their seeds.</returns>
+    /// <returns>One outcome for each session, in the order of seeds.</returns>
     public static IReadOnlyList<StallOutcome> Run(StallOptions options, Action<StallOutcome>? progress = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(options);
@@ -31,7 +33,7 @@ public static class StallTest
             {
                 try
                 {
-                    // The token of all sessions would keep these.
+                    // A token linked once for all sessions would keep them alive.
                     using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
                     StallOutcome outcome = new StallRun(new StallCase(options.Seed + (ulong)n), options, stop.Token).Play();
                     outcomes[n] = outcome;

@@ -103,7 +103,7 @@ internal sealed class HostLoss(
         else if (leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true
             && now - attempts.Began <= LongestComing)
         {
-            AskAgain(now); // newer joiners pushed it out, or it stalled, or this is another host
+            AskAgain(now); // newer clients pushed it out, or it stalled, or this is another host
         }
         else
         {

@@ -88,7 +88,7 @@ internal sealed class JoinRequests(
             + " Both need the same version of LagSim.",
         RefusalReason.Banned => "it lets nobody in from this address.",
         RefusalReason.TooManyFromOneAddress =>
-            "as many as may join from one address have joined from this one (the host's MaxJoinersPerAddress).",
+            "as many as may join from one address have joined from this one (the host's MaxClientsPerAddress).",
         _ => $"reason {(int)reason}.",
     };
 

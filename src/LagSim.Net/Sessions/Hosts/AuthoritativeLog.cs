@@ -19,7 +19,7 @@ internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, E
     /// <summary>The newest entry that no later one supersedes.</summary>
     internal uint LastUrgent { get; private set; }
 
-    /// <summary>The time before which no later joiner needs an event: both the watermark and the world have passed it.</summary>
+    /// <summary>The time before which no client that joins later needs an event: both the watermark and the world have passed it.</summary>
     internal SimTime SettledTo { get; private set; } = SimTime.MinValue;
 
     /// <param name="external">The event.</param>

@@ -3,7 +3,9 @@ using System.Runtime.InteropServices;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>What is used of Chipmunk's C interface (chipmunk/chipmunk.h of version 7), whose numbers are doubles on 64-bit systems.</summary>
+/// <summary>
+/// The parts of Chipmunk's C interface in use (chipmunk/chipmunk.h of version 7). Its numbers are doubles on 64-bit systems.
+/// </summary>
 internal static unsafe class ChipmunkLibrary
 {
     private static readonly NativeFunctions Library = new("libchipmunk.so.7", "libchipmunk.so", "libchipmunk.7.dylib", "libchipmunk.dylib", "chipmunk.dll");
@@ -56,13 +58,15 @@ internal static unsafe class ChipmunkLibrary
         (delegate* unmanaged[Cdecl]<nint, double>)Library.Find("cpBodyGetAngularVelocity");
     internal static readonly delegate* unmanaged[Cdecl]<nint, void> ShapeFree = (delegate* unmanaged[Cdecl]<nint, void>)Library.Find("cpShapeFree");
 
-    /// <summary>Why it cannot be used; null if it can.</summary>
+    /// <summary>The reason why it cannot be used; null if it can.</summary>
     internal static string? Missing { get; } =
         !Library.IsThere ? "Chipmunk is not there: apt-get install libchipmunk7 (Debian)"
         : !Environment.Is64BitProcess ? "Chipmunk is there in single precision, as on all 32-bit systems, and double is needed"
         : null;
 
-    /// <summary>A build with assertions, as Debian's is, says so on stdout when it makes its first space; results belong there and nothing else.</summary>
+    /// <summary>
+    /// A build with assertions, such as Debian's, prints a notice to stdout when it makes its first space, where only results belong.
+    /// </summary>
     internal static void Begin() => Greeting.Value.ToString();
 
     private static readonly Lazy<bool> Greeting = new(() =>

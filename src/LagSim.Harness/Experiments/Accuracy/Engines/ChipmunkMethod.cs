@@ -7,7 +7,8 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>
-/// Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no damping, no sleeping).
+/// Chipmunk 7 through its C interface, for scenes that are plane: circles and thick segments, all else by default (10 iterations, no
+/// damping, no sleeping).
 /// </summary>
 /// <remarks>
 /// It multiplies the elasticities of two shapes, and their frictions, where LagSim takes the lesser; they are set so that the products are
@@ -26,7 +27,7 @@ internal sealed class ChipmunkMethod : FlatEngine
 
     private sealed unsafe class ChipmunkRun : FlatRun
     {
-        /// <summary>Walls are this thick, so that nothing gets through them in a step.</summary>
+        /// <summary>The thickness of walls, so that nothing tunnels through in a step.</summary>
         private const double Thick = 5;
 
         private readonly nint[] bodies;
@@ -47,7 +48,7 @@ internal sealed class ChipmunkMethod : FlatEngine
                 ChipmunkLibrary.SpaceSetCollisionSlop(space, Scene.ContactTolerance);
             }
 
-            double elasticity = Math.Sqrt(Scene.Bodies[0].Spec.Restitution); // that of two balls is its square
+            double elasticity = Math.Sqrt(Scene.Bodies[0].Spec.Restitution); // two balls multiply it
             double friction = Math.Sqrt(Scene.Bodies[0].Spec.Friction);
             foreach (StaticPlane plane in Scene.Planes)
             {
@@ -112,7 +113,7 @@ internal sealed class ChipmunkMethod : FlatEngine
             return (v.X, v.Y);
         }
 
-        /// <summary>A long segment behind the surface, so thick that its rounded edge is the surface.</summary>
+        /// <summary>A long segment behind the surface, with its rounded edge on the surface.</summary>
         private void AddWall(StaticPlane plane, double elasticity, double friction)
         {
             if (Line(plane, Thick) is ({ } from, { } to))

@@ -2,15 +2,15 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>An engine of two dimensions, for scenes that are plane.</summary>
+/// <summary>A two-dimensional engine, for plane scenes.</summary>
 internal abstract class FlatEngine : SteppedEngine
 {
     public override string? Excludes(WorkScene scene) => scene.Flat(Vector3D.Zero, 0) is null ? "it is two-dimensional, and the scene is not" : null;
 
-    /// <summary>A world of the engine in the scene's plane.</summary>
+    /// <summary>Builds a world of the engine in the scene's plane.</summary>
     internal abstract class FlatRun(WorkScene work, double step) : Run(work, step)
     {
-        /// <summary>Half the length of a wall in metres: far beyond where anything goes.</summary>
+        /// <summary>Half the length of a wall, in metres: far beyond the reach of any body.</summary>
         private const double Half = 1000;
 
         public override Vector3D Position(int body) => Unflat(FlatPosition(body), body);
@@ -25,13 +25,15 @@ internal abstract class FlatEngine : SteppedEngine
 
         protected abstract (double X, double Y) FlatVelocity(int body);
 
-        /// <summary>Where a body starts.</summary>
+        /// <summary>Returns the start of a body.</summary>
         protected (double X, double Y) FlatStart(int body) => Work.Flat(Scene.Bodies[body].Position, body)!.Value;
 
-        /// <summary>A direction in the scene's plane.</summary>
+        /// <summary>Returns a direction in the scene's plane.</summary>
         protected (double X, double Y) FlatDirection(in Vector3D direction) => Work.FlatNormal(direction);
 
-        /// <summary>The ends of a long line so far behind a surface; null if the surface is the scene's plane itself.</summary>
+        /// <summary>
+        /// Returns the ends of a long line at some depth behind a surface; null if the surface is the scene's plane itself.
+        /// </summary>
         protected ((double X, double Y) From, (double X, double Y) To)? Line(StaticPlane plane, double behind)
         {
             (double x, double y) = Work.FlatNormal(plane.Normal);

@@ -8,17 +8,17 @@ using MathNet.Numerics.OdeSolvers;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>MathNet.Numerics' fourth-order Runge-Kutta, as who needs an integrator would use it.</summary>
+/// <summary>MathNet.Numerics' fourth-order Runge-Kutta, used as an application would use it.</summary>
 /// <remarks>
-/// It integrates; contacts are not in it. Here each body is a system of its own, one call a step. A step that ends beyond a surface is called again with half
-/// the time, 60 times by bisection, until the touch is found to a rounding; there the velocity is reflected, and what is left of the step is done. So bodies
-/// that meet each other are left out.
+/// It is an integrator without contacts. Here each body is a system of its own, with one call a step. A step that ends beyond a surface is
+/// repeated with half the time, 60 times by bisection, until the touch is found to a rounding. There the velocity is reflected, and the
+/// rest of the step is done. Scenes in which bodies meet each other are left out.
 /// </remarks>
 internal sealed class MathNetMethod : SteppedEngine
 {
     private const int Halvings = 60;
 
-    static MathNetMethod() => Control.UseManaged(); // native providers are looked for at first use, which takes long
+    static MathNetMethod() => Control.UseManaged(); // the search for native providers at first use takes long
 
     public override string Name => "MathNet RungeKutta4";
 

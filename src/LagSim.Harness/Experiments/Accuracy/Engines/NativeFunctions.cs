@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>A shared library that is looked for when it is wanted, and need not be there.</summary>
+/// <summary>An optional shared library, loaded on demand.</summary>
 internal sealed class NativeFunctions
 {
     private readonly nint handle;
@@ -23,7 +23,7 @@ internal sealed class NativeFunctions
     /// <summary>Whether the library was found.</summary>
     internal bool IsThere => handle != 0;
 
-    /// <summary>The address of a function; zero where the library is missing.</summary>
-    /// <exception cref="EntryPointNotFoundException">The library is there and has no such function.</exception>
+    /// <summary>Returns the address of a function; zero where the library is missing.</summary>
+    /// <exception cref="EntryPointNotFoundException">The library exists but has no such function.</exception>
     internal nint Find(string function) => IsThere ? NativeLibrary.GetExport(handle, function) : 0;
 }

@@ -3,7 +3,7 @@ using System;
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>
-/// While it lasts, what native code prints to C's <c>stdout</c> is thrown away. What .NET prints is not: it does not go that way. On Linux with glibc and on
+/// Discards what native code prints to C's <c>stdout</c> while it lasts. Output of .NET is not affected. Works on Linux with glibc and on
 /// macOS; elsewhere it does nothing.
 /// </summary>
 internal sealed unsafe class NativeSilence : IDisposable
@@ -19,7 +19,7 @@ internal sealed unsafe class NativeSilence : IDisposable
             return;
         }
 
-        // C's stdout is a variable there, which may be assigned to; the file descriptor below it stays everybody's.
+        // C's stdout is an assignable variable there. The file descriptor below it stays as it is for all other code.
         delegate* unmanaged[Cdecl]<byte*, byte*, nint> open = (delegate* unmanaged[Cdecl]<byte*, byte*, nint>)library.Find("fopen");
         nint nowhere;
         fixed (byte* path = "/dev/null"u8, mode = "w"u8)

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>What is used of ODE's C interface (ode/ode.h of version 0.16), in double precision.</summary>
+/// <summary>The parts of ODE's C interface in use (ode/ode.h of version 0.16), in double precision.</summary>
 /// <remarks>A vector of ODE has four numbers, of which the last is padding; a matrix twelve.</remarks>
 internal static unsafe class OdeLibrary
 {
@@ -65,7 +65,9 @@ internal static unsafe class OdeLibrary
     /// <summary>dContactBounce.</summary>
     internal const int ContactBounce = 4;
 
-    /// <summary>dContactApprox1: friction goes with what presses, in a pyramid about Coulomb's cone, and is no fixed force.</summary>
+    /// <summary>
+    /// dContactApprox1: friction is proportional to the normal force, as a pyramid about Coulomb's cone, and no fixed force.
+    /// </summary>
     internal const int ContactApprox1 = 0x7000;
 
     private static readonly delegate* unmanaged[Cdecl]<uint, int> Init = (delegate* unmanaged[Cdecl]<uint, int>)Library.Find("dInitODE2");
@@ -77,17 +79,19 @@ internal static unsafe class OdeLibrary
         (delegate* unmanaged[Cdecl]<delegate* unmanaged[Cdecl]<int, byte*, nint, void>, void>)Library.Find("dSetMessageHandler");
     private static readonly delegate* unmanaged[Cdecl]<byte*> GetConfiguration = (delegate* unmanaged[Cdecl]<byte*>)Library.Find("dGetConfiguration");
 
-    /// <summary>Why it cannot be used; null if it can.</summary>
+    /// <summary>The reason why it cannot be used; null if it can.</summary>
     internal static string? Missing { get; } = Check();
 
-    /// <summary>Before a run: random numbers from the start, so that every run of a scene is the same, and no messages on stderr.</summary>
+    /// <summary>
+    /// Prepares a run: resets the random numbers, so that every run of a scene is the same, and silences messages on stderr.
+    /// </summary>
     internal static void Begin()
     {
         RandSetSeed(0);
         SetMessageHandler(&Ignore);
     }
 
-    /// <summary>Each thread that steps worlds has data of its own.</summary>
+    /// <summary>Allocates ODE's data of this thread. Each thread that steps worlds needs its own.</summary>
     internal static void UseThread() => AllocateForThread(uint.MaxValue);
 
     [UnmanagedCallersOnly(CallConvs = [typeof(CallConvCdecl)])]

@@ -15,7 +15,7 @@ namespace LagSim.Harness.Experiments.Accuracy.Engines;
 /// no automatic disabling (its default), no damping (its default). A force is added before each step. <c>dWorldQuickStep</c> takes contacts
 /// in a random order; its seed is the same for every run.
 /// </remarks>
-/// <param name="isDirect">Whether it steps by <c>dWorldStep</c>.</param>
+/// <param name="isDirect">Whether it uses <c>dWorldStep</c>.</param>
 internal sealed class OdeMethod(bool isDirect = false) : SteppedEngine
 {
     private const int MaxContactsOfDirectSolver = 64;
@@ -143,7 +143,9 @@ internal sealed class OdeMethod(bool isDirect = false) : SteppedEngine
             OdeLibrary.JointAttach(OdeLibrary.JointCreateContact(run.world, run.contacts, &contact), a, b);
         }
 
-        /// <summary>Restitution and friction of a part: bodies are counted first, then planes, then static spheres.</summary>
+        /// <summary>
+        /// Returns the restitution and friction of a part. Parts are numbered: bodies first, then planes, then static spheres.
+        /// </summary>
         private (double Restitution, double Friction) Surface(int part)
         {
             int plane = part - bodies.Length, sphere = plane - Scene.Planes.Count;

@@ -5,7 +5,9 @@ using LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
-/// <summary>The engines that come as packages, which not every registry has: built with <c>-p:WithPeers=true</c>, and named as missing without.</summary>
+/// <summary>
+/// The engines that come as packages, which some registries lack. Built with <c>-p:WithPeers=true</c>, and reported as missing otherwise.
+/// </summary>
 internal static class PackageEngines
 {
     internal static IReadOnlyList<IWorkMethod> All { get; } =
@@ -15,7 +17,7 @@ internal static class PackageEngines
         [new NotBuilt("Jitter2", "jitter", "Jitter2.Double"), new NotBuilt("BepuPhysics", "bepu", "BepuPhysics"),
             new NotBuilt("Box2D.NET", "box2d", "Box2D.NET")];
 
-    /// <summary>An engine that this build does not have: a name, and what to do about it.</summary>
+    /// <summary>An engine that this build does not have: its name, and how to get it.</summary>
     private sealed class NotBuilt(string name, string engine, string package) : SteppedEngine
     {
         public override string Name => name;

@@ -7,7 +7,8 @@ using LagSim.Scenes;
 namespace LagSim.Harness.Experiments.Accuracy.Engines;
 
 /// <summary>
-/// A physics engine, or an integrator, that goes in steps of equal length, which are swept. A new one says who it is and how a <see cref="Run"/> of it steps.
+/// A physics engine or integrator with steps of equal length, which are swept. A new one needs a name and a <see cref="Run"/> that steps
+/// it.
 /// </summary>
 internal abstract class SteppedEngine : IWorkMethod
 {
@@ -28,7 +29,7 @@ internal abstract class SteppedEngine : IWorkMethod
         return run;
     }
 
-    /// <summary>The steps a second to sweep, from coarse to fine.</summary>
+    /// <summary>The step rates to sweep, in steps per second, from coarse to fine.</summary>
     protected virtual IReadOnlyList<double> Rates(WorkScene scene) => scene.EngineRates;
 
     /// <summary>Builds a world of the scene.</summary>
@@ -71,7 +72,7 @@ internal abstract class SteppedEngine : IWorkMethod
         /// <summary>One step.</summary>
         protected abstract void Step();
 
-        /// <summary>The force besides gravity on a body where the step begins, in newtons.</summary>
+        /// <summary>Returns the force besides gravity on a body at the beginning of the step, in newtons.</summary>
         protected Vector3D Force(int body)
         {
             double mass = Scene.Bodies[body].Spec.Mass;
@@ -79,11 +80,13 @@ internal abstract class SteppedEngine : IWorkMethod
         }
 
         /// <summary>
-        /// The friction of a ball at a surface by LagSim's rule, the lesser of the two; all balls of a scene have the same.
+        /// Returns the friction of a ball at a surface by LagSim's rule, the lesser of the two. All balls of a scene have the same.
         /// </summary>
         protected double FrictionAt(StaticPlane plane) => Math.Min(plane.Friction, Scene.Bodies[0].Spec.Friction);
 
-        /// <summary>The restitution of a ball at a surface by LagSim's rule, the lesser of the two; all balls of a scene have the same.</summary>
+        /// <summary>
+        /// Returns the restitution of a ball at a surface by LagSim's rule, the lesser of the two. All balls of a scene have the same.
+        /// </summary>
         protected double RestitutionAt(StaticPlane plane) => Math.Min(plane.Restitution, Scene.Bodies[0].Spec.Restitution);
     }
 }

@@ -7,16 +7,16 @@ using BepuUtilities;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
-/// <summary>What BepuPhysics asks of contacts: a spring a pair, one friction for all.</summary>
+/// <summary>The contact callbacks of BepuPhysics: a spring for each pair, one friction for all.</summary>
 internal struct BepuContacts : INarrowPhaseCallbacks
 {
     /// <summary>The coefficient of friction.</summary>
     internal float Friction;
 
-    /// <summary>Of two balls.</summary>
+    /// <summary>The spring of two balls.</summary>
     internal SpringSettings Balls;
 
-    /// <summary>Of a ball and each wall, by the walls' handles, which count up from zero.</summary>
+    /// <summary>The spring of a ball and each wall, by the walls' handles, which count up from zero.</summary>
     internal SpringSettings[] Walls;
 
     public readonly void Initialize(BepuPhysics.Simulation simulation)
@@ -45,12 +45,12 @@ internal struct BepuContacts : INarrowPhaseCallbacks
     }
 }
 
-/// <summary>What BepuPhysics asks of velocities: gravity.</summary>
+/// <summary>The velocity callback of BepuPhysics: gravity.</summary>
 internal struct BepuGravity : IPoseIntegratorCallbacks
 {
     private Vector3Wide step;
 
-    /// <summary>In m/s^2.</summary>
+    /// <summary>Gravity, in m/s^2.</summary>
     internal Vector3 Gravity { get; init; }
 
     public readonly AngularIntegrationMode AngularIntegrationMode => AngularIntegrationMode.Nonconserving;

@@ -8,16 +8,20 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
-/// <summary>BepuPhysics 2.5, in single precision: spheres, walls as boxes, one iteration on each of 8 substeps as in its own example of bouncing, on one thread.</summary>
+/// <summary>
+/// BepuPhysics 2.5, in single precision: spheres, walls as boxes, one iteration on each of 8 substeps as in its own example of bouncing, on
+/// one thread.
+/// </summary>
 /// <remarks>
-/// It has no restitution: a contact is a damped spring. The spring's damping ratio z is what leaves the scene's restitution to half a swing,
-/// e = exp(-pi z / sqrt(1 - z^2)), and nothing limits how fast it pushes out. A stiff spring loses energy to the solver's step, a soft one holds the ball for
-/// long; both fall alike with finer steps where the frequency goes with the root of the rate, by <see cref="Stiffness"/> (docs/ACCURACY.md has what was tried).
-/// Friction is that of the scene's balls everywhere. No sleeping. A force is an impulse before each step.
+/// It has no restitution: a contact is a damped spring. The spring's damping ratio z is what leaves the scene's restitution to half a
+/// swing, e = exp(-pi z / sqrt(1 - z^2)), and nothing limits how fast it pushes out. A stiff spring loses energy to the solver's step, a
+/// soft one holds the ball for long; both fall alike with finer steps where the frequency goes with the root of the rate, by
+/// <see cref="Stiffness"/> (docs/ACCURACY.md has what was tried). Friction is that of the scene's balls everywhere. No sleeping. A force is
+/// an impulse before each step.
 /// </remarks>
 internal sealed class BepuMethod : SteppedEngine
 {
-    /// <summary>The spring's frequency in Hz over the root of the steps a second.</summary>
+    /// <summary>The spring's frequency in Hz divided by the root of the steps per second.</summary>
     private const double Stiffness = 0.5;
 
     public override string Name => "BepuPhysics";
@@ -89,7 +93,7 @@ internal sealed class BepuMethod : SteppedEngine
 
         private static float Damping(double restitution)
         {
-            double log = Math.Log(Math.Max(restitution, 1e-9)); // none at all is critical damping
+            double log = Math.Log(Math.Max(restitution, 1e-9)); // zero restitution is critical damping
             return (float)(-log / Math.Sqrt((Math.PI * Math.PI) + (log * log)));
         }
 

@@ -8,7 +8,10 @@ using static Box2D.NET.B2Worlds;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
-/// <summary>Box2D.NET 3.1, in single precision, for scenes that are plane: circles and segments, all else by default (4 substeps, continuous detection).</summary>
+/// <summary>
+/// Box2D.NET 3.1, in single precision, for scenes that are plane: circles and segments, all else by default (4 substeps, continuous
+/// detection).
+/// </summary>
 /// <remarks>
 /// Set as the scenes ask for: the lesser of two frictions and of two restitutions (callbacks of the world's), at any speed
 /// (<c>restitutionThreshold</c> 0, not 1 m/s), no sleeping. A force is an impulse before each step: applied as a force it would be the same
@@ -24,7 +27,7 @@ internal sealed class Box2DMethod : FlatEngine
 
     private sealed class Box2DRun : FlatRun
     {
-        /// <summary>What Box2D's own examples step with.</summary>
+        /// <summary>The step rate of Box2D's own examples.</summary>
         private const int Substeps = 4;
 
         private readonly B2WorldId world;

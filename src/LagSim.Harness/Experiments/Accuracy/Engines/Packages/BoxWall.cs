@@ -4,15 +4,18 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
-/// <summary>A surface as a large box behind it, for engines that have no planes; its sides are along the axes.</summary>
+/// <summary>A surface as a large box behind it, with its sides along the axes, for engines without planes.</summary>
 internal static class BoxWall
 {
-    /// <summary>Why an engine whose walls are such boxes is left out of a scene; null if it is not.</summary>
+    /// <summary>Returns why an engine with such walls is left out of a scene; null if it is not.</summary>
     internal static string? Excludes(Scene scene) => scene.StaticSpheres.Count > 0 ? "its static spheres are not set up here"
         : scene.Planes.All(plane => IsOne(plane.Normal.X) || IsOne(plane.Normal.Y) || IsOne(plane.Normal.Z)) ? null
         : "its walls are boxes along the axes, and the scene has one that is oblique";
 
-    /// <summary>The box's centre and its sides in metres: thick enough that nothing gets through it in a step, and no larger than single precision bears.</summary>
+    /// <summary>
+    /// Returns the box's centre and sides, in metres: thick enough that nothing tunnels through in a step, and small enough for single
+    /// precision.
+    /// </summary>
     internal static (Vector3D Centre, Vector3D Sides) Of(StaticPlane plane)
     {
         const double thick = 10, wide = 400;

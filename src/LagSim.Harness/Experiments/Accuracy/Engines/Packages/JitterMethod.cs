@@ -7,7 +7,10 @@ using LagSim.Scenes;
 
 namespace LagSim.Harness.Experiments.Accuracy.Engines.Packages;
 
-/// <summary>Jitter2 in double precision: spheres, walls as boxes, all else by default (6 iterations and 4 of relaxation, no substeps), on one thread.</summary>
+/// <summary>
+/// Jitter2 in double precision: spheres, walls as boxes, all else by default (6 iterations and 4 of relaxation, no substeps), on one
+/// thread.
+/// </summary>
 /// <remarks>
 /// Set as the scenes ask for: no damping, no sleeping. It takes the greater of two frictions and of two restitutions, and none below 1 m/s,
 /// which cannot be changed. A force is an impulse before each step: added as a force it would act a step later.
