@@ -23,7 +23,7 @@ internal sealed class CommonOptions
     internal const string Interpolating = "interpolation";
 
     /// <summary>The most characters of a list of choices in the left column of help. Longer lists go to the description.</summary>
-    private const int MostOfWords = 30;
+    private const int MaxWordsLength = 30;
 
     private const string DisplayDelayName = "--display-delay-ms";
 

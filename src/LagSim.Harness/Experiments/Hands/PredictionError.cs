@@ -10,7 +10,7 @@ namespace LagSim.Harness.Experiments.Hands;
 /// <param name="LinearMetres">The error of a linear predictor of 20 taps, cross-validated on this motion.</param>
 /// <param name="LinearInSampleMetres">The error of a linear predictor fitted to all of this motion: a lower bound for linear predictors of
 /// 20 taps.</param>
-/// <param name="MinWorstMetres">A L^2 / 2 with the largest acceleration A of this motion: no predictor can guarantee a smaller worst
+/// <param name="LowerBoundMetres">A L^2 / 2 with the largest acceleration A of this motion: no predictor can guarantee a smaller worst
 /// case.</param>
 public sealed record PredictionError(
     double HorizonMilliseconds,

@@ -48,7 +48,7 @@ internal static class ImpactPartner
     internal static string Surface(Scene scene, double radius, BodyState before, BodyState after)
     {
         // Touching is within the scene's restitution threshold, the body's motion in a tick, and the rounding of its position.
-        double slack = scene.Resolution + (SimDuration.OneTick.ToSeconds() * (before.Velocity.Length + after.Velocity.Length));
+        double slack = scene.RestitutionThreshold + (SimDuration.OneTick.ToSeconds() * (before.Velocity.Length + after.Velocity.Length));
         Vector3D position = after.Position;
         return scene.Planes
             .Select(plane => (plane.Name, plane.Normal, Gap: plane.Gap(position, radius), Scale: position.Length))
