@@ -180,8 +180,8 @@ public sealed class Simulation
     /// <see cref="AdvanceTo"/> simulates them again, and <see cref="Healed"/> reports what that took.</summary>
     /// <returns>The result. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
     /// <remarks>A submitted event need not have an effect: that depends on what it meets when its time comes; see <see cref="TookEffect"/>.
-    /// Cost: O(1) in the bodies if it lies ahead. Otherwise, with the next advance, the events since its time of the bodies it can have
-    /// touched, or of all bodies with a full rollback.</remarks>
+    /// Cost: O(1) in the bodies if it lies ahead. Otherwise it cuts the segments since its time of the bodies it can have touched, or of
+    /// all bodies with a full rollback, and the next advance simulates them again.</remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {

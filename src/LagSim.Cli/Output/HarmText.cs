@@ -38,7 +38,7 @@ internal static class HarmText
             {
                 output.WriteLine(string.Create(
                     CultureInfo.InvariantCulture,
-                    $"{c.Scene,-12} {c.Events,7} {c.WorkPerSecond,7:0} {c.PeakWork,13:0} {c.Part * 100,13:0.00} %{(c.Expelled > 0 ? "  SENT AWAY" : "")}"));
+                    $"{c.Scene,-12} {c.Events,7} {c.WorkPerSecond,7:0} {c.PeakWork,13:0} {c.Part * 100,13:0.00} %{(c.Expelled > 0 ? "  DISCONNECTED" : "")}"));
             }
         }
     }

@@ -101,21 +101,23 @@ internal static class EventFormat
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
-        ExternalEvent what = kind switch
-        {
-            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
-            EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
-            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
-            EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
-            EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
-            EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
-            EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
-            EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
-            _ => default,
-        };
+        ExternalEvent what = EncodedLength(kind) > 0 ? Action(kind, spec, body, position, velocity, spin).Stamp(time, peer, sequence) : default;
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
     }
+
+    private static PlayerAction Action(
+        EventKind kind, in BodySpec spec, BodyId body, in Vector3D position, in Vector3D velocity, in Vector3D spin) => kind switch
+        {
+            EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin),
+            EventKind.Remove => PlayerAction.Remove(body),
+            EventKind.Teleport => PlayerAction.Teleport(body, position, velocity),
+            EventKind.SetVelocity => PlayerAction.SetVelocity(body, velocity),
+            EventKind.Impulse => PlayerAction.Impulse(body, velocity),
+            EventKind.Grab => PlayerAction.Grab(body, position),
+            EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, position, velocity),
+            _ => PlayerAction.Release(body, velocity),
+        };
 
     private static bool HasPosition(EventKind kind) => kind is EventKind.Spawn or EventKind.Teleport or EventKind.Grab or EventKind.HoldKeyframe;
 

@@ -64,20 +64,20 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public EventKey Key => new(Time, 0, Kind, Body, Body, Peer, Sequence);
 
     /// <summary>A new body appears; its identity is (<paramref name="peer"/>, <paramref name="sequence"/>, 0).</summary>
-    public static ExternalEvent Spawn(
+    internal static ExternalEvent Spawn(
         SimTime time, byte peer, uint sequence, BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
         new(EventKind.Spawn, time, peer, sequence, new BodyId(peer, sequence, 0), position, velocity, spec, spin);
 
     /// <summary>The body disappears.</summary>
-    public static ExternalEvent Remove(SimTime time, byte peer, uint sequence, BodyId body) =>
+    internal static ExternalEvent Remove(SimTime time, byte peer, uint sequence, BodyId body) =>
         new(EventKind.Remove, time, peer, sequence, body, default, default, default);
 
     /// <summary>The body is put somewhere, with a velocity (default: none). It turns as it did.</summary>
-    public static ExternalEvent Teleport(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
+    internal static ExternalEvent Teleport(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
         new(EventKind.Teleport, time, peer, sequence, body, position, velocity, default);
 
     /// <summary>The body's velocity becomes this. It turns as it did.</summary>
-    public static ExternalEvent SetVelocity(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity) =>
+    internal static ExternalEvent SetVelocity(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity) =>
         new(EventKind.SetVelocity, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>
@@ -85,7 +85,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// faster than a tenth of the smallest radius in a tick (1.1e11 m/s times that radius in metres) has no effect, on every peer alike.
     /// What it meets is known only when its time comes: see <see cref="Simulation.TookEffect"/>.
     /// </summary>
-    public static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
+    internal static ExternalEvent Impulse(SimTime time, byte peer, uint sequence, BodyId body, Vector3D impulse) =>
         new(EventKind.Impulse, time, peer, sequence, body, default, impulse, default);
 
     /// <summary>
@@ -93,18 +93,18 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// the hand is assumed to be at rest where the body was. It does not get a body that is held already, or one that is faster than a
     /// player may make it. A held body does not turn, nor does it when it is released.
     /// </summary>
-    public static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
+    internal static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
         new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
 
     /// <summary>
     /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for
     /// what follows.
     /// </summary>
-    public static ExternalEvent HoldKeyframe(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
+    internal static ExternalEvent HoldKeyframe(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity) =>
         new(EventKind.HoldKeyframe, time, peer, sequence, body, position, velocity, default);
 
     /// <summary>The peer's hand, if it holds the body, releases it. The body continues from where it is with this velocity (m/s).</summary>
-    public static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
+    internal static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>

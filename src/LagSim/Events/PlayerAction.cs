@@ -62,8 +62,9 @@ public readonly struct PlayerAction
 
     /// <summary>
     /// The player's hand takes the body, by a point that lies <paramref name="offset"/> (metres) from its centre. The hold lasts while the
-    /// hand sends keyframes, a second after each; see <see cref="Motion.HandPath"/>. A held body does not turn, nor does it when it is
-    /// released.
+    /// hand sends keyframes, a second after each; see <see cref="Motion.HandPath"/>. Until the first one the hand is assumed to be at rest
+    /// where the body was. A body that is held already, or faster than a player may make it, is not taken. A held body does not turn, nor
+    /// does it when it is released.
     /// </summary>
     public static PlayerAction Grab(BodyId body, Vector3D offset = default) => new(EventKind.Grab, body, offset, default, default);
 
