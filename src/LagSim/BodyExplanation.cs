@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim;
 
-/// <summary>How one body of a scene is moved, why so, and what that costs while nothing happens to it.</summary>
+/// <summary>Which law moves a body of a scene, why, and what that costs between events.</summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class BodyExplanation
 {

@@ -43,7 +43,7 @@ internal sealed class Engine
         scheduler = new EventScheduler(expected);
         log = new EventLog(expected);
         flights = new FreeFlights(scene.Gravity, scene.RestitutionThreshold, scene.Box, expected, 0.5 * scene.ContactTolerance);
-        Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, parts.TimelineGrowth(start, options.History));
+        Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, parts.TimelineGrowthPolicy(start, options.History));
         Timelines.ForgetBefore(from);
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress);
 
@@ -56,7 +56,7 @@ internal sealed class Engine
         SolverWork work = new();
 
         // The next event of a body.
-        PathView view = parts.PathView(Timelines, rollback);
+        SegmentLookup view = parts.SegmentLookup(Timelines, rollback);
         StepMarks marks = new();
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
         MemberContacts memberContacts = new(Timelines, view, Bodies, scene.Surfaces, Step.Scale);
@@ -78,13 +78,14 @@ internal sealed class Engine
         Partners partners = new(Bodies, Timelines, view, rewinds);
         MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
         SleepWaker waker = parts.SleepWaker(Bodies, Timelines, view, graph, rewinds, members);
-        StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories);
-        Stepper = new IslandStepper(Bodies, Timelines, forces, graph, Step, partners, rewinds, members, stepSegments, marks, work);
+        IslandSleep sleep = new(Bodies, Timelines, graph, Step);
+        StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories, sleep);
+        Stepper = new IslandStepper(Bodies, Timelines, forces, graph, Step, partners, rewinds, members, stepSegments, sleep, marks, work);
 
         // The handlers of events.
         collapse = parts.CollapseRule(scene, Bodies, Timelines, graph, strikes);
         CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, hasIslands);
-        ImpactResolver resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
+        FreeImpactResponse resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
         ImpactSegments segments = new(Timelines, graph, trajectories);
         SegmentLinker linker = parts.SegmentLinker(Bodies, Timelines, graph, partners, members);
@@ -99,7 +100,7 @@ internal sealed class Engine
             memberSegments);
         ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, linker);
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
-        LonePath lonePath = new(scene, Bodies, Timelines, new LoneWorld(scene, start, options.MaxSegments));
+        ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath);
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);

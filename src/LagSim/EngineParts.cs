@@ -30,9 +30,9 @@ internal class EngineParts
     /// <summary>The measures of contact.</summary>
     internal virtual ContactScale ContactScale(Scene scene, SimTime start) => new(scene.ContactTolerance, scene.Gravity, start);
 
-    internal virtual TimelineGrowth TimelineGrowth(SimTime origin, SimDuration history) => new(origin, history);
+    internal virtual TimelineGrowthPolicy TimelineGrowthPolicy(SimTime origin, SimDuration history) => new(origin, history);
 
-    internal virtual PathView PathView(TimelineStore timelines, RollbackState rollback) => new(timelines, rollback);
+    internal virtual SegmentLookup SegmentLookup(TimelineStore timelines, RollbackState rollback) => new(timelines, rollback);
 
     internal virtual AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int bruteForceLimit) =>
         new(scene, bodies, timelines, bruteForceLimit);
@@ -44,7 +44,7 @@ internal class EngineParts
 
     internal virtual EventPredictor EventPredictor(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-        AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view) =>
+        AdaptiveBroadPhase broadPhase, CollisionSearch search, SegmentLookup view) =>
         new(bodies, timelines, log, scheduler, rollback, flights, broadPhase, search, view);
 
     internal virtual CutPaths CutPaths() => new();
@@ -55,7 +55,7 @@ internal class EngineParts
         new(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode);
 
     internal virtual SleepWaker SleepWaker(
-        BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
+        BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new(bodies, timelines, view, graph, rewinds, members);
 
     internal virtual SegmentLinker SegmentLinker(
@@ -68,11 +68,11 @@ internal class EngineParts
 
     internal virtual IsolatedImpact IsolatedImpact(
         Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-        ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments) =>
+        ContactGraph graph, FreeImpactResponse resolver, ImpactNotifier notifier, ImpactSegments segments) =>
         new(scene, bodies, timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
 
     internal virtual ImpactGraphBuilder ImpactGraphBuilder(
-        Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
+        Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
         new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph);
 }

@@ -7,7 +7,7 @@ namespace LagSim;
 /// <remarks>Immutable. The counts follow from the world and the late events alone, not from the machine.</remarks>
 public readonly struct HealReport : IEquatable<HealReport>
 {
-    /// <summary>A report of these.</summary>
+    /// <summary>Creates a report with these values.</summary>
     public HealReport(SimTime from, SimTime to, int lateEvents, int bodies, long segmentsCut, long events, SimTime? reconvergedAt = null)
     {
         ReconvergedAt = reconvergedAt;
@@ -22,7 +22,7 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>The time of the earliest late event in it.</summary>
     public SimTime From { get; }
 
-    /// <summary>How far the world was simulated when the first of them came, and is again.</summary>
+    /// <summary>How far the world was simulated when the first late event came. The heal brings it back there.</summary>
     public SimTime To { get; }
 
     /// <summary>The number of late or retracted events it served; at least one.</summary>
@@ -37,11 +37,11 @@ public readonly struct HealReport : IEquatable<HealReport>
     /// <summary>How many segments were cut off.</summary>
     public long SegmentsCut { get; }
 
-    /// <summary>How many events were run again, and the late ones.</summary>
+    /// <summary>The number of events simulated again, the late ones included.</summary>
     public long Events { get; }
 
     /// <summary>
-    /// The instant from which all paths were the old ones again, to the bit, so that the heal was done; later segments stay as they were.
+    /// The instant from which all paths equalled the old ones, bit for bit, so that the heal was done; later segments stay as they were.
     /// Null if that never came, or was not tested: after a full rollback, after more late events before the heal was finished, and where it
     /// had cut more than 256 segments.
     /// </summary>

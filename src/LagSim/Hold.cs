@@ -8,7 +8,7 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread. It belongs to a segment of the body's path, and is cut and kept with it.</remarks>
 public readonly struct Hold : IEquatable<Hold>
 {
-    /// <summary>A hold of these.</summary>
+    /// <summary>Creates a hold with these values.</summary>
     public Hold(byte peer, in Vector3D offset, SimTime keyframeTime)
     {
         Peer = peer;

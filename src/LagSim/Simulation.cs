@@ -34,10 +34,10 @@ public sealed class Simulation
 {
     private readonly SyncTest? syncTest;
 
-    /// <summary>A world at the start of its scene, with all that happens at that instant. Cost: the bodies, and which of them can
-    /// meet.</summary>
+    /// <summary>Creates a world at the start of its scene and processes the events of that instant. Cost: grows with the bodies, and with
+    /// the pairs of them that can meet.</summary>
     /// <param name="scene">The scene to simulate.</param>
-    /// <param name="options">How; null for the defaults.</param>
+    /// <param name="options">The options; null for the defaults.</param>
     /// <exception cref="ArgumentNullException">The scene is null.</exception>
     /// <exception cref="SimulationException">The scene's forces are too strong for the first step of a body, or the first instant needs
     /// more segments than the timelines may hold.</exception>
@@ -103,7 +103,7 @@ public sealed class Simulation
     /// <summary>How many events were processed, those that were simulated again included.</summary>
     public long EventsProcessed => Engine.Progress.EventsProcessed;
 
-    /// <summary>How many impacts were among them; what bodies do to each other at one tick and round is one.</summary>
+    /// <summary>The number of impacts among them. Bodies that touch at one tick and round take part in one impact.</summary>
     public long ImpactsProcessed => Engine.Progress.ImpactsProcessed;
 
     /// <summary>The number of times that timelines were cut for a late or a retracted event.</summary>

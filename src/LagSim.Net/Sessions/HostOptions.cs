@@ -97,7 +97,7 @@ public sealed record HostOptions : SessionOptions
     public SimDuration StartLead { get; init; } = SimDuration.FromMilliseconds(500);
 
     /// <summary>The limits on clients that are still joining.</summary>
-    internal DoorLimits Door { get; init; } = new();
+    internal JoinLimits JoinLimits { get; init; } = new();
 
     /// <summary>
     /// Returns <paramref name="options"/> if they are a host's, otherwise host options with the same shared settings and defaults for the

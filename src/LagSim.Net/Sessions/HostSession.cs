@@ -49,7 +49,7 @@ public sealed class HostSession : Session
         clientGone = new(host.Parts.Owner);
         playerExpelled = new(host.Parts.Owner);
         clientDiverged = new(host.Parts.Owner);
-        host.Door.Seating.Came += link => clientCame.Raise(link, static (handler, told) => handler(told));
+        host.Handshake.Seating.Came += link => clientCame.Raise(link, static (handler, told) => handler(told));
         host.Roster.Gone += link => clientGone.Raise(link, static (handler, told) => handler(told));
         host.Enforcer.Expelled += expulsion => playerExpelled.Raise(expulsion, static (handler, told) => handler(told));
         host.DesyncReport.Diverged += (peer, time) =>
@@ -170,7 +170,7 @@ public sealed class HostSession : Session
         }
 
         PeerAddress machine = found.Link.Other.Machine;
-        host.Door.ShutOuts.Ban(machine);
+        host.Handshake.BanList.Ban(machine);
         host.Roster.Kick(j => j.Link.Other.Machine == machine);
         return machine;
     }
@@ -184,7 +184,7 @@ public sealed class HostSession : Session
     public bool Unban(PeerAddress machine)
     {
         host.Parts.Owner.ThrowIfForeign();
-        return host.Door.ShutOuts.LetInAgain(machine.Machine, host.Parts.Clock.Now);
+        return host.Handshake.BanList.LetInAgain(machine.Machine, host.Parts.Clock.Now);
     }
 
     /// <summary>Removes all bodies that were spawned under a player's number, whether or not a client has it now.</summary>

@@ -42,7 +42,7 @@ public sealed class PeerThread : IDisposable
     private readonly HandlerList<Action<PlayerAction, Exception>> refused;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // set once running or ended
-    private readonly object ending = new(); // held by whoever disposes it, while it leaves and closes
+    private readonly object ending = new(); // held by the thread that disposes this, while it leaves and closes
     private readonly bool ownsPort;
     private volatile bool isOwner; // from Start on
     private volatile bool isDisposed;
@@ -276,9 +276,9 @@ public sealed class PeerThread : IDisposable
         thread.Dispose();
         if (!IsOwnThread)
         {
-            End(thread.Fault); // for a thread never started; a started one has done it itself
             lock (ending)
             {
+                End(thread.Fault); // for a thread never started; a started one has done it itself
                 LeaveAndClose(); // for one that failed or was cancelled
             }
         }
@@ -288,7 +288,6 @@ public sealed class PeerThread : IDisposable
         where TSession : Session
     {
         _ = carrier ?? throw new ArgumentNullException(nameof(carrier));
-
         PeerThread? peer = null;
         try
         {

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.BroadPhase;
 
 /// <summary>
-/// Which bodies another body's path could touch: by what they do, did inside the window, or are to do. An broad phase may name too many,
+/// Which bodies another body's path could touch: by what they do, did inside the window, or are to do. A broad phase may name too many,
 /// never too few, none twice, and its order decides nothing.
 /// </summary>
 internal interface IBroadPhase

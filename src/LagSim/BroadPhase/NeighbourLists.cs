@@ -52,8 +52,8 @@ internal class NeighbourLists : IBroadPhase
     private readonly double shortestStay;
     private readonly PresentShells present;
     private readonly PastShells past;
-    private readonly FoundSlots found;
-    private readonly ManyLists<int> lists;
+    private readonly SlotSet found;
+    private readonly PooledLists<int> lists;
     private Stay[] stays;
     private int lookingBack; // the number of bodies with one-sided neighbours: their shells were made in a heal, so the others may not list them
 
@@ -75,8 +75,8 @@ internal class NeighbourLists : IBroadPhase
         double shortest = Math.Min(ShortestStay, FarLess * cell / speed); // the first of the two if no body moves
         shortestStay = Math.Max(FewTicks * TickConversion.SecondsPerTick, shortest);
         CellGrid grid = new(cell, box);
-        found = new FoundSlots(expected);
-        lists = new ManyLists<int>(expected, NeighboursExpected * expected);
+        found = new SlotSet(expected);
+        lists = new PooledLists<int>(expected, NeighboursExpected * expected);
         stays = new Stay[expected];
         present = new PresentShells(grid, box, 0.5 * cell, expected);
         past = new PastShells(grid, box, 0.5 * cell);

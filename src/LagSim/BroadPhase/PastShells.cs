@@ -53,7 +53,7 @@ internal sealed class PastShells
     internal void DropBefore(SimTime edge) => slabs.DropBefore(edge);
 
     /// <summary>Finds whose shells came within a distance of another shell at any time of a span.</summary>
-    internal void Look(in Shell shell, double near, SimTime from, SimTime until, FoundSlots found)
+    internal void Look(in Shell shell, double near, SimTime from, SimTime until, SlotSet found)
     {
         CellBlock block = grid.Around(shell.Centre, shell.Extent + near + widestInCells);
         long first = slabs.From(SlabRing.NumberOf(from), out int count);
@@ -88,7 +88,7 @@ internal sealed class PastShells
         }
     }
 
-    private void LookIn(CellTable<Stay> slab, ulong number, in Shell shell, double near, SimTime from, SimTime until, FoundSlots found)
+    private void LookIn(CellTable<Stay> slab, ulong number, in Shell shell, double near, SimTime from, SimTime until, SlotSet found)
     {
         for (int entry = slab.First(number); entry != CellTable<Stay>.None; entry = slab.Next(entry))
         {
@@ -99,7 +99,7 @@ internal sealed class PastShells
         }
     }
 
-    private void FindIfNear(in Stay stay, in Shell shell, double near, SimTime from, SimTime until, FoundSlots found)
+    private void FindIfNear(in Stay stay, in Shell shell, double near, SimTime from, SimTime until, SlotSet found)
     {
         double reach = shell.Extent + stay.Shell.Extent + near;
         if (stay.Until >= from && stay.From <= until && !(box.Nearest(stay.Shell.Centre - shell.Centre).LengthSquared > reach * reach))

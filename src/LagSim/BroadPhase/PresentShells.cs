@@ -22,7 +22,7 @@ internal sealed class PresentShells
     private readonly Vector3D sides; // of the box; endless without one, so that no image is nearer
     private readonly double widestInCells;
     private readonly List<Entry> wide = new();
-    private ManyLists<Entry> cells; // by the cell's number, hashed
+    private PooledLists<Entry> cells; // by the cell's number, hashed
     private int listed;
     private double widest; // extent of what has been in cells
 
@@ -39,7 +39,7 @@ internal sealed class PresentShells
             lists *= 2;
         }
 
-        cells = new ManyLists<Entry>(lists, Math.Max(lists, 2 * expected)); // of two in three lists, the smallest of which have room for four
+        cells = new PooledLists<Entry>(lists, Math.Max(lists, 2 * expected)); // of two in three lists, the smallest of which have room for four
         this.grid = grid;
         this.box = box;
         sides = box.Exists ? box.Size : new Vector3D(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity);
@@ -101,7 +101,7 @@ internal sealed class PresentShells
     }
 
     /// <summary>Finds whose shells come within a distance of another shell; all of them are new to <paramref name="found"/>.</summary>
-    internal void Look(in Shell shell, double near, FoundSlots found)
+    internal void Look(in Shell shell, double near, SlotSet found)
     {
         Vector3D place = box.Wrap(shell.Centre);
         double reach = shell.Extent + near;
@@ -154,7 +154,7 @@ internal sealed class PresentShells
     /// The same among the entries of one list that belong to a cell, by the straight way. Whether one is found is not a branch, because it
     /// cannot be predicted; the count is kept in a register.
     /// </summary>
-    private static void LookIn(Span<Entry> entries, ulong cell, in Vector3D place, double reach, FoundSlots found)
+    private static void LookIn(Span<Entry> entries, ulong cell, in Vector3D place, double reach, SlotSet found)
     {
         Span<int> into = found.Room(entries.Length + 1);
         double x = place.X, y = place.Y, z = place.Z;
@@ -171,7 +171,7 @@ internal sealed class PresentShells
     }
 
     /// <summary>The same by the shortest way, of those whose cell's number is a certain one where the mask has ones.</summary>
-    private void LookAround(Span<Entry> entries, ulong cell, ulong mask, in Vector3D place, double reach, FoundSlots found)
+    private void LookAround(Span<Entry> entries, ulong cell, ulong mask, in Vector3D place, double reach, SlotSet found)
     {
         Span<int> into = found.Room(entries.Length + 1);
         double x = place.X, y = place.Y, z = place.Z;
@@ -192,8 +192,8 @@ internal sealed class PresentShells
     /// <summary>Doubles the lists, because there are more bodies than lists.</summary>
     private void Spread()
     {
-        ManyLists<Entry> before = cells;
-        cells = new ManyLists<Entry>(before.Count * 2, before.Count * 4);
+        PooledLists<Entry> before = cells;
+        cells = new PooledLists<Entry>(before.Count * 2, before.Count * 4);
         for (int bucket = 0; bucket < before.Count; bucket++)
         {
             foreach (ref Entry entry in before.Of(bucket))

@@ -13,7 +13,7 @@ namespace LagSim.Collisions;
 /// <remarks>A body has one event pending at most; its next contact is never earlier than that.</remarks>
 internal class EventPredictor(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-    AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view)
+    AdaptiveBroadPhase broadPhase, CollisionSearch search, SegmentLookup view)
 {
     private readonly Paths paths = new(timelines);
 

@@ -11,7 +11,7 @@ namespace LagSim.Collisions;
 /// bodies move along a straight line, so most pairs are quickly found to stay apart. So are two that rest or slide straight on.</summary>
 /// <remarks>In doubt it answers no, and the pair is then tested in the general way, so it changes no bit of the result. It only saves time:
 /// reading a pair's segments takes several loads from far apart, and nearly all pairs that a broad phase names do not meet.</remarks>
-internal sealed class FreeFlights : INewestSegments
+internal sealed class FreeFlights : INewestSegmentObserver
 {
     /// <summary>A bound on rounding, relative to the summed terms; four thousand times the true rounding.</summary>
     private const double Slack = 1e-12;

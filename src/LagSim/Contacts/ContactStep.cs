@@ -19,12 +19,12 @@ namespace LagSim.Contacts;
 internal sealed class ContactStep
 {
     /// <summary>
-    /// The largest number of sweeps. Then <see cref="NormalsAfterSweeps"/> solves the normals. What is left of friction is an error but no
+    /// The largest number of sweeps. Then <see cref="NormalRefinement"/> solves the normals. What is left of friction is an error but no
     /// fault: the next step continues from the impulses that the sweeps reached.
     /// </summary>
     internal const int MaxSweeps = 200;
 
-    private NormalsAfterSweeps? normals; // made when a step needs it, as the next
+    private NormalRefinement? normals; // made when a step needs it, as the next
     private EnergyLimit? limit;
     private readonly StepContacts contacts;
     private Motion[] free = Array.Empty<Motion>(); // by body
@@ -44,7 +44,7 @@ internal sealed class ContactStep
     /// <summary>The rules for its solutions, and for those of impacts on islands.</summary>
     internal SolverRules Rules { get; }
 
-    /// <summary>How many sweeps the last took, and steps of <see cref="NormalsAfterSweeps"/>, which cost as much.</summary>
+    /// <summary>How many sweeps the last took, and steps of <see cref="NormalRefinement"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
 
     /// <summary>Begins again, with no body.</summary>
@@ -182,7 +182,7 @@ internal sealed class ContactStep
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MaxSweeps);
         Sweeps += sweeps;
-        if (Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, sweeps, tolerance))
+        if (Rules.SettlesNormals && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
             Sweeps += SolveNormals(tolerance);
@@ -191,7 +191,7 @@ internal sealed class ContactStep
 
     private int SolveNormals(double tolerance)
     {
-        normals ??= new NormalsAfterSweeps();
+        normals ??= new NormalRefinement();
         return normals.Solve(Problem, tolerance);
     }
 

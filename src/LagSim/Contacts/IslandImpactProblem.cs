@@ -9,7 +9,7 @@ namespace LagSim.Contacts;
 /// </summary>
 internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
 {
-    private NormalsAfterSweeps? normals; // made when an impact needs it
+    private NormalRefinement? normals; // made when an impact needs it
     private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
@@ -70,7 +70,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
     internal void Solve(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
         int taken = ContactSolver.Solve(Problem, tolerance, sweeps, knownBodies, knownContacts);
-        if (sweeps == ContactStep.MaxSweeps && step.Rules.SettlesNormals && NormalsAfterSweeps.IsNeeded(Problem, taken, tolerance))
+        if (sweeps == ContactStep.MaxSweeps && step.Rules.SettlesNormals && NormalRefinement.IsNeeded(Problem, taken, tolerance))
         {
             for (int i = 0; i < Problem.BodyCount; i++)
             {
@@ -78,7 +78,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
                 Problem.Bodies[i].Spin = spinsBefore[i];
             }
 
-            normals ??= new NormalsAfterSweeps();
+            normals ??= new NormalRefinement();
             taken += normals.Solve(Problem, tolerance);
         }
 

@@ -28,7 +28,7 @@ public enum EventKind : byte
     /// <summary>External: a body gets an impulse.</summary>
     Impulse = 11,
 
-    /// <summary>External: a hand takes a body. One that is held it does not get.</summary>
+    /// <summary>External: a hand grabs a body. It has no effect on a body that is held already.</summary>
     Grab = 12,
 
     /// <summary>External: the position and velocity of the hand that holds a body. Without one for a second the hold ends.</summary>

@@ -14,7 +14,7 @@ namespace LagSim.Handlers;
 /// <summary>External events: what players do.</summary>
 internal sealed class ExternalHandler(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, FreeFlights flights, ContactGraph graph, SleepWaker waker,
-    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, LonePath lonePath)
+    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, ForwardedPath lonePath)
 {
     private readonly Paths paths = new(timelines);
 
@@ -100,7 +100,7 @@ internal sealed class ExternalHandler(
         int last = timelines.Last(slot);
         double seconds = paths.SecondsInto(last, key.Time);
         SupportSet supports = timelines.Segment(last).Supports;
-        if (!Pushes.TryApply(external, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene, out Vector3D position, out Vector3D velocity))
+        if (!ActionEffects.TryApply(external, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene, out Vector3D position, out Vector3D velocity))
         {
             return;
         }

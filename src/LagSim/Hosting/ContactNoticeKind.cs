@@ -3,12 +3,11 @@ namespace LagSim.Hosting;
 /// <summary>The kind of a <see cref="ContactNotice"/>.</summary>
 public enum ContactNoticeKind
 {
-    /// <summary>None: of <c>default</c> alone.</summary>
+    /// <summary>No notice: <c>default</c>.</summary>
     None = 0,
 
     /// <summary>
-    /// By what is known now it happens, a look-ahead from now at most, or has just turned out to have happened. A late event may still take
-    /// it back.
+    /// Expected to happen within the look-ahead, or just found to have happened. A late event may still retract it.
     /// </summary>
     Predicted = 1,
 

@@ -62,7 +62,7 @@ public sealed class RenderSnapshot
         return at < 0 ? 0 : radii[slots[at]];
     }
 
-    /// <summary>By how much a body's velocity changed at one stroke, after one instant and up to another: a bounce, an impulse.</summary>
+    /// <summary>Reads the largest sudden change of a body's velocity, by a bounce or an impulse, between two instants.</summary>
     /// <param name="body">The body.</param>
     /// <param name="after">The earlier instant, itself left out.</param>
     /// <param name="upTo">The later one.</param>

@@ -18,7 +18,7 @@ namespace LagSim.Islands;
 /// </remarks>
 internal sealed class IslandStepper(
     BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
-    RewindRequests rewinds, MemberFactory members, StepSegments segments, StepMarks marks, SolverWork work)
+    RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, StepMarks marks, SolverWork work)
 {
     private readonly Forces forces = forces;
     private readonly Paths paths = new(timelines);
@@ -44,9 +44,9 @@ internal sealed class IslandStepper(
         SimTime time = canonical.Time;
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
-        if (mayRest && CanFallAsleep(canonical.Time))
+        if (mayRest && sleep.MayBegin(canonical.Time))
         {
-            segments.OpenRest(canonical);
+            sleep.Begin(canonical);
         }
         else
         {
@@ -296,17 +296,5 @@ internal sealed class IslandStepper(
         }
 
         return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
-    }
-
-    private bool CanFallAsleep(SimTime tick)
-    {
-        bool rests = true;
-        for (int i = 0; i < graph.BodyCount && rests; i++)
-        {
-            int piece = timelines.Last(graph.Slots[i]);
-            rests = tick - timelines.Carried.StillSince(piece) >= ContactScale.StillFor;
-        }
-
-        return rests;
     }
 }

@@ -7,7 +7,7 @@ using LagSim.Timelines;
 namespace LagSim.Islands;
 
 /// <summary>Finds the bodies on the other sides of contacts that members carry, by the segments on which they come to an event.</summary>
-internal sealed class Partners(BodyTable bodies, TimelineStore timelines, PathView view, RewindRequests rewinds)
+internal sealed class Partners(BodyTable bodies, TimelineStore timelines, SegmentLookup view, RewindRequests rewinds)
 {
     private readonly Paths paths = new(timelines);
 

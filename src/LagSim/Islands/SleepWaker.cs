@@ -8,7 +8,7 @@ namespace LagSim.Islands;
 
 /// <summary>Wakes the bodies that sleep on a body to which something is about to happen.</summary>
 internal class SleepWaker(
-    BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members)
+    BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members)
 {
     private readonly Paths paths = new(timelines);
 

@@ -1,7 +1,6 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Events;
-using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -9,58 +8,15 @@ using LagSim.Trajectories;
 
 namespace LagSim.Islands;
 
-/// <summary>Opens the segments of a contact step that was solved: chords, the law that a body follows alone, or rest.</summary>
+/// <summary>Opens the segments of a contact step that was solved: chords, or the law that a body follows alone.</summary>
 internal sealed class StepSegments(
     Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, MemberFactory members,
-    TrajectoryFactory trajectories)
+    TrajectoryFactory trajectories, IslandSleep sleep)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
     private readonly PlaneSet planes = new();
     private bool[] holdsPair = Array.Empty<bool>(); // by body of the graph: whether another body holds it
-
-    /// <summary>All of the island rest from here on, and forget the impulses, so that those that come to rest in other ways meet.</summary>
-    internal void OpenRest(in EventKey key)
-    {
-        step.Problem.List();
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int before = timelines.Last(slot);
-            MotionSegment rest = MotionSegment.AtRest(key.Time, graph.Positions[i].WithoutNegativeZero());
-            timelines.Append(slot, bodies.Id(slot), key, rest, default, spin: new Spin(SpinAtRest(i)));
-            int piece = timelines.Last(slot);
-            timelines.BeginMember(piece, key.Time, timelines.Carried.StillSince(before));
-            for (int at = timelines.Carried.First(before); at != TimelineStore.None; at = timelines.Carried.Next(at))
-            {
-                PersistentContact contact = timelines.Carried.At(at);
-                if (contact.Holds)
-                {
-                    timelines.Carried.Add(piece, new PersistentContact(contact.Partner, contact.Surface, holds: true));
-                }
-            }
-
-            timelines.EndMember(piece, bodies.Id(slot));
-        }
-    }
-
-    /// <summary>
-    /// The spin of a body once its centre rests: as before, except what moves its surface slower than rest allows. Turning about the normal
-    /// of a contact and rolling there are separated, so that a body that continues to turn on the spot does not continue to roll.
-    /// </summary>
-    private Vector3D SpinAtRest(int body)
-    {
-        Vector3D spin = graph.Spins[body];
-        double least = step.Scale.StillSpeed / graph.Radii[body];
-        foreach (int i in step.Problem.ListOf(body))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D onTheSpot = c.Normal * Vector3D.Dot(c.Normal, spin);
-            spin = c.Held && c.Friction > 0 && (spin - onTheSpot).Length <= least ? onTheSpot : spin;
-        }
-
-        return spin.Length > least ? spin : Vector3D.Zero;
-    }
 
     /// <summary>
     /// Opens the segments of the solved step: chords for bodies that something holds, and for the others the law that they follow alone.
@@ -92,7 +48,7 @@ internal sealed class StepSegments(
             }
             else
             {
-                SimTime still = IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
+                SimTime still = sleep.IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
                     ? timelines.Carried.StillSince(before) : key.Time;
                 members.OpenChord(slot, key, end, graph.Positions[i], solved.Velocity, solved.Spin);
                 int piece = timelines.Last(slot);
@@ -101,27 +57,6 @@ internal sealed class StepSegments(
                 timelines.EndMember(piece, bodies.Id(slot));
             }
         }
-    }
-
-    /// <summary>
-    /// Whether a body is so slow that in the time before a sleep it does not move by the tolerance; nor its surface, against what it rubs
-    /// on, or what rolling resistance is to have it turn with.
-    /// </summary>
-    private bool IsStill(int body, in SolverBody solved)
-    {
-        double speed = step.Scale.StillSpeed;
-        bool isStill = solved.Velocity.Length <= speed;
-        foreach (int i in step.Problem.ListOf(body))
-        {
-            ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
-            isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
-            // At its bound friction slips; what is just below it has been moved there by the last sweeps.
-            bool slips = c.Impulse > 0 && c.FrictionImpulse.Length >= 0.999 * c.Friction * c.Impulse;
-            isStill &= c.Friction == 0 || !slips || ContactSolver.Slip(step.Problem, c).Length <= speed;
-        }
-
-        return isStill;
     }
 
     /// <summary>The bodies that another body holds in the step.</summary>

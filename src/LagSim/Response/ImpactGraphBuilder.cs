@@ -13,7 +13,7 @@ namespace LagSim.Response;
 /// Builds the contact graph of an impact: all contacts of its tick and round that share bodies, and the bodies as they meet.
 /// </summary>
 internal class ImpactGraphBuilder(
-    Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
+    Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
     FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;

@@ -10,7 +10,7 @@ namespace LagSim.Response;
 /// <summary>Handles impacts: finds the bodies that take part, solves the impact and opens the segments that follow.</summary>
 internal sealed class ImpactHandler(
     Scene scene, BodyTable bodies, ContactGraph graph, Partners partners, IsolatedImpact isolated, ImpactGraphBuilder builder,
-    ImpactResolver resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentLinker linker)
+    FreeImpactResponse resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentLinker linker)
 {
     /// <summary>
     /// The number of rounds of impacts beyond which an instant counts as endless. Only elastic impacts get there, because all others

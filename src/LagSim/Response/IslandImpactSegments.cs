@@ -14,7 +14,7 @@ namespace LagSim.Response;
 /// </summary>
 internal sealed class IslandImpactSegments(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, IslandImpactProblem impact, MemberFactory members,
-    TrajectoryFactory trajectories, ImpactResolver resolver, ImpactSegments alone)
+    TrajectoryFactory trajectories, FreeImpactResponse resolver, ImpactSegments alone)
 {
     private readonly Paths paths = new(timelines);
 

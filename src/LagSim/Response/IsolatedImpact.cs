@@ -14,7 +14,7 @@ namespace LagSim.Response;
 /// </summary>
 internal class IsolatedImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-    ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments)
+    ContactGraph graph, FreeImpactResponse resolver, ImpactNotifier notifier, ImpactSegments segments)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
 

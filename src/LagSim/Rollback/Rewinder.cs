@@ -13,7 +13,7 @@ namespace LagSim.Rollback;
 /// <remarks>
 /// It simulates nothing itself: it cuts, has the cut bodies predicted again, and moves back how far the world is simulated.
 /// </remarks>
-internal class Rewinder : IOpeningObserver
+internal class Rewinder : ISegmentOpenedObserver
 {
     /// <summary>
     /// The causal cones of so many late events, each in a place of its own, may take up an eighth of all bodies each; more share that half,
@@ -68,7 +68,7 @@ internal class Rewinder : IOpeningObserver
     internal bool IsKnown(in EventKey key) =>
         key.Time <= KnownTo || (mode == HealingMode.FullRollback && EventKey.Compare(key, rollback.Cursor) < 0);
 
-    void IOpeningObserver.OnOpened(int slot, in EventKey key)
+    void ISegmentOpenedObserver.OnOpened(int slot, in EventKey key)
     {
         if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not a body that is not known yet
         {

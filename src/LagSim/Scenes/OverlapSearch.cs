@@ -99,7 +99,7 @@ internal sealed class OverlapSearch
             return Sweep(items, from, to, axis);
         }
 
-        return threads > 1 && count >= TwoAtOnce.MinBodies
+        return threads > 1 && count >= ParallelPair.MinBodies
             ? FindOnTwoThreads(items, from, to, axis, middle, threads)
             : FindIn(items, from, to, axis, double.NegativeInfinity, middle) ?? FindIn(items, from, to, axis, middle, double.PositiveInfinity);
     }
@@ -122,7 +122,7 @@ internal sealed class OverlapSearch
         Choose(items, from, to, axis, middle, double.PositiveInfinity, upper);
         Overlap? below = null;
         Overlap? above = null;
-        TwoAtOnce.Do(
+        ParallelPair.Do(
             threads, () => below = Find(lower, 0, lower.Count, threads - (threads / 2)), () => above = Find(upper, 0, upper.Count, threads / 2));
         return below ?? above;
     }

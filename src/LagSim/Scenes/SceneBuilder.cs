@@ -59,8 +59,8 @@ public sealed class SceneBuilder
     /// Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed one by one; default 1e-9.
     /// </summary>
     /// <remarks>
-    /// On anything but a plane alone a bounce is the last that rises less than a thousand times this; and within that distance what lasts
-    /// is in contact.
+    /// Unless a body touches a single plane and nothing else, a bounce that rises less than a thousand times this is the last. Bodies within
+    /// that distance of each other count as in persistent contact.
     /// </remarks>
     public SceneBuilder WithRestitutionThreshold(double metres)
     {
@@ -208,10 +208,10 @@ public sealed class SceneBuilder
     public Scene Build()
     {
         CheckWhole();
-        int used = bodies.Count < TwoAtOnce.MinBodies ? 1 : threads ?? Environment.ProcessorCount;
+        int used = bodies.Count < ParallelPair.MinBodies ? 1 : threads ?? Environment.ProcessorCount;
         Force[] forceArray = forces.ToArray();
         SceneBody[] bodyArray = bodies.ToArray();
-        TwoAtOnce.InParts(0, bodyArray.Length, used, (from, to) =>
+        ParallelPair.InParts(0, bodyArray.Length, used, (from, to) =>
         {
             for (int i = from; i < to; i++)
             {
@@ -221,7 +221,7 @@ public sealed class SceneBuilder
         });
         double smallest = Smallest();
         CheckBox();
-        TwoAtOnce.InParts(0, bodyArray.Length, used, (from, to) =>
+        ParallelPair.InParts(0, bodyArray.Length, used, (from, to) =>
         {
             for (int i = from; i < to; i++)
             {
@@ -233,7 +233,7 @@ public sealed class SceneBuilder
             }
         });
         Scene? scene = null;
-        TwoAtOnce.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, restitutionThreshold, Math.Max(1, used - 1)));
+        ParallelPair.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, restitutionThreshold, Math.Max(1, used - 1)));
         return scene!;
 
         void NameAndHash()

@@ -8,7 +8,7 @@ internal static class StartOverlap
 {
     internal static void Check(SceneBody[] bodies, List<StaticPlane> planes, List<StaticSphere> spheres, PeriodicBox box, double tolerance, int threads)
     {
-        TwoAtOnce.InParts(0, bodies.Length, threads, (from, to) =>
+        ParallelPair.InParts(0, bodies.Length, threads, (from, to) =>
         {
             for (int i = from; i < to; i++)
             {

@@ -114,7 +114,7 @@ public sealed class LatencyCompensationWindow
         return new LatencyCompensationWindow(History, LookAhead, changed);
     }
 
-    /// <summary>How much later than it is done something of this kind is to happen; zero of what no player does.</summary>
+    /// <summary>The local lag of actions of this kind; zero for a kind that players do not cause.</summary>
     public SimDuration LocalLag(EventKind kind) => IsOfPlayers(kind) ? lags[kind - EventKind.Spawn] : SimDuration.Zero;
 
     /// <summary>

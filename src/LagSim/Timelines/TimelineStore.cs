@@ -11,7 +11,7 @@ namespace LagSim.Timelines;
 /// <para>Segments live in flat arrays, linked per body; nothing is overwritten, a segment is only appended, cut off at the end, or dropped
 /// behind the window. Old segments of all bodies are dropped together, in one pass through memory when there is no room left: to look for
 /// them one by one, each long out of the cache, cost a quarter of an impact in a dense fluid. If that frees little, the arrays grow, by
-/// <see cref="TimelineGrowth"/>. Allocates only when more segments are alive than ever before.</para>
+/// <see cref="TimelineGrowthPolicy"/>. Allocates only when more segments are alive than ever before.</para>
 /// <para>It keeps a running hash of all events: the sum (modulo 2^64) of one hash a segment, so that appending and cutting are O(1) and the
 /// order in which the events came leaves no trace.</para>
 /// </remarks>
@@ -22,10 +22,10 @@ internal sealed class TimelineStore
     /// <summary>If all that can be dropped is less than one part in this many, it would soon be looked for again.</summary>
     private const int LittleRoom = 32;
 
-    private readonly TimelineGrowth growth;
+    private readonly TimelineGrowthPolicy growth;
     private readonly SegmentExtras extras = new();
     private readonly EventHashSum hashes;
-    private readonly INewestSegments? newest; // is notified of each body's newest segment
+    private readonly INewestSegmentObserver? newest; // is notified of each body's newest segment
     private OpenedSegment[] pieces;
     private SegmentLinks[] links;
     private int free = None;
@@ -40,17 +40,17 @@ internal sealed class TimelineStore
     /// <param name="expected">For how many bodies there is room at first.</param>
     /// <param name="growth">How it grows; by default as one of no history.</param>
     internal TimelineStore(
-        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegments? newest = null, int expected = 0,
-        TimelineGrowth? growth = null)
+        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegmentObserver? newest = null, int expected = 0,
+        TimelineGrowthPolicy? growth = null)
     {
-        int room = TimelineGrowth.First(expected);
+        int room = TimelineGrowthPolicy.First(expected);
         pieces = new OpenedSegment[room];
         links = new SegmentLinks[room];
         ends = new TimelineEnds[expected];
         Array.Fill(ends, TimelineEnds.None);
         hashes = new EventHashSum(origin);
         this.newest = newest;
-        this.growth = growth ?? new TimelineGrowth(origin, default);
+        this.growth = growth ?? new TimelineGrowthPolicy(origin, default);
         Most = most;
     }
 
@@ -61,7 +61,7 @@ internal sealed class TimelineStore
     internal IImpactObserver? Observer { get; set; }
 
     /// <summary>Notified of segments that are opened; null for none.</summary>
-    internal IOpeningObserver? Openings { get; set; }
+    internal ISegmentOpenedObserver? Openings { get; set; }
 
     /// <summary>How many segments may be kept.</summary>
     internal int Most { get; }
@@ -335,7 +335,7 @@ internal sealed class TimelineStore
     private void DropAll(SimTime now)
     {
         int recent = 0;
-        SimTime late = TimelineGrowth.RecentStart(now, edge);
+        SimTime late = TimelineGrowthPolicy.RecentStart(now, edge);
 
         // From the end, so that what is freed is given out from the beginning: segments are opened in one direction through memory.
         for (int at = used - 1; at >= 0; at--)

@@ -95,7 +95,7 @@ internal static class Layers
         new("LagSim.Net.Sessions.HostOptions", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.ClientOptions", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.SessionState", SessionWords, ForUsers),
-        new("LagSim.Net.Sessions.Hosts.DoorLimits", SessionWords, "an option of a session that only tests set"),
+        new("LagSim.Net.Sessions.Hosts.JoinLimits", SessionWords, "an option of a session that only tests set"),
 
         new("LagSim.Testing.FirstDifference", "LagSim.Testing/Invariant", ForUsers),
         new("LagSim.Testing.PlayerResult", "LagSim.Testing/Running", ForUsers),

@@ -54,11 +54,11 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override ContactScale ContactScale(Scene scene, SimTime start) => Scale ?? base.ContactScale(scene, start);
 
-    internal override TimelineGrowth TimelineGrowth(SimTime origin, SimDuration history) =>
-        GrowsByLittle ? new UnforeseeingGrowth(origin, history) : base.TimelineGrowth(origin, history);
+    internal override TimelineGrowthPolicy TimelineGrowthPolicy(SimTime origin, SimDuration history) =>
+        GrowsByLittle ? new UnforeseeingGrowth(origin, history) : base.TimelineGrowthPolicy(origin, history);
 
-    internal override PathView PathView(TimelineStore timelines, RollbackState rollback) =>
-        new FaultyPathView(timelines, rollback, this, isForPending: false);
+    internal override SegmentLookup SegmentLookup(TimelineStore timelines, RollbackState rollback) =>
+        new FaultySegmentLookup(timelines, rollback, this, isForPending: false);
 
     internal override AdaptiveBroadPhase BroadPhase(Scene scene, BodyTable bodies, TimelineStore timelines, int bruteForceLimit) =>
         new FaultyBroadPhase(scene, bodies, timelines, bruteForceLimit, this);
@@ -72,10 +72,10 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override EventPredictor EventPredictor(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-        AdaptiveBroadPhase broadPhase, CollisionSearch search, PathView view) =>
+        AdaptiveBroadPhase broadPhase, CollisionSearch search, SegmentLookup view) =>
         new FaultyEventPredictor(
             bodies, timelines, log, scheduler, rollback, flights, (FaultyBroadPhase)broadPhase, search,
-            new FaultyPathView(timelines, rollback, this, isForPending: true), this);
+            new FaultySegmentLookup(timelines, rollback, this, isForPending: true), this);
 
     internal override CutPaths CutPaths() => new FaultyCutPaths(this);
 
@@ -85,8 +85,8 @@ internal sealed class FaultyEngineParts : EngineParts
         new FaultyRewinder(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode, this);
 
     internal override SleepWaker SleepWaker(
-        BodyTable bodies, TimelineStore timelines, PathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
-        new FaultySleepWaker(bodies, timelines, (FaultyPathView)view, graph, rewinds, members, this);
+        BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
+        new FaultySleepWaker(bodies, timelines, (FaultySegmentLookup)view, graph, rewinds, members, this);
 
     internal override SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>
@@ -98,11 +98,11 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override IsolatedImpact IsolatedImpact(
         Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-        ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments) =>
+        ContactGraph graph, FreeImpactResponse resolver, ImpactNotifier notifier, ImpactSegments segments) =>
         new FaultyIsolatedImpact(scene, bodies, timelines, scheduler, rollback, flights, graph, resolver, notifier, segments, this);
 
     internal override ImpactGraphBuilder ImpactGraphBuilder(
-        Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
+        Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
         new FaultyImpactGraphBuilder(
             scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, this);

@@ -7,7 +7,7 @@ namespace LagSim.Tests.Faults;
 /// <summary>A predictor that gives up a pending contact once its partner has changed, as if the partner would find it anew.</summary>
 internal sealed class FaultyEventPredictor(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-    FaultyBroadPhase broadPhase, CollisionSearch search, FaultyPathView view, FaultyEngineParts faults)
+    FaultyBroadPhase broadPhase, CollisionSearch search, FaultySegmentLookup view, FaultyEngineParts faults)
     : EventPredictor(bodies, timelines, log, scheduler, rollback, flights, broadPhase, search, view)
 {
     private readonly TimelineStore timelines = timelines;

@@ -11,7 +11,7 @@ namespace LagSim.Tests.Faults;
 
 /// <summary>Takes the two bodies of each contact the wrong way round.</summary>
 internal sealed class FaultyImpactGraphBuilder(
-    Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, PathView view,
+    Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
     FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
     FaultyEngineParts faults)
     : ImpactGraphBuilder(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph)

@@ -10,7 +10,7 @@ namespace LagSim.Tests.Faults;
 /// <summary>Leaves every impact to the general way, or takes those for isolated in which more bodies meet at once.</summary>
 internal sealed class FaultyIsolatedImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
-    ContactGraph graph, ImpactResolver resolver, ImpactNotifier notifier, ImpactSegments segments, FaultyEngineParts faults)
+    ContactGraph graph, FreeImpactResponse resolver, ImpactNotifier notifier, ImpactSegments segments, FaultyEngineParts faults)
     : IsolatedImpact(scene, bodies, timelines, scheduler, rollback, flights, graph, resolver, notifier, segments)
 {
     private readonly EventScheduler scheduler = scheduler;

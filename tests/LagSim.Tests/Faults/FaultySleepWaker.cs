@@ -8,7 +8,7 @@ namespace LagSim.Tests.Faults;
 
 /// <summary>Leaves those asleep that sleep on what a late event moved.</summary>
 internal sealed class FaultySleepWaker(
-    BodyTable bodies, TimelineStore timelines, FaultyPathView view, ContactGraph graph, RewindRequests rewinds, MemberFactory members,
+    BodyTable bodies, TimelineStore timelines, FaultySegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members,
     FaultyEngineParts faults)
     : SleepWaker(bodies, timelines, view, graph, rewinds, members)
 {

@@ -51,7 +51,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [Fact]
     public void ThousandHalfOpenJoins_WithoutALimit_AreAllRemembered()
     {
-        (SessionGroup group, NatPort nat) = Host(1, door: new DoorLimits { Coming = int.MaxValue, ComingOfOne = int.MaxValue });
+        (SessionGroup group, NatPort nat) = Host(1, limits: new JoinLimits { Coming = int.MaxValue, ComingOfOne = int.MaxValue });
         foreach (int n in Enumerable.Range(0, Thousand))
         {
             Intrude(group, nat, n, n % 2 == 0).ConnectRequest();
@@ -105,7 +105,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         List<double> took = [];
         for (int seed = 1; seed <= (areGone ? Seeds : 1); seed++)
         {
-            (SessionGroup group, NatPort nat) = Host(seed, door: new DoorLimits { SlowestCopy = slowest });
+            (SessionGroup group, NatPort nat) = Host(seed, limits: new JoinLimits { SlowestCopy = slowest });
             Intruder[] slow = Enumerable.Range(0, 200).Select(n => Intrude(group, nat, n, false)).ToArray();
             Array.ForEach(slow, one => one.ConnectRequest());
             group.Run(0.01);
@@ -128,8 +128,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [InlineData(1e6, 4)] // the limit taken away
     public void CopiesOfHalfOpenJoins_TakeBoundedMemory(double room, int copies)
     {
-        DoorLimits door = new() { MinCopies = 1 };
-        (SessionGroup group, NatPort nat) = Host(1, door: door);
+        JoinLimits limits = new() { MinCopies = 1 };
+        (SessionGroup group, NatPort nat) = Host(1, limits: limits);
         group.Run(3); // so that all copies have a world in them, and are of one length
         HashSet<ulong> hashes = [];
         for (int n = 0; n < 4; n++)
@@ -138,7 +138,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             one.ConnectRequest();
             group.Run(1.05);
             hashes.Add(one.CopyHash);
-            door.CopyBytes = (long)(room * one.CopyBytes);
+            limits.CopyBytes = (long)(room * one.CopyBytes);
         }
 
         Assert.Equal((copies, 4), (hashes.Count, group.Host.ComingCount));
@@ -148,8 +148,8 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [Fact]
     public void CopiesOfHalfOpenJoins_AreNotGivenForLong()
     {
-        DoorLimits door = new() { MinCopies = 1 };
-        (SessionGroup group, NatPort nat) = Host(1, door: door);
+        JoinLimits limits = new() { MinCopies = 1 };
+        (SessionGroup group, NatPort nat) = Host(1, limits: limits);
         group.Run(3);
         List<ulong> hashes = [];
         for (int n = 0; n < 20; n++)
@@ -158,7 +158,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             one.ConnectRequest();
             group.Run(3);
             hashes.Add(one.CopyHash);
-            door.CopyBytes = (long)(1.5 * one.CopyBytes);
+            limits.CopyBytes = (long)(1.5 * one.CopyBytes);
         }
 
         int[] shared = [.. Enumerable.Range(1, 19).Where(n => hashes[n] == hashes[n - 1])];
@@ -171,12 +171,12 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [InlineData(false)] // the limit taken away
     public void GreedyDownloadsOfOneMachine_ShareOnePace(bool isPaced)
     {
-        DoorLimits door = isPaced ? new DoorLimits() : new DoorLimits { ChunksPerSecond = 1e9, ChunkBurst = int.MaxValue };
+        JoinLimits limits = isPaced ? new JoinLimits() : new JoinLimits { ChunksPerSecond = 1e9, ChunkBurst = int.MaxValue };
         List<double> took = [];
         List<double> rates = [];
         for (int seed = 1; seed <= (isPaced ? Seeds : 1); seed++)
         {
-            (SessionGroup group, NatPort nat) = Host(seed, door: door, isLarge: true);
+            (SessionGroup group, NatPort nat) = Host(seed, limits: limits, isLarge: true);
             Intruder[] greedy = Enumerable.Range(0, 16).Select(n => Intrude(group, nat, n, true)).ToArray();
             Array.ForEach(greedy, one => one.ConnectRequest());
             group.Run(0.01);
@@ -296,7 +296,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     }
 
     /// <summary>A host that runs a world, and sees its nodes behind their NATs.</summary>
-    private static (SessionGroup Group, NatPort Nat) Host(int seed, int? perAddress = null, DoorLimits? door = null, bool isLarge = false)
+    private static (SessionGroup Group, NatPort Nat) Host(int seed, int? perAddress = null, JoinLimits? limits = null, bool isLarge = false)
     {
         NatPort? nat = null;
         SessionGroup group = new(
@@ -311,7 +311,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
 
         HostOptions Options()
         {
-            HostOptions options = new() { Door = door ?? new DoorLimits() };
+            HostOptions options = new() { JoinLimits = limits ?? new JoinLimits() };
             return perAddress is int most ? options with { MaxClientsPerAddress = most } : options;
         }
     }

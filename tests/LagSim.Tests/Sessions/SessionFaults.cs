@@ -32,7 +32,7 @@ internal static class SessionFaults
 
         internal override SpareRate Spare() => fault.HasFlag(SessionFault.NeverBacksOff) ? new HeedlessSpareRate() : base.Spare();
 
-        internal override LinkHearing Hearing(SimTime now) =>
+        internal override LinkReceipts Hearing(SimTime now) =>
             fault.HasFlag(SessionFault.CountsTripsAgain) ? new RepeatingHearing(now) : base.Hearing(now);
     }
 
@@ -59,7 +59,7 @@ internal static class SessionFaults
         internal override bool HasQueue(RoundTrips trips) => false;
     }
 
-    private sealed class RepeatingHearing(SimTime now) : LinkHearing(now)
+    private sealed class RepeatingHearing(SimTime now) : LinkReceipts(now)
     {
         internal override bool IsNewTrip(uint answered, uint counted) => true;
     }

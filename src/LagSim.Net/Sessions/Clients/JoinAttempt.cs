@@ -64,7 +64,7 @@ internal sealed class JoinAttempt
     internal SnapshotDownload? Download { get; set; }
 
     /// <summary>The snapshot, once it is here.</summary>
-    internal WorldCopy? Copy { get; set; }
+    internal JoinSnapshotFormat? Copy { get; set; }
 
     /// <summary>The estimate of the host's clock.</summary>
     internal ClockSync Clock { get; } = new();

@@ -51,11 +51,11 @@ internal sealed class SnapshotClient(
         }
 
         string? error = null;
-        if (WorldCopy.HashOf(download.Bytes) != attempt.CopyHash)
+        if (JoinSnapshotFormat.HashOf(download.Bytes) != attempt.CopyHash)
         {
             error = "its hash is another one than was announced.";
         }
-        else if (WorldCopy.TryDecode(download.Bytes, accelerations, world.Scene, out WorldCopy? copy, out error))
+        else if (JoinSnapshotFormat.TryDecode(download.Bytes, accelerations, world.Scene, out JoinSnapshotFormat? copy, out error))
         {
             attempt.Copy = copy;
             world.Scene = copy.Scene;

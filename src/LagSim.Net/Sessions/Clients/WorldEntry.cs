@@ -18,7 +18,7 @@ internal sealed class WorldEntry(
     /// <returns>Whether it has begun.</returns>
     internal bool TryBegin(SimTime told)
     {
-        if (attempts.Current is not { Seat: not null, Copy: WorldCopy copy } attempt)
+        if (attempts.Current is not { Seat: not null, Copy: JoinSnapshotFormat copy } attempt)
         {
             return false;
         }

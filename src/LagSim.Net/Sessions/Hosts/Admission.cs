@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>Answers requests to join: welcomes a client with a link and a snapshot to download, or refuses it with the reason.</summary>
 internal sealed class Admission(
     ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules,
-    PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinCopies copies, ClientTimeouts timeouts,
+    PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinSnapshots copies, ClientTimeouts timeouts,
     LinkFactory links, DatagramSender sender, SessionCounters counters, IClock clock)
 {
     private ulong joins;
@@ -27,7 +27,7 @@ internal sealed class Admission(
         }
 
         known ??= Admit(join, from, clock.Now);
-        if (known?.Copy is JoinCopy copy)
+        if (known?.Copy is JoinSnapshot copy)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
             WelcomeDatagram welcome = new(nonce, known.Link.SessionId, history, copy.Bytes.Length, copy.Hash, copy.LogIndex);
@@ -54,7 +54,7 @@ internal sealed class Admission(
             return null;
         }
 
-        JoinCopy? made;
+        JoinSnapshot? made;
         try
         {
             made = copies.For(now);

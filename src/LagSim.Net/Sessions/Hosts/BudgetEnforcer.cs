@@ -10,7 +10,7 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Expels a player that has used up its budget, removes its bodies, and stops others that it moved.</summary>
 internal sealed class BudgetEnforcer(
-    WorkBudget budget, ForeignActs acts, ClientRoster roster, ShutOuts shutOuts, BodyRemoval removal,
+    WorkBudget budget, RecentTouches acts, ClientRoster roster, BanList shutOuts, BodyRemoval removal,
     HostActions actions, SharedWorld world, Watermark watermark, SessionStatus status)
 {
     private const int MaxStops = 1024;

@@ -11,7 +11,7 @@ internal sealed class Client
     // The committed states it reports, by the number of the update.
     private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32];
 
-    internal Client(JoinClaim claim, UpdateLink link, JoinCopy copy)
+    internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot copy)
     {
         Claim = claim;
         Link = link;
@@ -31,7 +31,7 @@ internal sealed class Client
     internal CatchingUp CatchingUp { get; private set; } = new();
 
     /// <summary>The snapshot it downloads; null once it has it.</summary>
-    internal JoinCopy? Copy { get; set; }
+    internal JoinSnapshot? Copy { get; set; }
 
     /// <summary>The last chunk request that was answered.</summary>
     internal uint LastRequest { get; set; }

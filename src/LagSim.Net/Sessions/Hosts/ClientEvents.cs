@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// Takes the clients' events in order, at most as many per second as each may send, and has them validated, applied and recorded.
 /// </summary>
 internal sealed class ClientEvents(
-    PlayerPlaces places, EventValidator validator, SharedWorld world, ForeignActs acts, AuthoritativeLog log,
+    PlayerPlaces places, EventValidator validator, SharedWorld world, RecentTouches acts, AuthoritativeLog log,
     SessionCounters counters)
 {
     /// <summary>Validates a client's events that have arrived, in order.</summary>

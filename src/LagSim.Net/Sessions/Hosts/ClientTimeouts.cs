@@ -39,7 +39,7 @@ internal sealed class ClientTimeouts
     internal bool IsSilent(Client client, SimTime now) => now - client.Link.Heard > timeout / 2;
 
     /// <summary>How long a client may take to join, given its snapshot.</summary>
-    internal SimDuration TimeoutWithCopy(JoinCopy copy) =>
+    internal SimDuration TimeoutWithCopy(JoinSnapshot copy) =>
         timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / slowestCopy);
 
     /// <summary>When a client that never sent an update is given up.</summary>

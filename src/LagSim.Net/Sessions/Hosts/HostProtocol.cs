@@ -36,14 +36,14 @@ internal sealed class HostProtocol : ISessionProtocol
         broadcast = new LogBroadcast(Roster, Log, Watermark, parts.World, parts.Commits, parts.KeepAlive, parts.Sender, parts.Clock);
         Log.Recorded += broadcast.NoteRecorded;
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
-        timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.Door.SlowestCopy, now);
-        Door = new FrontDoor(parts, options, sessionId, Roster, places, Log, Budget, timeouts);
-        ForeignActs acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
+        timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestCopy, now);
+        Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts);
+        RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
         Removal = new BodyRemoval(parts.World, actions);
-        Enforcer = new BudgetEnforcer(Budget, acts, Roster, Door.ShutOuts, Removal, actions, parts.World, Watermark, parts.Status);
+        Enforcer = new BudgetEnforcer(Budget, acts, Roster, Handshake.BanList, Removal, actions, parts.World, Watermark, parts.Status);
         DesyncReport = new DesyncReporter(Roster, parts.Journal, parts.World, Watermark, parts.Sender, parts.Counters, parts.Clock);
         parts.SharedTime.Adjust(SimDuration.Zero);
     }
@@ -62,7 +62,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
     internal AuthoritativeLog Log { get; }
 
-    internal FrontDoor Door { get; }
+    internal JoinHandshake Handshake { get; }
 
     internal WorkBudget Budget { get; }
 
@@ -87,7 +87,7 @@ internal sealed class HostProtocol : ISessionProtocol
     {
         if (!Parts.Status.HasEnded && ConnectRequestDatagram.TryReadAnyVersion(datagram, out ulong nonce))
         {
-            Door.OnOtherVersion(nonce, from);
+            Handshake.OnOtherVersion(nonce, from);
         }
     }
 
@@ -103,16 +103,16 @@ internal sealed class HostProtocol : ISessionProtocol
         switch (type)
         {
             case DatagramType.ConnectRequest when counters.IsWellFormed(ConnectRequestDatagram.TryDecode(datagram, out ConnectRequestDatagram request, out _)):
-                Door.Challenge(request.Nonce, from);
+                Handshake.Challenge(request.Nonce, from);
                 break;
             case DatagramType.Join when counters.IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
-                Door.OnJoin(join, from);
+                Handshake.OnJoin(join, from);
                 break;
             case DatagramType.SnapshotRequest when counters.IsWellFormed(SnapshotRequestDatagram.TryDecode(datagram, out SnapshotRequestDatagram request, out _)):
-                Door.OnSnapshotRequest(request, from);
+                Handshake.OnSnapshotRequest(request, from);
                 break;
             case DatagramType.Move when counters.IsWellFormed(MoveDatagram.TryDecode(datagram, out MoveDatagram move, out _)):
-                Door.OnMove(move, from);
+                Handshake.OnMove(move, from);
                 break;
             case DatagramType.DesyncQuery when counters.IsWellFormed(DesyncQueryDatagram.TryDecode(datagram, out DesyncQueryDatagram query, out _)):
                 DesyncReport.OnDesyncQuery(query, from);
@@ -134,7 +134,7 @@ internal sealed class HostProtocol : ISessionProtocol
         if (client is not null && client.Link.Other != from && !hasEnded)
         {
             Parts.Counters.DatagramsIgnored++; // the client sends it again, once it has proved its address
-            Door.Challenge(update.SessionId, from);
+            Handshake.Challenge(update.SessionId, from);
             return;
         }
 
@@ -180,8 +180,8 @@ internal sealed class HostProtocol : ISessionProtocol
 
         Parts.Commits.Commit(Watermark.Now);
         Log.Settle();
-        Door.Copies.Forget(now);
-        Log.Lines.ForgetUpTo(Roster.All.Aggregate(Door.Copies.NeededAfter, (least, client) => Math.Min(least, client.Acknowledged)));
+        Handshake.Copies.Forget(now);
+        Log.Lines.ForgetUpTo(Roster.All.Aggregate(Handshake.Copies.NeededAfter, (least, client) => Math.Min(least, client.Acknowledged)));
         broadcast.Tend(now);
     }
 
@@ -223,7 +223,7 @@ internal sealed class HostProtocol : ISessionProtocol
         client.Link.CountReceived(update.EncodedLength);
         client.NoteEcho(update.EchoNumber);
         client.HasWritten = true;
-        if (update.Ready && client.Peer == 0 && !Door.TrySeat(client, now))
+        if (update.Ready && client.Peer == 0 && !Handshake.TrySeat(client, now))
         {
             return;
         }
@@ -233,7 +233,7 @@ internal sealed class HostProtocol : ISessionProtocol
         {
             if (client.Peer > 0)
             {
-                Door.Seating.Tell(client); // it does not know its number yet
+                Handshake.Seating.Tell(client); // it does not know its number yet
             }
 
             client.Link.Answer(now);

@@ -7,7 +7,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Decides whether a client may join: by machine, key, version, scene and place.</summary>
-internal sealed class JoinRules(HostOptions options, ulong sceneHash, ShutOuts shutOuts, Seating seating)
+internal sealed class JoinRules(HostOptions options, ulong sceneHash, BanList shutOuts, Seating seating)
 {
     /// <summary>The number that a player's key gives; 0 for another key.</summary>
     internal byte NumberByKey(in JoinDatagram join)

@@ -8,7 +8,7 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Sends joining clients the snapshot chunks that they request, at a pace for each machine.</summary>
 internal sealed class SnapshotServer(
-    ClientRoster roster, CopyPaces paces, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
+    ClientRoster roster, SnapshotRates paces, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
     IClock clock)
 {
     /// <summary>How often every chunk of a snapshot may be requested on average before no more are sent.</summary>

@@ -8,29 +8,29 @@ namespace LagSim.Net.Sessions.Hosts;
 /// Limits the number of joining clients and the size of their snapshots. A newcomer displaces the oldest joining client of the machine with
 /// the most.
 /// </summary>
-internal sealed class WaitingRoom(ClientRoster roster, JoinCopies copies, DoorLimits door)
+internal sealed class WaitingRoom(ClientRoster roster, JoinSnapshots copies, JoinLimits limits)
 {
     /// <summary>
     /// Drops the oldest joining clients of the machine with the most, while there are too many or their snapshots take too much memory.
     /// </summary>
     /// <param name="from">The address of the newcomer.</param>
     /// <param name="made">The snapshot that the newcomer will request. Others that download the same one take no extra memory.</param>
-    internal void MakeRoom(PeerAddress from, JoinCopy made)
+    internal void MakeRoom(PeerAddress from, JoinSnapshot made)
     {
         List<Client> coming = roster.All.FindAll(j => j.Peer == 0); // the oldest first
         List<Client> ofOne = coming.FindAll(j => j.Link.Other.IsSameMachine(from));
-        if (ofOne.Count >= door.ComingOfOne)
+        if (ofOne.Count >= limits.ComingOfOne)
         {
             LeaveOut(ofOne[0]);
         }
 
-        while (coming.Count >= door.Coming)
+        while (coming.Count >= limits.Coming)
         {
             LeaveOut(OldestOf(coming));
         }
 
         while (coming.FindAll(j => j.Copy != made) is { Count: > 0 } others
-            && made.Bytes.Length + JoinCopies.BytesOf(others) > copies.RoomForCopiesLike(made))
+            && made.Bytes.Length + JoinSnapshots.BytesOf(others) > copies.RoomForCopiesLike(made))
         {
             LeaveOut(OldestOf(others));
         }

@@ -15,5 +15,5 @@ internal class LinkParts
     internal virtual SpareRate Spare() => new();
 
     /// <summary>Creates the part that tracks what arrives.</summary>
-    internal virtual LinkHearing Hearing(SimTime now) => new(now);
+    internal virtual LinkReceipts Hearing(SimTime now) => new(now);
 }

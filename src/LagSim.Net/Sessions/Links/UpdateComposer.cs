@@ -24,7 +24,7 @@ internal sealed class UpdateComposer
     internal uint Number { get; private set; }
 
     /// <summary>Begins the next update.</summary>
-    internal UpdateDatagram Next(ulong sessionId, byte self, LinkHearing hearing, SimTime now)
+    internal UpdateDatagram Next(ulong sessionId, byte self, LinkReceipts hearing, SimTime now)
     {
         Update.Clear();
         Update.SessionId = sessionId;

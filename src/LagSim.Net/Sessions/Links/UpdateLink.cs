@@ -29,7 +29,7 @@ internal sealed class UpdateLink
     private readonly SimDuration interval;
     private readonly LinkEnds ends;
     private readonly UpdateComposer composer;
-    private readonly LinkHearing hearing;
+    private readonly LinkReceipts hearing;
     private readonly LinkFlight flight;
     private readonly AnswerTimer answers;
     private readonly SpareRate spare;

@@ -11,7 +11,7 @@ namespace LagSim.Contacts;
 /// <para>Not for a problem with a held body, because a hand's push is limited. Cost: that of the solver. Allocates only when there are more
 /// bodies or contacts than ever before. Not thread-safe.</para>
 /// </remarks>
-internal sealed class NormalsAfterSweeps
+internal sealed class NormalRefinement
 {
     private readonly NormalImpulses normals = new();
     private ContactPoint[] points = Array.Empty<ContactPoint>();

@@ -6,7 +6,7 @@ using LagSim.Scenes;
 namespace LagSim.Handlers;
 
 /// <summary>Applies impulses, new velocities and teleports to a state.</summary>
-internal static class Pushes
+internal static class ActionEffects
 {
     /// <summary>
     /// The state right after an event that comes so many seconds into a segment. False if it would be faster than may be given: the check

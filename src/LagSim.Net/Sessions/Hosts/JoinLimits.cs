@@ -3,7 +3,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>
 /// Limits on what joining clients may take from a host. Only tests set other ones, to check that a missing limit is noticed.
 /// </summary>
-internal sealed class DoorLimits
+internal sealed class JoinLimits
 {
     /// <summary>
     /// The most clients that may be joining at a time. They hold no place: one that is not in yet makes room for the next.

@@ -6,7 +6,7 @@ using Xunit;
 namespace LagSim.Tests.Contacts;
 
 /// <summary>What few sweeps leave of drawn problems is settled along the normals, and friction is left as it was.</summary>
-public sealed class NormalsAfterSweepsTests
+public sealed class NormalRefinementTests
 {
     private const double Tolerance = 1e-6;
 
@@ -82,7 +82,7 @@ public sealed class NormalsAfterSweepsTests
             (problem.Bodies[b].Velocity, problem.Bodies[b].Spin) = (before.Bodies[b].Velocity, before.Bodies[b].Spin);
         }
 
-        return new NormalsAfterSweeps().Solve(problem, Tolerance);
+        return new NormalRefinement().Solve(problem, Tolerance);
     }
 
     private static ContactProblem Column(int balls)

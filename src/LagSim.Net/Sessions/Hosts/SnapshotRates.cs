@@ -10,16 +10,16 @@ namespace LagSim.Net.Sessions.Hosts;
 /// With a pace for each client, a machine that joins a hundred times would get a hundred times as much. Little is remembered: a machine
 /// that has not asked for a moment has its full pace again, and is forgotten.
 /// </remarks>
-internal sealed class CopyPaces
+internal sealed class SnapshotRates
 {
     /// <summary>The number of machines above which those with a full pace are looked for.</summary>
     private const int Many = 64;
 
     private readonly Dictionary<PeerAddress, RateLimit> paces = new();
     private readonly List<PeerAddress> rested = new();
-    private readonly DoorLimits limits;
+    private readonly JoinLimits limits;
 
-    internal CopyPaces(DoorLimits limits) => this.limits = limits;
+    internal SnapshotRates(JoinLimits limits) => this.limits = limits;
 
     /// <summary>The number of machines remembered.</summary>
     internal int Count => paces.Count;

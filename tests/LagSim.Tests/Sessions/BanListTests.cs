@@ -6,7 +6,7 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>Machines are shut out for good, or for a while that doubles.</summary>
-public sealed class ShutOutsTests
+public sealed class BanListTests
 {
     private static readonly PeerAddress Machine = PeerAddress.Virtual(1).Machine;
     private static readonly PeerAddress Other = PeerAddress.Virtual(2).Machine;
@@ -14,7 +14,7 @@ public sealed class ShutOutsTests
     [Fact]
     public void ShutOutForAWhile_AgainAndAgain_LastsTwiceAsLongUpToAnHour()
     {
-        ShutOuts shutOuts = new();
+        BanList shutOuts = new();
         SimTime now = SimTime.FromSeconds(1);
         foreach (int seconds in (int[])[60, 120, 240, 480, 960, 1920, 3600, 3600])
         {
@@ -31,7 +31,7 @@ public sealed class ShutOutsTests
     [InlineData(false)]
     public void LetInAgain_EndsBothKinds(bool isForGood)
     {
-        ShutOuts shutOuts = new();
+        BanList shutOuts = new();
         SimTime now = SimTime.FromSeconds(1);
         Assert.False(shutOuts.LetInAgain(Machine, now));
         if (isForGood)

@@ -9,7 +9,7 @@ using LagSim.Timelines;
 namespace LagSim.Response;
 
 /// <summary>Solves an impact that ends where it is struck: rebounds, friction, and the end of a collapse.</summary>
-internal sealed class ImpactResolver(
+internal sealed class FreeImpactResponse(
     Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, CaptureRule capture, CollapseRule collapse)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;

@@ -12,12 +12,12 @@ namespace LagSim.Net.Wire;
 /// The snapshot from which a client gets the world: its scene, and the committed state if the world has begun long enough ago.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-internal sealed class WorldCopy
+internal sealed class JoinSnapshotFormat
 {
     /// <summary>The longest encoding: 64 MiB, some 300,000 bodies.</summary>
     public const int MaxBytes = 1 << 26;
 
-    private WorldCopy(Scene scene, WorldSnapshot? snapshot)
+    private JoinSnapshotFormat(Scene scene, WorldSnapshot? snapshot)
     {
         Scene = scene;
         Snapshot = snapshot;
@@ -72,7 +72,7 @@ internal sealed class WorldCopy
         ReadOnlySpan<byte> bytes,
         IReadOnlyList<IAcceleration>? known,
         Scene? own,
-        [NotNullWhen(true)] out WorldCopy? copy,
+        [NotNullWhen(true)] out JoinSnapshotFormat? copy,
         [NotNullWhen(false)] out string? error)
     {
         copy = null;
@@ -104,7 +104,7 @@ internal sealed class WorldCopy
             return false;
         }
 
-        copy = new WorldCopy(own is not null && own.Hash == scene.Hash ? own : scene, snapshot);
+        copy = new JoinSnapshotFormat(own is not null && own.Hash == scene.Hash ? own : scene, snapshot);
         error = null;
         return true;
     }

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>Notified of each body's newest segment, as segments are opened and cut.</summary>
-internal interface INewestSegments
+internal interface INewestSegmentObserver
 {
     /// <summary>This is now the newest segment of a body.</summary>
     /// <param name="slot">The body.</param>

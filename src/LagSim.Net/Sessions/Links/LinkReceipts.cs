@@ -6,14 +6,14 @@ namespace LagSim.Net.Sessions.Links;
 /// <summary>
 /// Tracks what arrived from the other end of a link: which updates, when the last, and the round trips that its answers show.
 /// </summary>
-internal class LinkHearing
+internal class LinkReceipts
 {
     private readonly SeenNumbers seen = new();
     private SimDuration unheard;
     private uint echoed; // the newest number a round trip was measured with
 
     /// <param name="now">The time by the local clock.</param>
-    internal LinkHearing(SimTime now) => Heard = now;
+    internal LinkReceipts(SimTime now) => Heard = now;
 
     /// <summary>When the last update arrived, by the local clock.</summary>
     internal SimTime Heard { get; private set; }

@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>
 /// Creates and shares the snapshots for joining clients, so that many of them cost one snapshot per second and a bounded amount of memory.
 /// </summary>
-internal sealed class JoinCopies
+internal sealed class JoinSnapshots
 {
     /// <summary>The age up to which a snapshot serves the next client too.</summary>
     private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
@@ -19,25 +19,25 @@ internal sealed class JoinCopies
     private readonly ClientRoster roster;
     private readonly AuthoritativeLog log;
     private readonly SharedWorld world;
-    private readonly DoorLimits door;
+    private readonly JoinLimits limits;
     private readonly SimDuration timeout;
     private readonly byte[] sceneCopy;
-    private JoinCopy? newest;
+    private JoinSnapshot? newest;
 
     /// <param name="roster">The clients, which download snapshots.</param>
     /// <param name="log">The log, which continues where a snapshot ends.</param>
     /// <param name="world">The world to copy.</param>
-    /// <param name="door">The memory limits for snapshots.</param>
+    /// <param name="limits">The memory limits for snapshots.</param>
     /// <param name="timeout">The age above which a snapshot is not given to a new client.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
-    internal JoinCopies(ClientRoster roster, AuthoritativeLog log, SharedWorld world, DoorLimits door, SimDuration timeout)
+    internal JoinSnapshots(ClientRoster roster, AuthoritativeLog log, SharedWorld world, JoinLimits limits, SimDuration timeout)
     {
         this.roster = roster;
         this.log = log;
         this.world = world;
-        this.door = door;
+        this.limits = limits;
         this.timeout = timeout;
-        sceneCopy = WorldCopy.Encode(world.Scene!, null);
+        sceneCopy = JoinSnapshotFormat.Encode(world.Scene!, null);
     }
 
     /// <summary>The last log entry that a client with the newest snapshot does not need.</summary>
@@ -45,17 +45,17 @@ internal sealed class JoinCopies
 
     /// <summary>The size in bytes of the snapshots that these clients download; a shared one counts once.</summary>
     internal static long BytesOf(IEnumerable<Client> some) =>
-        some.Select(j => j.Copy).OfType<JoinCopy>().Distinct().Sum(copy => (long)copy.Bytes.Length);
+        some.Select(j => j.Copy).OfType<JoinSnapshot>().Distinct().Sum(copy => (long)copy.Bytes.Length);
 
-    /// <summary>The memory that snapshots of that size may take, in bytes; see <see cref="DoorLimits.CopyBytes"/>.</summary>
-    internal long RoomForCopiesLike(JoinCopy copy) => Math.Max(door.CopyBytes, (long)copy.Bytes.Length * door.MinCopies);
+    /// <summary>The memory that snapshots of that size may take, in bytes; see <see cref="JoinLimits.CopyBytes"/>.</summary>
+    internal long RoomForCopiesLike(JoinSnapshot copy) => Math.Max(limits.CopyBytes, (long)copy.Bytes.Length * limits.MinCopies);
 
     /// <summary>
     /// Returns the snapshot for a client that joins now: the scene, and the committed state once that lies past the start. Null while the
     /// world is behind what was already committed.
     /// </summary>
     /// <exception cref="SceneException">The world is too large to be copied.</exception>
-    internal JoinCopy? For(SimTime now)
+    internal JoinSnapshot? For(SimTime now)
     {
         Forget(now);
         if (newest is null || !Serves(newest, now))
@@ -70,8 +70,8 @@ internal sealed class JoinCopies
                 return null;
             }
 
-            byte[] bytes = hasState ? WorldCopy.Encode(world.Scene!, simulation!.Snapshot(settledTo)) : sceneCopy;
-            newest = new JoinCopy(bytes, log.Lines.Settled, now);
+            byte[] bytes = hasState ? JoinSnapshotFormat.Encode(world.Scene!, simulation!.Snapshot(settledTo)) : sceneCopy;
+            newest = new JoinSnapshot(bytes, log.Lines.Settled, now);
         }
 
         return newest;
@@ -96,6 +96,6 @@ internal sealed class JoinCopies
     /// <remarks>
     /// So clients are not dropped each time that another joins, and none gets an older world because others keep downloading it.
     /// </remarks>
-    private bool Serves(JoinCopy copy, SimTime now) =>
+    private bool Serves(JoinSnapshot copy, SimTime now) =>
         now - copy.Made <= CopyAge || copy.Bytes.Length + BytesOf(roster.All) > RoomForCopiesLike(copy);
 }

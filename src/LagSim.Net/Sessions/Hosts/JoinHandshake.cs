@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>
 /// The host's dealings with clients that are not in yet, or write from another address: challenge, join, snapshot, number.
 /// </summary>
-internal sealed class FrontDoor
+internal sealed class JoinHandshake
 {
     private readonly ClientRoster roster;
     private readonly JoinCookies cookies = new();
@@ -28,7 +28,7 @@ internal sealed class FrontDoor
     /// <param name="budget">Where a client with a new number gets an account.</param>
     /// <param name="timeouts">How long a client may take to join.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
-    internal FrontDoor(
+    internal JoinHandshake(
         SessionParts parts, HostOptions options, ulong sessionId, ClientRoster roster, PlayerPlaces places, AuthoritativeLog log,
         WorkBudget budget, ClientTimeouts timeouts)
     {
@@ -37,20 +37,20 @@ internal sealed class FrontDoor
         clock = parts.Clock;
         challenge = new AddressChallenge(cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.MaxClientsPerAddress);
-        Copies = new JoinCopies(roster, log, parts.World, options.Door, options.Timeout);
-        snapshots = new SnapshotServer(roster, new CopyPaces(options.Door), challenge, parts.Sender, counters, clock);
-        JoinRules rules = new(options, parts.World.Scene!.Hash, ShutOuts, Seating);
-        WaitingRoom room = new(roster, Copies, options.Door);
+        Copies = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
+        snapshots = new SnapshotServer(roster, new SnapshotRates(options.JoinLimits), challenge, parts.Sender, counters, clock);
+        JoinRules rules = new(options, parts.World.Scene!.Hash, BanList, Seating);
+        WaitingRoom room = new(roster, Copies, options.JoinLimits);
         admission = new Admission(
             sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Copies, timeouts, parts.Links,
             parts.Sender, counters, clock);
     }
 
     /// <summary>The machines from which no client is let in.</summary>
-    internal ShutOuts ShutOuts { get; } = new();
+    internal BanList BanList { get; } = new();
 
     /// <summary>The snapshots for joining clients.</summary>
-    internal JoinCopies Copies { get; }
+    internal JoinSnapshots Copies { get; }
 
     /// <summary>Gives joining clients their numbers.</summary>
     internal Seating Seating { get; }

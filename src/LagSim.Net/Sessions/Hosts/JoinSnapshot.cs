@@ -4,12 +4,12 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>A snapshot for joining clients: the committed scene and world, and how much of the log they include.</summary>
-internal sealed class JoinCopy
+internal sealed class JoinSnapshot
 {
-    internal JoinCopy(byte[] bytes, uint logIndex, SimTime made)
+    internal JoinSnapshot(byte[] bytes, uint logIndex, SimTime made)
     {
         Bytes = bytes;
-        Hash = WorldCopy.HashOf(bytes);
+        Hash = JoinSnapshotFormat.HashOf(bytes);
         LogIndex = logIndex;
         Made = made;
     }

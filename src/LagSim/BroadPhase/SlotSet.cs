@@ -3,14 +3,14 @@ using System;
 namespace LagSim.BroadPhase;
 
 /// <summary>The slots that a search has found, each once.</summary>
-internal sealed class FoundSlots
+internal sealed class SlotSet
 {
     private int[] found = new int[64];
     private uint[] foundBy; // slot -> the search that found it last
     private uint search;
 
     /// <summary>Nothing found; with room for as many slots as are expected at first.</summary>
-    internal FoundSlots(int expected) => foundBy = new uint[expected];
+    internal SlotSet(int expected) => foundBy = new uint[expected];
 
     internal int Count { get; private set; }
 

@@ -5,7 +5,7 @@ namespace LagSim.BroadPhase;
 /// <summary>Many short lists in one array: blocks of a power of two, which are reused when their list outgrows them.</summary>
 /// <typeparam name="T">The type of the values.</typeparam>
 /// <remarks>Cost: O(1) to add and to remove at a place. Allocates only when more is listed than ever before.</remarks>
-internal sealed class ManyLists<T>
+internal sealed class PooledLists<T>
     where T : struct
 {
     private const int None = -1;
@@ -18,7 +18,7 @@ internal sealed class ManyLists<T>
     private Block[] blocks;
 
     /// <summary>That many empty lists, with room for that many values in all of them at first.</summary>
-    internal ManyLists(int count, int room = 256)
+    internal PooledLists(int count, int room = 256)
     {
         blocks = new Block[count];
         pool = new T[room];

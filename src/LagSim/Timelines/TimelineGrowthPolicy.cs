@@ -6,7 +6,7 @@ namespace LagSim.Timelines;
 /// <summary>For how many segments a store of timelines takes memory: little more than its window needs, and seldom.</summary>
 /// <param name="origin">When the world began.</param>
 /// <param name="history">How long a history the store keeps.</param>
-internal class TimelineGrowth(SimTime origin, SimDuration history)
+internal class TimelineGrowthPolicy(SimTime origin, SimDuration history)
 {
     /// <summary>A store doubles below this, and grows by one part in <see cref="Part"/> above.</summary>
     private const int Large = 1024;

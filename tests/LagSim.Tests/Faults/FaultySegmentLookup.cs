@@ -7,8 +7,8 @@ namespace LagSim.Tests.Faults;
 /// A view that does not see what bodies did before a late event came: all of them, those that were rewound, or the partners of pending
 /// contacts.
 /// </summary>
-internal sealed class FaultyPathView(TimelineStore timelines, RollbackState rollback, FaultyEngineParts faults, bool isForPending)
-    : PathView(timelines, rollback)
+internal sealed class FaultySegmentLookup(TimelineStore timelines, RollbackState rollback, FaultyEngineParts faults, bool isForPending)
+    : SegmentLookup(timelines, rollback)
 {
     private readonly TimelineStore timelines = timelines;
 

@@ -3,7 +3,7 @@ using LagSim.Events;
 namespace LagSim.Timelines;
 
 /// <summary>On which segment of its path a body comes to an event, whether or not its path is known beyond it.</summary>
-internal class PathView(TimelineStore timelines, RollbackState rollback)
+internal class SegmentLookup(TimelineStore timelines, RollbackState rollback)
 {
     /// <summary>
     /// The segment on which a body meets an impact of this tick and round: its newest, unless it is ahead, with what it did

@@ -9,7 +9,7 @@ namespace LagSim.Scenes;
 /// They must not depend on which thread they are on, and each writes to places of its own. Errors come as if one ran after the other: that
 /// of the first, or else that of the second. Without threads, one thing is done after the other.
 /// </remarks>
-internal static class TwoAtOnce
+internal static class ParallelPair
 {
     /// <summary>
     /// The number of bodies below which a thread is not worth it: they are checked in a few milliseconds, and a thread takes some tenth of

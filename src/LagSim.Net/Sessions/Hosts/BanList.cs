@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>The machines from which a host lets no client in, for the whole session or for a while.</summary>
-internal sealed class ShutOuts
+internal sealed class BanList
 {
     /// <summary>The first duration; it doubles each further time, up to <see cref="Longest"/>.</summary>
     private static readonly SimDuration First = SimDuration.FromSeconds(60);

@@ -12,7 +12,7 @@ namespace LagSim;
 /// It begins when the scene does, so that a force that depends on time sees the same time. It runs to its end whatever is cancelled,
 /// because the current instant is half done.
 /// </remarks>
-internal sealed class LoneWorld(Scene scene, SimTime start, int maxSegments) : ILoneWorld
+internal sealed class SingleBodyWorld(Scene scene, SimTime start, int maxSegments) : ISingleBodyWorld
 {
     /// <inheritdoc/>
     public (MotionSegment Segment, DenseOutput Dense, Spin Spin) Follow(in ExternalEvent spawn, SimTime time)

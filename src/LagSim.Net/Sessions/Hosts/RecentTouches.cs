@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// </summary>
 /// <param name="isKept">Whether to remember anything; without a budget it is not needed.</param>
 /// <param name="many">The number above which old ones are looked for.</param>
-internal sealed class ForeignActs(bool isKept, int many)
+internal sealed class RecentTouches(bool isKept, int many)
 {
     private readonly List<ExternalEvent> acts = new();
 

@@ -7,7 +7,7 @@ using LagSim.Timelines;
 namespace LagSim.Handlers;
 
 /// <summary>The thesis's way with a late event (latency-forward): advance the one body it concerns.</summary>
-internal sealed class LonePath(Scene scene, BodyTable bodies, TimelineStore timelines, ILoneWorld world)
+internal sealed class ForwardedPath(Scene scene, BodyTable bodies, TimelineStore timelines, ISingleBodyWorld world)
 {
     private readonly Paths paths = new(timelines);
 
@@ -28,7 +28,7 @@ internal sealed class LonePath(Scene scene, BodyTable bodies, TimelineStore time
             int then = timelines.At(slot, external.Time);
             then = then == TimelineStore.None ? timelines.First(slot) : then;
             double seconds = Math.Max(0, paths.SecondsInto(then, external.Time));
-            if (!Pushes.TryApply(external, timelines.Segment(then), timelines.Dense(then), seconds, bodies.Spec(slot).Mass, scene, out position, out velocity))
+            if (!ActionEffects.TryApply(external, timelines.Segment(then), timelines.Dense(then), seconds, bodies.Spec(slot).Mass, scene, out position, out velocity))
             {
                 return;
             }
