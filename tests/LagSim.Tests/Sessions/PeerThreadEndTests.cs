@@ -206,6 +206,8 @@ public sealed class PeerThreadEndTests
         int refused = 0;
         host.Refused += (_, _) => refused++;
         Assert.True(host.WaitUntilRunning(Deadline));
+        using ManualResetEventSlim isAwaited = new();
+        _ = host.Ask(_ => isAwaited.Wait(Deadline)); // an answer that is there already needs no context
         SynchronizationContext? before = SynchronizationContext.Current;
         try
         {
@@ -215,6 +217,7 @@ public sealed class PeerThreadEndTests
         finally
         {
             SynchronizationContext.SetSynchronizationContext(before);
+            isAwaited.Set();
         }
 
         Assert.True(SpinWait.SpinUntil(() => !failures.IsEmpty, Deadline));
