@@ -22,7 +22,8 @@ internal static class Program
 {
     internal static int Main(string[] arguments)
     {
-        Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false); // not every code page has the characters of tables and curves
+        // Not every code page has the characters of tables and curves.
+        Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false);
         using Interruption interruption = new();
         int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token, () => interruption.ExitCode);
         return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a failed check is reported even after an interrupt

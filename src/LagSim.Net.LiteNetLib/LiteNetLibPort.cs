@@ -29,7 +29,7 @@ namespace LagSim.Net.Carriers;
 /// <see cref="NetDebug.Logger"/> is set before or afterwards.</para>
 /// <para>The counters may be read from any thread.</para>
 /// </remarks>
-public sealed partial class LiteNetLibPort : IDatagramPort
+public sealed class LiteNetLibPort : IDatagramPort
 {
     /// <summary>How many datagrams can wait to be taken.</summary>
     public const int RingSlots = 1024;
@@ -64,13 +64,10 @@ public sealed partial class LiteNetLibPort : IDatagramPort
     /// <remarks>No lock of ours is held while LiteNetLib is called, which calls back under locks of its own.</remarks>
     private readonly ConcurrentDictionary<PeerAddress, LiteNetPeer> peers = new();
 
+    private readonly ConnectionListener listener;
+
     private int disposed;
-    private long dropped;
     private long unconnected;
-    private long sendFailures;
-    private long receiveFailures;
-    private long connectionsRefused;
-    private long connectionsFailed;
 
     static LiteNetLibPort() => NetDebug.Logger ??= new QuietLogger();
 
@@ -91,15 +88,17 @@ public sealed partial class LiteNetLibPort : IDatagramPort
         Check(bind, key, maxConnections);
         this.key = Encoding.UTF8.GetBytes(key is null ? $"LagSim {Session.WireVersion}" : $"LagSim {Session.WireVersion}: {key}");
         this.maxConnections = maxConnections;
+        listener = new ConnectionListener(this.key, peers, ring, HasRoom, () => Arrived?.Invoke());
         bool isDual = bind.AddressFamily == AddressFamily.InterNetworkV6;
-        manager = new LiteNetManager(new Listener(this))
+        manager = new LiteNetManager(listener)
         {
             AutoRecycle = true,
             DisconnectTimeout = SilenceMilliseconds,
             IPv6Enabled = isDual,
             MaxConnectAttempts = SilenceMilliseconds / AskAgainMilliseconds,
             MaxFragmentsCount = 1, // no peer of ours sends fragments, and a sender of fragments could make this port reserve much memory
-            MtuOverride = IDatagramPort.MaxDatagramBytes + NetConstants.HeaderSize, // by default LiteNetLib refuses to send more than 1,023 bytes
+            // By default LiteNetLib refuses to send more than 1,023 bytes.
+            MtuOverride = IDatagramPort.MaxDatagramBytes + NetConstants.HeaderSize,
             ReceivePollingTime = SleepMilliseconds * 1000,
             ReconnectDelay = AskAgainMilliseconds,
             UnsyncedEvents = true,
@@ -126,23 +125,23 @@ public sealed partial class LiteNetLibPort : IDatagramPort
 
     /// <summary>How many datagrams came in over a connection and were thrown away: too long, empty, not sent as unreliable, or no room in
     /// the ring.</summary>
-    public long Dropped => Interlocked.Read(ref dropped);
+    public long Dropped => listener.Dropped;
 
     /// <summary>How many datagrams were not sent because there was no connection yet, or no room for one.</summary>
     public long Unconnected => Interlocked.Read(ref unconnected);
 
     /// <summary>The number of datagrams that the network refused, as far as LiteNetLib reports it.</summary>
-    public long SendFailures => Interlocked.Read(ref sendFailures);
+    public long SendFailures => listener.SendFailures;
 
     /// <summary>The number of errors that the system reported instead of a packet. A report that no process listens at the other end is not
     /// counted.</summary>
-    public long ReceiveFailures => Interlocked.Read(ref receiveFailures);
+    public long ReceiveFailures => listener.ReceiveFailures;
 
     /// <summary>How many requests for a connection were not granted: another key, or no room.</summary>
-    public long ConnectionsRefused => Interlocked.Read(ref connectionsRefused);
+    public long ConnectionsRefused => listener.ConnectionsRefused;
 
     /// <summary>How many connections this port asked for, for 5 s each, and was not granted.</summary>
-    public long ConnectionsFailed => Interlocked.Read(ref connectionsFailed);
+    public long ConnectionsFailed => listener.ConnectionsFailed;
 
     /// <inheritdoc/>
     /// <exception cref="ObjectDisposedException">The port is closed.</exception>
@@ -160,7 +159,7 @@ public sealed partial class LiteNetLibPort : IDatagramPort
             IPEndPoint endPoint = EndPointOf(to);
             if (endPoint.AddressFamily == AddressFamily.InterNetworkV6 && !manager.IPv6Enabled)
             {
-                Interlocked.Increment(ref sendFailures);
+                listener.NoteSendFailure();
                 return;
             }
 

@@ -49,7 +49,8 @@ public readonly struct HealReport : IEquatable<HealReport>
 
     /// <inheritdoc/>
     public bool Equals(HealReport other) =>
-        (From, To, LateEvents, Bodies, SegmentsCut, Events, ReconvergedAt) == (other.From, other.To, other.LateEvents, other.Bodies, other.SegmentsCut, other.Events, other.ReconvergedAt);
+        (From, To, LateEvents, Bodies, SegmentsCut, Events, ReconvergedAt)
+            == (other.From, other.To, other.LateEvents, other.Bodies, other.SegmentsCut, other.Events, other.ReconvergedAt);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is HealReport other && Equals(other);

@@ -90,10 +90,10 @@ public sealed class SimulationOptions
     public int MaxSegments { get; }
 
     /// <summary>How an event before the simulated time is brought in.</summary>
-    public HealingMode Healing { get; }
+    public HealingMode Healing { get; private set; }
 
     /// <summary>The largest number of threads that work for the simulation at once.</summary>
-    public int Threads { get; }
+    public int Threads { get; private set; }
 
     /// <summary>
     /// The number of bodies up to which the broad phase is brute force. No bit depends on it; tests set it to have neighbour lists in small
@@ -102,29 +102,40 @@ public sealed class SimulationOptions
     internal int BruteForceLimit { get; private set; } = DefaultBruteForceLimit;
 
     /// <summary>The same with another <see cref="BruteForceLimit"/>.</summary>
-    internal SimulationOptions WithBruteForceLimit(int most) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, BruteForceLimit = most, Parts = Parts };
+    internal SimulationOptions WithBruteForceLimit(int most) => With(changed => changed.BruteForceLimit = most);
 
     /// <summary>The factory of the engine's parts.</summary>
     internal EngineParts Parts { get; private set; } = EngineParts.Usual;
 
     /// <summary>Ends the simulation's current call.</summary>
-    public CancellationToken Cancellation { get; }
+    public CancellationToken Cancellation { get; private set; }
 
     /// <summary>
     /// The same, for the twin of a sync test: no cancellation, so that it is never behind, and the usual parts, by which it checks others.
     /// </summary>
-    internal SimulationOptions FullyRolledBack() =>
-        new(Start, History, MaxSegments, default, HealingMode.FullRollback, 1) { BruteForceLimit = BruteForceLimit };
+    internal SimulationOptions FullyRolledBack() => With(changed =>
+    {
+        changed.Cancellation = default;
+        changed.Healing = HealingMode.FullRollback;
+        changed.Threads = 1;
+        changed.Observer = null;
+        changed.Parts = EngineParts.Usual;
+    });
 
     /// <summary>Notified of impacts, including those of the very first instant; null for none.</summary>
     internal IImpactObserver? Observer { get; private set; }
 
     /// <summary>The same with an observer.</summary>
-    internal SimulationOptions WithObserver(IImpactObserver? observer) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = observer, BruteForceLimit = BruteForceLimit, Parts = Parts };
+    internal SimulationOptions WithObserver(IImpactObserver? observer) => With(changed => changed.Observer = observer);
 
     /// <summary>The same with parts that others make.</summary>
-    internal SimulationOptions WithParts(EngineParts parts) =>
-        new(Start, History, MaxSegments, Cancellation, Healing, Threads) { Observer = Observer, BruteForceLimit = BruteForceLimit, Parts = parts };
+    internal SimulationOptions WithParts(EngineParts parts) => With(changed => changed.Parts = parts);
+
+    // A copy has every option, also one that is added later.
+    private SimulationOptions With(Action<SimulationOptions> change)
+    {
+        SimulationOptions changed = (SimulationOptions)MemberwiseClone();
+        change(changed);
+        return changed;
+    }
 }

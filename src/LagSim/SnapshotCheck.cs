@@ -157,7 +157,9 @@ internal static class SnapshotCheck
 
         Limits.Components(hold.Offset, Limits.MaxCoordinate, whose, "offset of the hand", "m");
         bool isPast = hold.KeyframeTime >= snapshot.Start && hold.KeyframeTime <= body.Epoch;
-        if (!isPast || (body.End != hold.KeyframeTime + HandPath.Settles && body.End != hold.KeyframeTime + HandPath.Stops && body.End != hold.KeyframeTime + HandPath.Lasts))
+        SimTime told = hold.KeyframeTime;
+        bool isAnEnd = body.End == told + HandPath.Settles || body.End == told + HandPath.Stops || body.End == told + HandPath.Lasts;
+        if (!isPast || !isAnEnd)
         {
             throw new SceneException(
                 $"The hand that holds {whose} last told where it is at {hold.KeyframeTime}, and this segment lasts from {body.Epoch.ToShortString()} to"

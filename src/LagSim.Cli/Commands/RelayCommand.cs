@@ -36,7 +36,8 @@ internal static class RelayCommand
             DefaultValueFactory = _ => IPAddress.Loopback.ToString(),
             HelpName = "ADDRESS",
         };
-        Option<double?> length = SessionArguments.Seconds("--for-s", "How long to run; by default until Ctrl-C.", SessionArguments.MinLength, ScriptedAction.MaxSeconds);
+        Option<double?> length = SessionArguments.Seconds("--for-s", "How long to run; by default until Ctrl-C.",
+            SessionArguments.MinLength, ScriptedAction.MaxSeconds);
         Option<double?> change = SessionArguments.Seconds(
             "--change-port-s", "How often the host sees each client move to another port; by default never.", 0.5, 3600);
         Command command = new("relay", "Passes datagrams between clients and a host, with the delays and losses of a link profile.")

@@ -1,29 +1,20 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Scenes;
-using LagSim.Time;
 
 namespace LagSim.Harness.SceneFiles;
 
 /// <summary>
 /// The parser of scene files: the keys, their meaning to a <see cref="SceneBuilder"/>, and which may be left out.
 /// </summary>
-internal ref partial struct SceneJsonReader
+internal ref struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
         new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
 
-    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction"]);
-
-    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction"]);
-
-    private static readonly JsonKeys BodyKeys =
-        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
-
     private readonly string? locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // parts to build once the name is known
-    private readonly List<string> forceNames = new();
-    private readonly List<(string Name, SceneFileException Where)> namedForces = new(); // a body may come before the forces that it names
+    private readonly ForceNames forceNames = new();
     private JsonCursor cursor;
 
     /// <param name="json">The document, known to be UTF-8.</param>
@@ -56,7 +47,7 @@ internal ref partial struct SceneJsonReader
                     CheckFormat();
                     break;
                 case "name":
-                    SceneName = Name();
+                    SceneName = SceneJsonValues.Name(ref cursor);
                     break;
                 case "gravity_m_per_s2":
                     Vector3D gravity = cursor.Vector();
@@ -75,7 +66,7 @@ internal ref partial struct SceneJsonReader
                     Add(b => b.WithSmallestRadius(smallest));
                     break;
                 case "spawners":
-                    PeerSet spawners = Peers();
+                    PeerSet spawners = SceneJsonValues.Peers(ref cursor);
                     Add(b => b.WithSpawners(spawners));
                     break;
                 case "periodic_box_m":
@@ -95,7 +86,7 @@ internal ref partial struct SceneJsonReader
         }
 
         cursor.Read(); // nothing may follow
-        CheckForceNames();
+        forceNames.Check();
         SceneBuilder builder = new(SceneName);
         parts.ForEach(add => add(builder));
         return builder.Build();
@@ -109,16 +100,18 @@ internal ref partial struct SceneJsonReader
             switch (key)
             {
                 case "planes":
-                    ReadPlane();
+                    Add(PartJson.Plane(ref cursor));
                     break;
                 case "static_spheres":
-                    ReadSphere();
+                    Add(PartJson.Sphere(ref cursor));
                     break;
                 case "forces":
-                    ReadForce();
+                    Force force = ForceJson.Read(ref cursor);
+                    forceNames.Add(force.Name);
+                    Add(b => b.AddForce(force));
                     break;
                 default:
-                    ReadBody();
+                    Add(PartJson.Body(ref cursor, forceNames, isAlone: locate is not null));
                     break;
             }
         }
@@ -151,51 +144,5 @@ internal ref partial struct SceneJsonReader
         {
             throw cursor.Fail($"the format is {JsonFault.Quote(format)}; this version reads \"{SceneFile.Format}\" only");
         }
-    }
-
-    private string Name()
-    {
-        string name = cursor.String();
-        return PartName.Problem(name) is string problem ? throw cursor.Fail(problem) : name;
-    }
-
-    private MotionLaw Motion()
-    {
-        string name = cursor.String();
-        return MotionNames.TryParseFlight(name, out MotionLaw law)
-            ? law
-            : throw cursor.Fail($"the motion {JsonFault.Quote(name)} is unknown; allowed are {MotionNames.Quoted}");
-    }
-
-    private PeerSet Peers()
-    {
-        List<int> peers = new();
-        cursor.EnterArray("an array of the numbers of peers");
-        while (cursor.NextElement())
-        {
-            double number = cursor.Number();
-            if (!(number >= 0 && number <= PeerSet.MaxPeer && number == Math.Floor(number)))
-            {
-                throw cursor.Fail($"the peer {number:R} cannot be granted a right; it must be a whole number between 0 and {PeerSet.MaxPeer}");
-            }
-
-            if (peers.Contains((int)number))
-            {
-                throw cursor.Fail($"the peer {number:R} stands here twice; each may stand once");
-            }
-
-            peers.Add((int)number);
-        }
-
-        return PeerSet.Of(peers.ToArray());
-    }
-
-    // A BodySpec takes zero as the default, and a number far out of range is no duration: both are refused here.
-    private SimDuration Step()
-    {
-        double seconds = cursor.Number();
-        return seconds is >= 1e-6 and <= 1
-            ? SimDuration.FromSeconds(seconds)
-            : throw cursor.Fail($"the step is {seconds:R} s; it must lie between 1E-06 and 1 s");
     }
 }

@@ -42,10 +42,12 @@ internal struct ClockExchange
     internal readonly double Width(double drift) => (most - least).ToSeconds() + (drift * Length);
 
     /// <summary>The greatest possible offset at a local time, in seconds above a reference, for that drift.</summary>
-    internal readonly double UpperBoundAt(SimTime at, SimDuration reference, double drift) => (most - reference).ToSeconds() + (drift * (at - left).ToSeconds());
+    internal readonly double UpperBoundAt(SimTime at, SimDuration reference, double drift) =>
+        (most - reference).ToSeconds() + (drift * (at - left).ToSeconds());
 
     /// <summary>The least possible offset at a local time, in seconds above a reference, for that drift.</summary>
-    internal readonly double LowerBoundAt(SimTime at, SimDuration reference, double drift) => (least - reference).ToSeconds() + (drift * (at - back).ToSeconds());
+    internal readonly double LowerBoundAt(SimTime at, SimDuration reference, double drift) =>
+        (least - reference).ToSeconds() + (drift * (at - back).ToSeconds());
 
     /// <summary>How long ago its midpoint was, in seconds.</summary>
     internal readonly double Age(SimTime at) => ((at - left).ToSeconds() + (at - back).ToSeconds()) / 2;

@@ -143,7 +143,8 @@ public sealed class RecordingReplay
     /// Names the bodies that the difference can stem from. Hashes do not show it, but everything agreed up to the last equal state, so the
     /// difference arose in what happened since.
     /// </summary>
-    private static string SuspectsOf(Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
+    private static string SuspectsOf(
+        Simulation replayed, Recording recording, in CommittedState expected, in CommittedState actual, SimTime? agreed)
     {
         SimTime start = recording.Header!.Start;
         StringBuilder named = new();

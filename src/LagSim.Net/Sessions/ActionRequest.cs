@@ -10,7 +10,8 @@ namespace LagSim.Net.Sessions;
 /// <summary>One action for the session's thread to perform, and its answer.</summary>
 /// <param name="refused">Called if it is refused, on the session's thread, before the answer is set.</param>
 /// <param name="failures">Where what an awaiter's context throws goes.</param>
-internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, HandlerFailures failures) : IPeerRequest, IValueTaskSource<ExternalEvent>
+internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, HandlerFailures failures)
+    : IPeerRequest, IValueTaskSource<ExternalEvent>
 {
     private readonly object gate = new(); // guards the fields that decide whether it can be reused
     private ManualResetValueTaskSourceCore<ExternalEvent> core = new() { RunContinuationsAsynchronously = true };

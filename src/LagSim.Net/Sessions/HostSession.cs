@@ -64,8 +64,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread, once, for each client that left, fell silent, was disconnected, or joined again from the same address,
-    /// with the total traffic of its link. Not raised for clients that are there when the session ends.
+    /// Raised on the session's thread, once, for each client that left, fell silent, was disconnected, or joined again from the same
+    /// address, with the total traffic of its link. Not raised for clients that are there when the session ends.
     /// </summary>
     public event Action<LinkTraffic>? ClientGone
     {

@@ -42,12 +42,11 @@ public sealed class PeerThread : IDisposable
     private readonly HandlerList<Action<PlayerAction, Exception>> refused;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // set once running or ended
-    private readonly object ending = new(); // held by the thread that disposes this, while it leaves and closes
+    private readonly object ending = new(); // held while a thread cleans up
     private readonly bool ownsPort;
-    private volatile bool isOwner; // from Start on
+    private volatile bool isOwner; // from Start to the end of the thread
     private volatile bool isDisposed;
-    private int hasEnded; // 1 once End has run
-    private bool hasClosed; // the port; for the last thread that has it
+    private bool hasLeftPort; // it no longer wakes the thread, and is disposed if owned
     private Action<LateEventStrategy>? warmUp; // null once done; for the session's thread only
 
     /// <summary>Gives the session a thread, which is not started yet. The port is not disposed with it.</summary>
@@ -276,11 +275,7 @@ public sealed class PeerThread : IDisposable
         thread.Dispose();
         if (!IsOwnThread)
         {
-            lock (ending)
-            {
-                End(thread.Fault); // for a thread never started; a started one has done it itself
-                LeaveAndClose(); // for one that failed or was cancelled
-            }
+            End(thread.Fault);
         }
     }
 
@@ -350,50 +345,42 @@ public sealed class PeerThread : IDisposable
         return wait;
     }
 
-    /// <summary>The cleanup after the last step, once: on the session's thread, or on the disposing one if never started.</summary>
+    /// <summary>
+    /// Cleans up after the last step: on the session's thread, and again on each thread that disposes this. Whatever is done already stays
+    /// as it is, so a thread that was cancelled says goodbye once it is disposed, and one that was never started does all of it then.
+    /// </summary>
     /// <param name="fault">What ended the thread. Even then it says goodbye, so that other peers need not wait for the timeout.</param>
     private void End(Exception? fault)
     {
-        if (Interlocked.Exchange(ref hasEnded, 1) != 0)
+        lock (ending)
         {
-            return;
-        }
-
-        owner.Failures.Guard(() => port.Arrived -= thread.Wake);
-        if (isOwner)
-        {
-            owner.Enter(); // if disposed before its first step, the thread has not entered yet
-        }
-
-        bool hasFailed = fault is not (null or OperationCanceledException);
-        if (hasFailed)
-        {
-            owner.Failures.Guard(Session.Leave);
-        }
-
-        if (isDisposed)
-        {
-            LeaveAndClose();
-        }
-
-        decided.Set();
-        requests.Close(hasFailed ? fault : null);
-        if (isOwner)
-        {
-            owner.Release();
-        }
-    }
-
-    /// <summary>Says goodbye, and closes the port, if both are this thread's to end.</summary>
-    private void LeaveAndClose()
-    {
-        if (ownsPort)
-        {
-            owner.Failures.Guard(Session.Leave); // once: a session that has ended does nothing
-            if (!hasClosed)
+            if (isOwner)
             {
-                hasClosed = true;
-                owner.Failures.Guard(port.Dispose);
+                owner.Enter(); // if disposed before its first step, the thread has not entered yet
+            }
+
+            bool hasFailed = fault is not (null or OperationCanceledException);
+            if ((hasFailed || (ownsPort && isDisposed)) && Session.State != SessionState.Ended)
+            {
+                owner.Failures.Guard(Session.Leave);
+            }
+
+            if (isDisposed && !hasLeftPort) // a handler of the end may have disposed it just now
+            {
+                hasLeftPort = true;
+                owner.Failures.Guard(() => port.Arrived -= thread.Wake);
+                if (ownsPort)
+                {
+                    owner.Failures.Guard(port.Dispose);
+                }
+            }
+
+            decided.Set();
+            requests.Close(hasFailed ? fault : null);
+            if (isOwner)
+            {
+                isOwner = false;
+                owner.Release();
             }
         }
     }
@@ -402,7 +389,8 @@ public sealed class PeerThread : IDisposable
     {
         if (refused.IsEmpty)
         {
-            HandlerFailures.Write($"{action.Kind} was refused, and nothing listens to {nameof(PeerThread)}.{nameof(Refused)}: {why.Message}");
+            HandlerFailures.Write(
+                $"{action.Kind} was refused, and nothing listens to {nameof(PeerThread)}.{nameof(Refused)}: {why.Message}");
         }
 
         refused.Raise((Action: action, Why: why), static (handler, told) => handler(told.Action, told.Why));

@@ -31,7 +31,9 @@ public sealed class PlayerExpulsion
     /// <summary>Whether a client had that number, and was disconnected.</summary>
     public bool WasThere { get; }
 
-    /// <summary>The work charged to the player since it last stayed within its budget for a while, in units of about a microsecond.</summary>
+    /// <summary>
+    /// The work charged to the player since it last stayed within its budget for a while, in units of about a microsecond.
+    /// </summary>
     public double Work { get; }
 
     /// <summary>The number of its spawned bodies that are removed.</summary>

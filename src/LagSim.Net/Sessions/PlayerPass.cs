@@ -68,6 +68,8 @@ public readonly struct PlayerPass : IEquatable<PlayerPass>
     public override int GetHashCode() => Secret.GetHashCode();
 
     /// <summary>The number, a hyphen, and the secret as 32 hexadecimal digits; empty for no pass.</summary>
-    /// <remarks>For storage that is kept like a password. It does not belong in a log: whoever reads it can take the player's place.</remarks>
+    /// <remarks>
+    /// Store it as you would a password, and never log it: anyone who has it can take the player's place.
+    /// </remarks>
     public override string ToString() => Number == 0 ? "" : FormattableString.Invariant($"{Number}-{Secret.First:x16}{Secret.Second:x16}");
 }

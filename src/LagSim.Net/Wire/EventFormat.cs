@@ -101,7 +101,8 @@ internal static class EventFormat
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
-        ExternalEvent what = EncodedLength(kind) > 0 ? Action(kind, spec, body, position, velocity, spin).Stamp(time, peer, sequence) : default;
+        PlayerAction action = Action(kind, spec, body, position, velocity, spin);
+        ExternalEvent what = action.Kind == EventKind.None ? default : action.Stamp(time, peer, sequence);
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
     }
@@ -116,7 +117,8 @@ internal static class EventFormat
             EventKind.Impulse => PlayerAction.Impulse(body, velocity),
             EventKind.Grab => PlayerAction.Grab(body, position),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, position, velocity),
-            _ => PlayerAction.Release(body, velocity),
+            EventKind.Release => PlayerAction.Release(body, velocity),
+            _ => default,
         };
 
     private static bool HasPosition(EventKind kind) => kind is EventKind.Spawn or EventKind.Teleport or EventKind.Grab or EventKind.HoldKeyframe;

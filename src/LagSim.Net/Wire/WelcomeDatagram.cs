@@ -30,7 +30,7 @@ internal readonly struct WelcomeDatagram
     /// <summary>How far back the host's window reaches; above zero, at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
     public SimDuration History { get; }
 
-    /// <summary>The length of the snapshot in bytes, 1 to <see cref="JoinSnapshotFormat.MaxBytes"/>.</summary>
+    /// <summary>The length of the snapshot in bytes, 1 to <see cref="SessionSnapshot.MaxBytes"/>.</summary>
     public int CopyLength { get; }
 
     /// <summary>The hash of the snapshot's bytes.</summary>
@@ -40,7 +40,7 @@ internal readonly struct WelcomeDatagram
     public uint LogIndex { get; }
 
     private bool IsWellFormed =>
-        History.Ticks is > 0 and <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= JoinSnapshotFormat.MaxBytes;
+        History.Ticks is > 0 and <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= SessionSnapshot.MaxBytes;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.WelcomeBytes"/>.</returns>
@@ -52,7 +52,7 @@ internal readonly struct WelcomeDatagram
         {
             throw new InvalidOperationException(
                 $"No welcome: history {History.ToShortString()} above zero and below 48 days, a copy of {CopyLength} bytes 1 to"
-                + $" {JoinSnapshotFormat.MaxBytes}.");
+                + $" {SessionSnapshot.MaxBytes}.");
         }
 
         WireWriter writer = new(destination);
@@ -77,9 +77,9 @@ internal readonly struct WelcomeDatagram
         ulong session = reader.ReadUInt64();
         SimDuration history = SimDuration.FromTicks(reader.ReadInt64());
         uint length = reader.ReadUInt32();
-        reader.Require(length <= JoinSnapshotFormat.MaxBytes);
+        reader.Require(length <= SessionSnapshot.MaxBytes);
         welcome = new WelcomeDatagram(
-            nonce, session, history, (int)Math.Min(length, JoinSnapshotFormat.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
+            nonce, session, history, (int)Math.Min(length, SessionSnapshot.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
         reader.Require(welcome.IsWellFormed);
         return reader.Finish(out refusal);
     }

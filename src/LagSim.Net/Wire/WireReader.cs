@@ -80,7 +80,7 @@ internal ref struct WireReader
     /// <summary>Reads eight bytes, two's complement.</summary>
     public long ReadInt64() => TryTake(sizeof(long), out ReadOnlySpan<byte> taken) ? BinaryPrimitives.ReadInt64LittleEndian(taken) : 0;
 
-    /// <summary>Reads eight bytes, IEEE 754. Refuses what is not finite; -0.0 becomes 0.0.</summary>
+    /// <summary>Reads a double, eight bytes of IEEE 754. Refuses infinities and NaN, and turns -0.0 into 0.0.</summary>
     public double ReadDouble()
     {
         double value = BitConverter.Int64BitsToDouble(ReadInt64());

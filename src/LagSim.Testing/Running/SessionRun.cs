@@ -239,12 +239,12 @@ internal sealed class SessionRun
         + (leg.Bottleneck?.QueueMilliseconds ?? 0)
         + (leg.Outage?.Length.ToMilliseconds() ?? 0);
 
-    private void RunUntil(Func<bool> isSo, string what)
+    private void RunUntil(Func<bool> isMet, string what)
     {
-        WaitEnd end = run.RunUntil(isSo, () => Members.Any(m => m.HasEnded && !m.Player.HasLeft), Timeout);
-        if (end != WaitEnd.IsSo)
+        WaitEnd end = run.RunUntil(isMet, () => Members.Any(m => m.HasEnded && !m.Player.HasLeft), Timeout);
+        if (end != WaitEnd.Met)
         {
-            string after = end == WaitEnd.TimeIsUp ? FormattableString.Invariant($" within {Timeout} s of virtual time") : "";
+            string after = end == WaitEnd.TimedOut ? FormattableString.Invariant($" within {Timeout} s of virtual time") : "";
             string states = string.Join("; ", Members.Select(m => $"player {m.Player.Number} is {m.State}"));
             throw new SessionTestException($"{what}{after}: {states}.");
         }

@@ -96,29 +96,29 @@ internal sealed class VirtualRun
     }
 
     /// <summary>Advances until a condition holds.</summary>
-    /// <param name="isSo">The condition.</param>
-    /// <param name="isInVain">Whether the condition can no longer come true.</param>
+    /// <param name="isMet">The condition.</param>
+    /// <param name="isImpossible">Whether the condition can no longer come true.</param>
     /// <param name="timeoutSeconds">The longest wait, in seconds of virtual time.</param>
     /// <returns>Why the wait ended.</returns>
     /// <exception cref="OperationCanceledException">The run was cancelled.</exception>
-    internal WaitEnd RunUntil(Func<bool> isSo, Func<bool> isInVain, double timeoutSeconds)
+    internal WaitEnd RunUntil(Func<bool> isMet, Func<bool> isImpossible, double timeoutSeconds)
     {
         SimTime deadline = Clock.Now + SimDuration.FromSeconds(timeoutSeconds);
-        while (!isSo())
+        while (!isMet())
         {
             if (Clock.Now >= deadline)
             {
-                return WaitEnd.TimeIsUp;
+                return WaitEnd.TimedOut;
             }
 
-            if (isInVain())
+            if (isImpossible())
             {
-                return WaitEnd.InVain;
+                return WaitEnd.Impossible;
             }
 
             Advance(deadline);
         }
 
-        return WaitEnd.IsSo;
+        return WaitEnd.Met;
     }
 }

@@ -4,11 +4,11 @@ namespace LagSim.Testing.Running;
 internal enum WaitEnd
 {
     /// <summary>The condition holds.</summary>
-    IsSo,
+    Met,
 
     /// <summary>The timeout passed.</summary>
-    TimeIsUp,
+    TimedOut,
 
     /// <summary>The condition can no longer come true.</summary>
-    InVain,
+    Impossible,
 }

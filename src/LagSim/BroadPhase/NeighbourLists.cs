@@ -55,7 +55,8 @@ internal class NeighbourLists : IBroadPhase
     private readonly SlotSet found;
     private readonly PooledLists<int> lists;
     private Stay[] stays;
-    private int lookingBack; // the number of bodies with one-sided neighbours: their shells were made in a heal, so the others may not list them
+    // The number of bodies with one-sided neighbours: their shells were made in a heal, so the others may not list them.
+    private int lookingBack;
 
     /// <summary>Empty neighbour lists.</summary>
     /// <param name="timelines">The paths.</param>

@@ -39,7 +39,8 @@ internal sealed class PresentShells
             lists *= 2;
         }
 
-        cells = new PooledLists<Entry>(lists, Math.Max(lists, 2 * expected)); // of two in three lists, the smallest of which have room for four
+        // Of two in three lists, the smallest of which have room for four.
+        cells = new PooledLists<Entry>(lists, Math.Max(lists, 2 * expected));
         this.grid = grid;
         this.box = box;
         sides = box.Exists ? box.Size : new Vector3D(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity);

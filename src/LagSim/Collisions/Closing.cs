@@ -29,8 +29,8 @@ internal readonly struct Closing(double speed, double pressing, double speedOfBo
 
     /// <summary>
     /// How much deeper, in metres, the two may get without an impact where no island holds them: until they are a thousandth of the
-    /// restitution threshold deep. Contacts that close only by rounding have all of that from where they are. Contacts that close by more have what is
-    /// left of it; otherwise a light body between two that close would go to and fro for ever.
+    /// restitution threshold deep. Contacts that close only by rounding have all of that from where they are. Contacts that close by more
+    /// have what is left of it; otherwise a light body between two that close would go to and fro for ever.
     /// </summary>
     internal double Room(double restitutionThreshold) => Math.Max(0, (IsRounding ? 0 : Math.Min(0, Gap)) + (1e-3 * restitutionThreshold));
 }

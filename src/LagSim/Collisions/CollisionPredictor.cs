@@ -14,7 +14,8 @@ namespace LagSim.Collisions;
 /// first, or on other queries.
 /// </remarks>
 internal sealed class CollisionPredictor(
-    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, SegmentLookup view, MemberContacts members,
+    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, SegmentLookup view,
+    MemberContacts members,
     StrikeCounts strikes, ContactScale scale, bool hasIslands)
 {
     /// <summary>

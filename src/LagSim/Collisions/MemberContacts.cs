@@ -9,7 +9,8 @@ using LagSim.Timelines;
 namespace LagSim.Collisions;
 
 /// <summary>Decides which contacts of members are left to their steps, so that no impact is searched for.</summary>
-internal sealed class MemberContacts(TimelineStore timelines, SegmentLookup view, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
+internal sealed class MemberContacts(
+    TimelineStore timelines, SegmentLookup view, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
 {
     private readonly Paths paths = new(timelines);
 

@@ -112,8 +112,8 @@ internal class ContactScale
 
     /// <summary>
     /// Contacts that hold, and that an impact within a step leaves to close by less than this part of the tolerance, are not struck before
-    /// the next tick. Measured, on 63 balls that fall into a pit: with none of it 490,000 impacts instead of 600; with a tenth of it 9 % more
-    /// impacts, and half the overlap.
+    /// the next tick. Measured, on 63 balls that fall into a pit: with none of it 490,000 impacts instead of 600; with a tenth of it 9 %
+    /// more impacts, and half the overlap.
     /// </summary>
     private protected virtual double ImpactPart => 10 * SweepPart;
 

@@ -73,7 +73,8 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.Remove, time, peer, sequence, body, default, default, default);
 
     /// <summary>The body is put somewhere, with a velocity (default: none). It turns as it did.</summary>
-    internal static ExternalEvent Teleport(SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
+    internal static ExternalEvent Teleport(
+        SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
         new(EventKind.Teleport, time, peer, sequence, body, position, velocity, default);
 
     /// <summary>The body's velocity becomes this. It turns as it did.</summary>

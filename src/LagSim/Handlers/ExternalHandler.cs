@@ -100,7 +100,8 @@ internal sealed class ExternalHandler(
         int last = timelines.Last(slot);
         double seconds = paths.SecondsInto(last, key.Time);
         SupportSet supports = timelines.Segment(last).Supports;
-        if (!ActionEffects.TryApply(external, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene, out Vector3D position, out Vector3D velocity))
+        if (!ActionEffects.TryApply(external, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene,
+            out Vector3D position, out Vector3D velocity))
         {
             return;
         }

@@ -31,7 +31,8 @@ public sealed class LiveWorld
     private bool changed = true;
     private volatile bool isBehind;
     private SimTime shownTo = SimTime.MinValue; // how far the newest render snapshot's world was simulated
-    private SimTime renderedTo = SimTime.MaxValue; // how far the newest render snapshot can be read; before there is one no reader waits for it
+    // How far the newest render snapshot can be read; before there is one no reader waits for it.
+    private SimTime renderedTo = SimTime.MaxValue;
     private long maxRenderLateness;
     private long events; // how many may still happen before the next step
     private long lateSteps;

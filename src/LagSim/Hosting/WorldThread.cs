@@ -33,7 +33,8 @@ public sealed class WorldThread : IDisposable
     /// </param>
     /// <param name="atEnd">
     /// Called on the thread after its last step, with the exception that ended it or null; <see cref="Fault"/> is set by then, and
-    /// <see cref="Dispose"/> returns after it. What it throws becomes the fault, if there is none. Not called of a thread that was never started.
+    /// <see cref="Dispose"/> returns after it. What it throws becomes the fault, if there is none. Not called of a thread that was never
+    /// started.
     /// </param>
     public WorldThread(string name, Func<SimDuration> step, Action? interrupt = null, Action<Exception?>? atEnd = null)
     {

@@ -69,8 +69,8 @@ internal sealed class CaptureRule(
     private double PullOn(int body, SimTime time) => members.PullOn(graph.Slots[body], time, graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
 
     /// <summary>
-    /// Whether the bounces of a contact are followed down to the scene's restitution threshold, and a closed form carries its body then: alone on
-    /// planes, of which one rubs at most if it is the only one.
+    /// Whether the bounces of a contact are followed down to the scene's restitution threshold, and a closed form carries its body then:
+    /// alone on planes, of which one rubs at most if it is the only one.
     /// </summary>
     private bool IsCarriedByClosedForm(in ContactPoint c)
     {

@@ -11,7 +11,7 @@ namespace LagSim.Islands;
 internal sealed class IslandSleep(BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step)
 {
     /// <summary>Whether no body of the island has moved for as long as it takes to fall asleep.</summary>
-    internal bool MayBegin(SimTime tick)
+    internal bool MayFallAsleep(SimTime tick)
     {
         bool rests = true;
         for (int i = 0; i < graph.BodyCount && rests; i++)
@@ -34,7 +34,9 @@ internal sealed class IslandSleep(BodyTable bodies, TimelineStore timelines, Con
         foreach (int i in step.Problem.ListOf(body))
         {
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
-            Vector3D turning = c.Second == ContactPoint.Static ? solved.Spin : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
+            Vector3D turning = c.Second == ContactPoint.Static
+                ? solved.Spin
+                : step.Problem.Bodies[c.First].Spin - step.Problem.Bodies[c.Second].Spin;
             isStill &= c.Lever == 0 || turning.Length * solved.Radius <= speed;
             // At its bound friction slips; what is just below it has been moved there by the last sweeps.
             bool slips = c.Impulse > 0 && c.FrictionImpulse.Length >= 0.999 * c.Friction * c.Impulse;
@@ -44,8 +46,10 @@ internal sealed class IslandSleep(BodyTable bodies, TimelineStore timelines, Con
         return isStill;
     }
 
-    /// <summary>Puts the island to sleep: all its bodies rest, and forget their impulses, so that islands that came to rest in other ways are equal.</summary>
-    internal void Begin(in EventKey key)
+    /// <summary>
+    /// Puts the island to sleep: all its bodies rest, and forget their impulses, so that islands that came to rest in other ways are equal.
+    /// </summary>
+    internal void FallAsleep(in EventKey key)
     {
         step.Problem.List();
         for (int i = 0; i < graph.BodyCount; i++)

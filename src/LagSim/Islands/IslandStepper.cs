@@ -44,9 +44,9 @@ internal sealed class IslandStepper(
         SimTime time = canonical.Time;
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
-        if (mayRest && sleep.MayBegin(canonical.Time))
+        if (mayRest && sleep.MayFallAsleep(canonical.Time))
         {
-            sleep.Begin(canonical);
+            sleep.FallAsleep(canonical);
         }
         else
         {

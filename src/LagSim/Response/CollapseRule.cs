@@ -117,7 +117,8 @@ internal class CollapseRule(
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return !paths.IsHeld(last) && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.RestitutionThreshold
+        return !paths.IsHeld(last)
+            && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.RestitutionThreshold
             && TakesIn(strikes.On(last, surface, time));
     }
 

@@ -59,8 +59,8 @@ public sealed class SceneBuilder
     /// Sets the length in metres, 1e-15 to 1e-3, below which bounces on a plane are not followed one by one; default 1e-9.
     /// </summary>
     /// <remarks>
-    /// Unless a body touches a single plane and nothing else, a bounce that rises less than a thousand times this is the last. Bodies within
-    /// that distance of each other count as in persistent contact.
+    /// Unless a body touches a single plane and nothing else, a bounce that rises less than a thousand times this is the last. Bodies
+    /// within that distance of each other count as in persistent contact.
     /// </remarks>
     public SceneBuilder WithRestitutionThreshold(double metres)
     {
@@ -233,15 +233,16 @@ public sealed class SceneBuilder
             }
         });
         Scene? scene = null;
-        ParallelPair.Do(used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, restitutionThreshold, Math.Max(1, used - 1)));
+        ParallelPair.Do(
+            used, NameAndHash, () => StartOverlap.Check(bodyArray, planes, spheres, box, restitutionThreshold, Math.Max(1, used - 1)));
         return scene!;
 
         void NameAndHash()
         {
             CheckNames();
             scene = new Scene(
-                name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest), planes.ToArray(), spheres.ToArray(),
-                bodyArray, forceArray, smallest, spawners, box);
+                name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest),
+                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box);
         }
     }
 
@@ -387,15 +388,5 @@ public sealed class SceneBuilder
                 throw new SceneException($"Two parts of scene '{name}' are named '{names[i]}'; every name must be unique.");
             }
         }
-    }
-
-    /// <summary>The owner of a wrong value, in words: made only if there is an error.</summary>
-    internal readonly struct BodyText
-    {
-        private readonly string name;
-
-        internal BodyText(string name) => this.name = name;
-
-        public override string ToString() => $"body '{name}'";
     }
 }

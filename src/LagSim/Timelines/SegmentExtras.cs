@@ -6,8 +6,8 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// What only some segments have: an integrated path, a hold, a spin, contacts that persist. Each is an array by segment, made once a segment
-/// needs it.
+/// What only some segments have: an integrated path, a hold, a spin, contacts that persist. Each is an array by segment, made once a
+/// segment needs it.
 /// </summary>
 /// <remarks>Apart from the segments, so that a world without them pays nothing. Not thread-safe.</remarks>
 internal sealed class SegmentExtras
@@ -27,8 +27,8 @@ internal sealed class SegmentExtras
     /// <summary>How the body turns on the segment.</summary>
     internal Spin Spin(int segment) => segment < spins.Length ? spins[segment] : default;
 
-    /// <summary>Whether a segment has anything here; of spins, whether any segment ever had.</summary>
-    internal bool MayHave(in MotionSegment motion) => spins.Length > 0 || motion.Law == MotionLaw.Held;
+    /// <summary>Whether <see cref="AddTo"/> may add anything: it does so for none of the segments of a plain flight.</summary>
+    internal bool MayAddToHash(in MotionSegment motion) => spins.Length > 0 || motion.Law == MotionLaw.Held || motion.IsOfIsland;
 
     /// <summary>Notes what a segment that is opened has.</summary>
     /// <param name="segment">The segment.</param>

@@ -2,7 +2,9 @@ using LagSim.Time;
 
 namespace LagSim.Timelines;
 
-/// <summary>A segment's place among the others. Apart from the segment, so that old ones are dropped without reading what they were.</summary>
+/// <summary>
+/// A segment's place among the others. Apart from the segment, so that old ones are dropped without reading what they were.
+/// </summary>
 internal struct SegmentLinks
 {
     /// <summary>When the next was opened; <see cref="SimTime.MaxValue"/> if there is none.</summary>
@@ -19,4 +21,10 @@ internal struct SegmentLinks
 
     /// <summary>The next in the ring of segments that one impact opened.</summary>
     internal int Together;
+
+    /// <summary>Those of a body's newest segment, which one event opened for that body alone.</summary>
+    internal static SegmentLinks OfNewest(int segment, long serial, int owner, int previous) => new()
+    {
+        Closed = SimTime.MaxValue, Serial = serial, Previous = previous, Next = TimelineStore.None, Owner = owner, Together = segment,
+    };
 }

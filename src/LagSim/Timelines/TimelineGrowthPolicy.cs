@@ -12,7 +12,7 @@ internal class TimelineGrowthPolicy(SimTime origin, SimDuration history)
     private const int Large = 1024;
 
     private const int Part = 64;
-    private const int Least = 4;
+    private const int MinRoom = 4;
 
     /// <summary>The number of segments in the last eighth of the window foretells how many a whole one will have.</summary>
     private const ulong RecentPart = 8;
@@ -23,7 +23,7 @@ internal class TimelineGrowthPolicy(SimTime origin, SimDuration history)
     /// <summary>The room of a new store: for each body's first segment, and for a second of a few.</summary>
     internal static int First(int bodies)
     {
-        int room = Least;
+        int room = MinRoom;
         while (room < 2 * bodies && room < Large)
         {
             room *= 2;
@@ -41,15 +41,17 @@ internal class TimelineGrowthPolicy(SimTime origin, SimDuration history)
     internal int Next(int room, int bodies, SimTime now, SimTime edge, int recent) =>
         room < Large ? room * 2 : Math.Max(room + (room / Part), Expected(room, bodies, now, edge, recent));
 
-    /// <summary>When the last part of the window began. Its span may exceed the range of a long; as an unsigned difference it never does.</summary>
+    /// <summary>
+    /// When the last part of the window began. Its span may exceed the range of a long; as an unsigned difference it never does.
+    /// </summary>
     internal static SimTime RecentStart(SimTime now, SimTime edge) =>
         now <= edge ? now : SimTime.FromTicks(now.Ticks - (long)(((ulong)now.Ticks - (ulong)edge.Ticks) / RecentPart));
 
     /// <summary>
     /// For how many segments room will be needed, as far as can be foretold. Once a whole history has gone by: if as many are opened as in
     /// the last part of the window, less two standard deviations of such a number, so that where it goes on evenly that is no more than
-    /// there is. Before: if as many are opened for the rest of it, from an eighth of it on, or from where each body has many. No more than a
-    /// quarter above what there is, for what begins need not go on. To grow by little where more and more are opened would be to copy
+    /// there is. Before: if as many are opened for the rest of it, from an eighth of it on, or from where each body has many. No more than
+    /// a quarter above what there is, for what begins need not go on. To grow by little where more and more are opened would be to copy
     /// everything some hundred times.
     /// </summary>
     private protected virtual int Expected(int room, int bodies, SimTime now, SimTime edge, int recent)

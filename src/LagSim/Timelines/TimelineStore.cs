@@ -19,14 +19,13 @@ internal sealed class TimelineStore
 {
     internal const int None = -1;
 
-    /// <summary>If all that can be dropped is less than one part in this many, it would soon be looked for again.</summary>
-    private const int LittleRoom = 32;
+    private const int LittleRoom = 32; // where less than one part in this many can be dropped, it would soon be looked for again
 
     private readonly TimelineGrowthPolicy growth;
     private readonly SegmentExtras extras = new();
     private readonly EventHashSum hashes;
     private readonly INewestSegmentObserver? newest; // is notified of each body's newest segment
-    private OpenedSegment[] pieces;
+    private OpenedSegment[] segments;
     private SegmentLinks[] links;
     private int free = None;
     private int used;
@@ -35,23 +34,23 @@ internal sealed class TimelineStore
 
     /// <summary>No timelines yet.</summary>
     /// <param name="origin">From when hashes count time.</param>
-    /// <param name="most">How many segments there may be in all.</param>
+    /// <param name="maxSegments">How many segments there may be in all.</param>
     /// <param name="newest">Is notified of each body's newest segment; null for nothing.</param>
-    /// <param name="expected">For how many bodies there is room at first.</param>
+    /// <param name="expectedBodies">For how many bodies there is room at first.</param>
     /// <param name="growth">How it grows; by default as one of no history.</param>
     internal TimelineStore(
-        SimTime origin, int most = SimulationOptions.DefaultMaxSegments, INewestSegmentObserver? newest = null, int expected = 0,
-        TimelineGrowthPolicy? growth = null)
+        SimTime origin, int maxSegments = SimulationOptions.DefaultMaxSegments, INewestSegmentObserver? newest = null,
+        int expectedBodies = 0, TimelineGrowthPolicy? growth = null)
     {
-        int room = TimelineGrowthPolicy.First(expected);
-        pieces = new OpenedSegment[room];
+        int room = TimelineGrowthPolicy.First(expectedBodies);
+        segments = new OpenedSegment[room];
         links = new SegmentLinks[room];
-        ends = new TimelineEnds[expected];
+        ends = new TimelineEnds[expectedBodies];
         Array.Fill(ends, TimelineEnds.None);
         hashes = new EventHashSum(origin);
         this.newest = newest;
         this.growth = growth ?? new TimelineGrowthPolicy(origin, default);
-        Most = most;
+        MaxSegments = maxSegments;
     }
 
     /// <summary>The serial of the segment that was opened last.</summary>
@@ -64,7 +63,7 @@ internal sealed class TimelineStore
     internal ISegmentOpenedObserver? Openings { get; set; }
 
     /// <summary>How many segments may be kept.</summary>
-    internal int Most { get; }
+    internal int MaxSegments { get; }
 
     /// <summary>How many segments are kept now.</summary>
     internal int Alive { get; private set; }
@@ -95,18 +94,18 @@ internal sealed class TimelineStore
 
     internal int Previous(int segment) => links[segment].Previous;
 
-    internal ref readonly MotionSegment Segment(int segment) => ref pieces[segment].Segment;
+    internal ref readonly MotionSegment Segment(int segment) => ref segments[segment].Segment;
 
     internal DenseOutput Dense(int segment) => extras.Dense(segment);
 
     /// <summary>The hold of a segment that is held; of any other the default.</summary>
-    internal Hold HoldOf(int segment) => pieces[segment].Segment.Law == MotionLaw.Held ? extras.Hold(segment) : default;
+    internal Hold HoldOf(int segment) => segments[segment].Segment.Law == MotionLaw.Held ? extras.Hold(segment) : default;
 
     /// <summary>How the body turns on the segment.</summary>
     internal Spin SpinOf(int segment) => extras.Spin(segment);
 
     /// <summary>The key of the event that opened the segment.</summary>
-    internal ref readonly EventKey Key(int segment) => ref pieces[segment].Key;
+    internal ref readonly EventKey Key(int segment) => ref segments[segment].Key;
 
     /// <summary>Whether the slot is some body's.</summary>
     internal bool IsKnown(int slot) => slot < ends.Length && ends[slot].Last != None;
@@ -124,7 +123,7 @@ internal sealed class TimelineStore
     internal int Before(int slot, in EventKey key)
     {
         int at = ends[slot].Last;
-        while (at != None && EventKey.Compare(pieces[at].Key, key) >= 0)
+        while (at != None && EventKey.Compare(segments[at].Key, key) >= 0)
         {
             at = links[at].Previous;
         }
@@ -139,12 +138,12 @@ internal sealed class TimelineStore
     {
         Openings?.OnOpened(slot, key);
         int at = TakeRoom(key.Time);
-        extras.Set(at, segment, output, hold, spin, pieces.Length);
+        extras.Set(at, segment, output, hold, spin, segments.Length);
         int before = ends[slot].Last;
-        ref OpenedSegment piece = ref pieces[at];
-        piece.Segment = segment;
-        piece.Key = key;
-        links[at] = new SegmentLinks { Closed = SimTime.MaxValue, Serial = ++LastSerial, Previous = before, Next = None, Owner = slot, Together = at };
+        ref OpenedSegment opened = ref segments[at];
+        opened.Segment = segment;
+        opened.Key = key;
+        links[at] = SegmentLinks.OfNewest(at, ++LastSerial, slot, before);
         if (before == None)
         {
             ends[slot].First = at;
@@ -163,7 +162,7 @@ internal sealed class TimelineStore
             return; // until EndMember: what it carries counts in its hash
         }
 
-        if (!extras.MayHave(segment) && piece.IsEvent)
+        if (!extras.MayAddToHash(segment) && opened.IsEvent)
         {
             hashes.Add(key, segment, body); // nothing but what every segment has
         }
@@ -174,7 +173,7 @@ internal sealed class TimelineStore
     }
 
     /// <summary>Begins what a member's segment, just appended, carries.</summary>
-    internal void BeginMember(int segment, SimTime centre, SimTime still) => Carried.Begin(segment, centre, still, pieces.Length);
+    internal void BeginMember(int segment, SimTime centre, SimTime still) => Carried.Begin(segment, centre, still, segments.Length);
 
     /// <summary>Ends it: from here on it counts in the hash.</summary>
     internal void EndMember(int segment, BodyId body) => hashes.Value += HashOf(segment, body);
@@ -183,7 +182,7 @@ internal sealed class TimelineStore
     internal int CutFrom(int slot, BodyId body, in EventKey key)
     {
         int cut = 0;
-        while (ends[slot].Last != None && EventKey.Compare(pieces[ends[slot].Last].Key, key) >= 0)
+        while (ends[slot].Last != None && EventKey.Compare(segments[ends[slot].Last].Key, key) >= 0)
         {
             CutLast(slot, body);
             cut++;
@@ -197,9 +196,9 @@ internal sealed class TimelineStore
     {
         int at = ends[slot].Last;
         hashes.Value -= HashOf(at, body);
-        if (Observer is not null && pieces[at].Key.Kind == EventKind.Impact)
+        if (Observer is not null && segments[at].Key.Kind == EventKind.Impact)
         {
-            Observer.OnCut(pieces[at].Key);
+            Observer.OnCut(segments[at].Key);
         }
 
         ends[slot].Last = links[at].Previous;
@@ -212,7 +211,7 @@ internal sealed class TimelineStore
         {
             links[ends[slot].Last].Next = None;
             links[ends[slot].Last].Closed = SimTime.MaxValue;
-            newest?.Set(slot, pieces[ends[slot].Last].Segment, pieces[ends[slot].Last].Key.Time);
+            newest?.Set(slot, segments[ends[slot].Last].Segment, segments[ends[slot].Last].Key.Time);
         }
 
         int before = at;
@@ -244,7 +243,7 @@ internal sealed class TimelineStore
             at = links[at].Previous;
         }
 
-        return at == None || pieces[at].Key.Time > time ? None : at;
+        return at == None || segments[at].Key.Time > time ? None : at;
     }
 
     /// <summary>The sum of the hashes of all segments ever opened and not cut off again, dropped ones included.</summary>
@@ -256,20 +255,20 @@ internal sealed class TimelineStore
     /// <summary>What a segment adds to <see cref="EventHash"/>; 0 where no event opened it.</summary>
     internal ulong HashOf(int segment, BodyId body)
     {
-        if (!pieces[segment].IsEvent)
+        if (!segments[segment].IsEvent)
         {
             return 0;
         }
 
-        ref readonly MotionSegment motion = ref pieces[segment].Segment;
-        StableHash hash = hashes.Of(pieces[segment].Key, motion, body);
+        ref readonly MotionSegment motion = ref segments[segment].Segment;
+        StableHash hash = hashes.Of(segments[segment].Key, motion, body);
         extras.AddTo(ref hash, segment, motion, hashes.Origin);
 
         return hash.Value;
     }
 
     /// <summary>See <see cref="OpenedSegment.IsNote"/>.</summary>
-    internal bool IsNote(int segment) => pieces[segment].IsNote;
+    internal bool IsNote(int segment) => segments[segment].IsNote;
 
     /// <summary>The next in the ring of segments that one impact opened; itself if it has no other.</summary>
     internal int Together(int segment) => links[segment].Together;
@@ -284,27 +283,27 @@ internal sealed class TimelineStore
     }
 
     /// <summary>For how many segments there is room without more memory.</summary>
-    internal int Room => pieces.Length;
+    internal int Room => segments.Length;
 
     /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
     internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
 
-    /// <summary>Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.</summary>
+    /// <summary>
+    /// Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.
+    /// </summary>
     internal void DropBefore(int slot, SimTime time)
     {
-        int at = ends[slot].First;
-        while (at != None && links[at].Closed < time)
+        for (int at = ends[slot].First, next; at != None && links[at].Closed < time; at = next)
         {
-            int next = links[at].Next;
+            next = links[at].Next;
             Drop(at);
-            at = next;
         }
     }
 
     /// <summary>A place for one more segment.</summary>
     private int TakeRoom(SimTime now)
     {
-        if (free == None && (used == pieces.Length || used == Most))
+        if (free == None && (used == segments.Length || used == MaxSegments))
         {
             DropAll(now);
         }
@@ -316,14 +315,14 @@ internal sealed class TimelineStore
             return at;
         }
 
-        if (used == Most)
+        if (used == MaxSegments)
         {
             throw new TimelinesFullException(
-                $"At {now.ToShortString()} the timelines hold {Most} segments, the most that the options allow: allow more, keep a shorter"
+                $"At {now.ToShortString()} the timelines hold {MaxSegments} segments, the most that the options allow: allow more, keep a shorter"
                 + " history, or look for what makes so many events.");
         }
 
-        if (used == pieces.Length)
+        if (used == segments.Length)
         {
             Grow(now, recent: 0);
         }
@@ -331,7 +330,9 @@ internal sealed class TimelineStore
         return used++;
     }
 
-    /// <summary>Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.</summary>
+    /// <summary>
+    /// Drops what lies behind the window; and makes room for more if that was little, else it would soon be looked for again.
+    /// </summary>
     private void DropAll(SimTime now)
     {
         int recent = 0;
@@ -351,7 +352,7 @@ internal sealed class TimelineStore
             }
         }
 
-        if (Alive > used - (used / LittleRoom) && used < Most)
+        if (Alive > used - (used / LittleRoom) && used < MaxSegments)
         {
             Grow(now, recent);
         }
@@ -377,7 +378,7 @@ internal sealed class TimelineStore
 
     private void Release(int at)
     {
-        if (pieces[at].Segment.IsOfIsland)
+        if (segments[at].Segment.IsOfIsland)
         {
             Carried.Release(at);
         }
@@ -391,8 +392,8 @@ internal sealed class TimelineStore
 
     private void Grow(SimTime now, int recent)
     {
-        int room = growth.Next(pieces.Length, ends.Length, now, edge, recent);
-        Array.Resize(ref pieces, room);
+        int room = growth.Next(segments.Length, ends.Length, now, edge, recent);
+        Array.Resize(ref segments, room);
         Array.Resize(ref links, room);
         extras.Grow(room);
     }

@@ -128,7 +128,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         }
 
         double mean = timelines.Key(last).Time.SecondsSince(timelines.Key(timelines.First(whose)).Time) / (most - 1);
-        double least = history.ToSeconds() / timelines.Most;
+        double least = history.ToSeconds() / timelines.MaxSegments;
         ref readonly MotionSegment path = ref timelines.Segment(last);
         string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
         return $" Most are of {scene.Whose(bodies.Id(whose))}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"

@@ -59,7 +59,8 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     private void Converge(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D target, in Vector3D targetVelocity, in Hold hold)
     {
-        if ((position - target).Length < scene.RestitutionThreshold && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < scene.RestitutionThreshold)
+        if ((position - target).Length < scene.RestitutionThreshold
+            && (velocity - targetVelocity).Length * HandPath.Stops.ToSeconds() < scene.RestitutionThreshold)
         {
             Follow(slot, key, position, velocity, hold);
             return;

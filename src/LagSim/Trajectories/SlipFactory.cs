@@ -11,16 +11,16 @@ namespace LagSim.Trajectories;
 /// <remarks>
 /// <para>A solid sphere that moves with v, turns with q = r w x n, as fast as it would have to move to roll so, and slips with u = v - q is
 /// slowed down by mu g_n against u and turned by 5/2 as much, with g_n and g_t what gravity has across and along the plane. Rolling
-/// resistance c takes 5/2 c g_n from q. So v' = g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|: even, but for the two
-/// directions, which turn where they and gravity are aslant. What does not turn yet begins to do so with q' along u, for c counts for no
-/// more than mu.</para>
+/// resistance c takes 5/2 c g_n from q. So v' = g_t - mu g_n u/|u|, q' = 5/2 mu g_n u/|u| - 5/2 c g_n q/|q|. Both are constant as long
+/// as the directions of u and q are; these turn unless gravity pulls along them. A sphere that does not turn yet begins to with q' along
+/// u, since c counts for no more than mu.</para>
 /// <para>Once u is zero it rolls, with 5/7 of g_t - c g_n v/|v|, if 2/7 g_t + 5/7 c g_n v/|v|, which friction then has to give, is no more
 /// than mu g_n. Resistance holds at rest what gravity pulls by no more than c g_n. From what turns about the normal it takes 5/2 c g_n / r,
 /// whether the sphere slips, rolls or stays where it is.</para>
 /// </remarks>
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
-    /// <summary>By how much a direction of slip or rolling may turn in one segment, in radians, where gravity pulls aslant.</summary>
+    /// <summary>The largest turn, in radians, of the direction of slip or rolling in one segment, where gravity does not pull along it.</summary>
     private const double MaxTurn = 1.0 / 128;
 
     /// <summary>A slip, motion or turning on a surface slower than this, in m/s, counts as the rounding of zero.</summary>
@@ -199,9 +199,9 @@ internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore t
 
     /// <summary>
     /// By how much, in radians, the direction of something so fast may turn in a segment. A segment is off by its speed times the cube of
-    /// that; so what is slower than a hundred times what it gets within the scene's restitution threshold, some 14 mm/s, may turn more, as the inverse
-    /// of the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing would take
-    /// thousands of segments, and what hops again and again would each time.
+    /// that; so what is slower than a hundred times what it gets within the scene's restitution threshold, some 14 mm/s, may turn more, as
+    /// the inverse of the fourth root, and is off by less than that is all the same, some 7 nm/s. Else what starts from next to nothing
+    /// would take thousands of segments, and what hops again and again would each time.
     /// </summary>
     private double Turn(double speed, in Vector3D pull)
     {

@@ -15,9 +15,9 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
 
     /// <summary>
     /// Rest or sliding, if after the impact no bounce is left that the scene resolves. The bounces that remain rise at most w^2 / 2a and
-    /// last 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's restitution threshold they are left out, the body
-    /// is put on the plane, and it rests from the end of that time on. Tangential motion continues unchanged: frictionless bounces do not
-    /// affect it.
+    /// last 2w / (a (1 - e)) in all, for a rebound at speed w pressed back by a: below the scene's restitution threshold they are left out,
+    /// the body is put on the plane, and it rests from the end of that time on. Tangential motion continues unchanged: frictionless bounces
+    /// do not affect it.
     /// </summary>
     internal bool TryOpen(
         int slot, in EventKey key, in Vector3D position, in Vector3D velocity, double carry, Span<int> touchedPlanes, in Vector3D spin)
@@ -102,7 +102,8 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
     }
 
     /// <summary>
-    /// The limit of the bounces lies on the plane; only what a bounce below the restitution threshold leaves is taken away, never a real overlap.
+    /// The limit of the bounces lies on the plane; only what a bounce below the restitution threshold leaves is taken away, never a real
+    /// overlap.
     /// </summary>
     private Vector3D OntoSupports(int slot, SupportSet supports, in Vector3D position)
     {

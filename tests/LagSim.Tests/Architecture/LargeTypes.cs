@@ -25,7 +25,6 @@ internal static class LargeTypes
         new("LagSim.Harness.Experiments.Hold.HoldRun", "one run from start to end: its set-up, its players and what it measures"),
         new("LagSim.Harness.Experiments.Sweep.SweepOutcome", "a result record, a field for each column"),
         new("LagSim.Harness.Relays.RelayCore", "what a relay is set to, its clients, and what it counts"),
-        new("LagSim.Harness.SceneFiles.SceneJsonReader", "a method for each element of the format; together they are its definition"),
         new("LagSim.Harness.Verification.Check.CheckOutcome", "a result record, a field for each figure"),
         new("LagSim.Harness.Verification.Check.RoomScene", "draws a scene: a field for each trait that all its bodies share"),
         new("LagSim.Harness.Verification.Stalls.StallClient", "one client of a run, with all that is measured of it"),

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using System.Reflection;
 using System.Text.RegularExpressions;
 using ArchUnitNET.Loader;
 using LagSim.Tests.Api;
@@ -25,12 +26,12 @@ public sealed partial class LayerTests
 
     /// <summary>Nothing of the source is left out: all projects but that which only lays out a package for Unity.</summary>
     [Fact]
-    public void Assemblies_AreThoseOfAllProjects()
-    {
-        string[] projects = Directory.GetFiles(Source, "*.csproj", SearchOption.AllDirectories)
-            .Select(file => Path.GetFileNameWithoutExtension(file)).Where(name => name != "LagSim.Unity").Order(StringComparer.Ordinal).ToArray();
-        Assert.Equal(projects, SourceAssemblies.All.Select(assembly => assembly.GetName().Name!).Order(StringComparer.Ordinal));
-    }
+    public void Assemblies_AreThoseOfAllProjects() => Assert.Equal([], ProjectsWithout(SourceAssemblies.All));
+
+    [Fact]
+    public void Assemblies_OfWhichOneIsLeftOut_AreSeenToLackIt() => Assert.All(
+        SourceAssemblies.All,
+        left => Assert.Equal([left.GetName().Name!], ProjectsWithout(SourceAssemblies.All.Where(assembly => assembly != left))));
 
     [Fact]
     public void Folders_WithTwoLayersExchanged_AreSeenToFail()
@@ -98,6 +99,12 @@ public sealed partial class LayerTests
         ArchLoader loader = new ArchLoader().LoadNamespacesWithinAssembly(user.Assembly, user.Namespace!);
         Assert.Contains(Arrows.Between(loader), arrow => arrow.From == user.FullName && arrow.To == typeof(Used).FullName);
     }
+
+    private static IEnumerable<string> ProjectsWithout(IEnumerable<Assembly> assemblies) =>
+        Directory.EnumerateFiles(Source, "*.csproj", SearchOption.AllDirectories)
+            .Select(file => Path.GetFileNameWithoutExtension(file))
+            .Where(name => name != "LagSim.Unity")
+            .Except(assemblies.Select(assembly => assembly.GetName().Name!));
 
     private static string LayerOf(string folder, string type) => Layers.Placed.FirstOrDefault(placed => placed.Type == type)?.Layer ?? folder;
 

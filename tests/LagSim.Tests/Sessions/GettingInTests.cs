@@ -193,7 +193,7 @@ public sealed class GettingInTests
             clock.PerReading = SimDuration.FromSeconds(perReading);
             clock.Time += SimDuration.FromSeconds(0.0002 * t);
             WelcomeDatagram welcome = port.Join(host);
-            bool hasState = welcome.CopyLength != JoinSnapshotFormat.Encode(host.Scene!, null).Length;
+            bool hasState = welcome.CopyLength != SessionSnapshot.Encode(host.Scene!, null).Length;
             Assert.True(hasState || welcome.LogIndex == 0, $"{first} is neither in the copy nor in what follows of the log");
             (sawScene, sawState) = (sawScene || !hasState, sawState || hasState);
         }
@@ -240,7 +240,7 @@ public sealed class GettingInTests
         {
             byte[] state = SnapshotFormat.Encode(new WorldSnapshot(SimTime.FromTicks(start), SimTime.FromTicks(time), 0, []));
             byte[] copy = [.. BitConverter.GetBytes((uint)scene.Length), .. scene, .. state];
-            Assert.Equal(isGood, JoinSnapshotFormat.TryDecode(copy, null, null, out _, out string? error));
+            Assert.Equal(isGood, SessionSnapshot.TryDecode(copy, null, null, out _, out string? error));
             Assert.Equal(!isGood, error?.Contains("within 48 days of the origin", StringComparison.Ordinal) ?? false);
         }
     }

@@ -39,7 +39,7 @@ internal sealed class Intruder
     internal byte Peer { get; private set; }
 
     /// <summary>How long the copy is that it was welcomed to last.</summary>
-    internal int CopyBytes { get; private set; }
+    internal int SnapshotBytes { get; private set; }
 
     /// <summary>What tells that copy from others.</summary>
     internal ulong CopyHash { get; private set; }
@@ -96,7 +96,7 @@ internal sealed class Intruder
             }
             else if (WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _))
             {
-                (SessionId, Peer, number, fetches, CopyBytes, CopyHash) = (welcome.SessionId, 0, 0, 0, welcome.CopyLength, welcome.CopyHash);
+                (SessionId, Peer, number, fetches, SnapshotBytes, CopyHash) = (welcome.SessionId, 0, 0, 0, welcome.CopyLength, welcome.CopyHash);
                 if (sits)
                 {
                     Update(isReady: true);

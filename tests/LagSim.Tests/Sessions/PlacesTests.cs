@@ -105,7 +105,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
         List<double> took = [];
         for (int seed = 1; seed <= (areGone ? Seeds : 1); seed++)
         {
-            (SessionGroup group, NatPort nat) = Host(seed, limits: new JoinLimits { SlowestCopy = slowest });
+            (SessionGroup group, NatPort nat) = Host(seed, limits: new JoinLimits { SlowestDownload = slowest });
             Intruder[] slow = Enumerable.Range(0, 200).Select(n => Intrude(group, nat, n, false)).ToArray();
             Array.ForEach(slow, one => one.ConnectRequest());
             group.Run(0.01);
@@ -128,7 +128,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [InlineData(1e6, 4)] // the limit taken away
     public void CopiesOfHalfOpenJoins_TakeBoundedMemory(double room, int copies)
     {
-        JoinLimits limits = new() { MinCopies = 1 };
+        JoinLimits limits = new() { MinSnapshots = 1 };
         (SessionGroup group, NatPort nat) = Host(1, limits: limits);
         group.Run(3); // so that all copies have a world in them, and are of one length
         HashSet<ulong> hashes = [];
@@ -138,7 +138,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             one.ConnectRequest();
             group.Run(1.05);
             hashes.Add(one.CopyHash);
-            limits.CopyBytes = (long)(room * one.CopyBytes);
+            limits.SnapshotBytes = (long)(room * one.SnapshotBytes);
         }
 
         Assert.Equal((copies, 4), (hashes.Count, group.Host.ComingCount));
@@ -148,7 +148,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     [Fact]
     public void CopiesOfHalfOpenJoins_AreNotGivenForLong()
     {
-        JoinLimits limits = new() { MinCopies = 1 };
+        JoinLimits limits = new() { MinSnapshots = 1 };
         (SessionGroup group, NatPort nat) = Host(1, limits: limits);
         group.Run(3);
         List<ulong> hashes = [];
@@ -158,7 +158,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             one.ConnectRequest();
             group.Run(3);
             hashes.Add(one.CopyHash);
-            limits.CopyBytes = (long)(1.5 * one.CopyBytes);
+            limits.SnapshotBytes = (long)(1.5 * one.SnapshotBytes);
         }
 
         int[] shared = [.. Enumerable.Range(1, 19).Where(n => hashes[n] == hashes[n - 1])];

@@ -56,7 +56,7 @@ public sealed class SnapshotDownloadTests
             }
 
             Assert.True(copy.AsSpan().SequenceEqual(download.Bytes), $"seed {seed}");
-            Assert.Equal(JoinSnapshotFormat.HashOf(copy), JoinSnapshotFormat.HashOf(download.Bytes));
+            Assert.Equal(SessionSnapshot.HashOf(copy), SessionSnapshot.HashOf(download.Bytes));
             Assert.Equal(SimTime.MaxValue, download.Due);
         }
 

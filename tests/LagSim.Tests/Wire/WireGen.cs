@@ -150,7 +150,7 @@ internal static class WireGen
         from nonce in Bits64
         from session in Bits64
         from history in Gen.OneOf(Gen.Elements(1L, WireFormat.MaxTimeTicks), Bits64.Select(bits => (long)(bits >> 2)).Where(t => t > 0))
-        from length in Gen.OneOf(Gen.Elements(1, JoinSnapshotFormat.MaxBytes), Gen.Choose(1, JoinSnapshotFormat.MaxBytes))
+        from length in Gen.OneOf(Gen.Elements(1, SessionSnapshot.MaxBytes), Gen.Choose(1, SessionSnapshot.MaxBytes))
         from hash in Bits64
         from index in Bits32
         select new WelcomeDatagram(nonce, session, SimDuration.FromTicks(history), length, hash, index);

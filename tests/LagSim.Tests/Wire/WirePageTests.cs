@@ -44,7 +44,7 @@ public sealed class WirePageTests
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
             Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
-            Assert.Equal(Convert.ToHexString(JoinSnapshotFormat.Encode(world.Scene, snapshot)), Convert.ToHexString(Copy(Page, world.Scene, snapshot)));
+            Assert.Equal(Convert.ToHexString(SessionSnapshot.Encode(world.Scene, snapshot)), Convert.ToHexString(Copy(Page, world.Scene, snapshot)));
             dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
             carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
             held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
@@ -110,7 +110,7 @@ public sealed class WirePageTests
         AssertWords<Verdict>(Table(Page, "## 4 Update").Single(row => row.Field == "entry verdict").Value);
         Assert.Contains($"0 to {UpdateDatagram.MaxEntries};", page, StringComparison.Ordinal);
         Assert.Contains($"{SnapshotChunkDatagram.MaxData.ToString("N0", CultureInfo.InvariantCulture)} bytes", page, StringComparison.Ordinal);
-        Assert.Contains($"1 to {JoinSnapshotFormat.MaxBytes.ToString("N0", CultureInfo.InvariantCulture)} |", page, StringComparison.Ordinal);
+        Assert.Contains($"1 to {SessionSnapshot.MaxBytes.ToString("N0", CultureInfo.InvariantCulture)} |", page, StringComparison.Ordinal);
         Assert.Contains($"0 to {BodySnapshot.MaxSupports} |", page, StringComparison.Ordinal);
         foreach (string refusal in Enum.GetNames<WireRefusal>().Where(name => name != nameof(WireRefusal.None)))
         {
@@ -183,7 +183,7 @@ public sealed class WirePageTests
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [member, sleeper, carried]);
         }
 
-        return (JoinSnapshotFormat.Encode(world.Scene, snapshot), (Func<string[], byte[]>)(page => Copy(page, world.Scene, snapshot)));
+        return (SessionSnapshot.Encode(world.Scene, snapshot), (Func<string[], byte[]>)(page => Copy(page, world.Scene, snapshot)));
     });
 
     private static IEnumerable<(byte[] Expected, Func<string[], byte[]> Written)> Datagrams(int each)

@@ -20,9 +20,6 @@ internal sealed class CheckCase
     private const int MaxSpawns = 6;
     private const int MaxRemovals = 3;
 
-    private const int FewestKeyframes = 2;
-    private const int MaxKeyframes = 10;
-
     /// <summary>The round trip above which a player is usually in from the start, since joining takes several.</summary>
     private const double SlowMilliseconds = 500;
 
@@ -95,7 +92,7 @@ internal sealed class CheckCase
                 : sort < HeapPercent + BoxPercent + OrbitPercent ? new OrbitScene(things)
                 : new RoomScene(things);
             DrawActions(random.Fork(FirstRoom + (2 * attempt) + 1));
-            DrawHands(random.Fork(FirstHands + attempt));
+            CheckHands.AddTo(actions, room, players.Count, random.Fork(FirstHands + attempt));
             if (attempt == MaxAttempts || IsWithin(room.MaxEvents ?? budget, cancellation))
             {
                 break;
@@ -166,7 +163,8 @@ internal sealed class CheckCase
     }
 
     private static double WorstMilliseconds(LinkLeg leg) =>
-        leg.DelayMilliseconds + (leg.Bottleneck?.QueueMilliseconds ?? 0) + (4 * leg.JitterMilliseconds) + (leg.Tail is null ? 0 : LongTail.MaxMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
+        leg.DelayMilliseconds + (leg.Bottleneck?.QueueMilliseconds ?? 0) + (4 * leg.JitterMilliseconds)
+        + (leg.Tail is null ? 0 : LongTail.MaxMilliseconds) + ((leg.Outage?.Length.ToMilliseconds() ?? 0) * 1.1);
 
     private static void Throw(IReadOnlyList<int> indices, int count, string what, ulong seed)
     {
@@ -349,61 +347,5 @@ internal sealed class CheckCase
                 spawns.Add(i);
             }
         }
-    }
-
-    /// <summary>
-    /// Draws hands that grab a body, move it and release it, or stop sending keyframes. Often two are after the same body.
-    /// </summary>
-    private void DrawHands(SeededRandom random)
-    {
-        List<CheckAction> all = [.. actions];
-        int[] spawns = [.. Enumerable.Range(0, actions.Count).Where(i => actions[i].Kind == EventKind.Spawn)];
-        int hands = room.FewestHands + random.NextInt(room.MaxHands - room.FewestHands + 1);
-        CheckAction? before = null;
-        for (int hand = 0; hand < hands; hand++)
-        {
-            int spawn = spawns.Length > 0 && random.IsLucky(20) ? random.Pick(spawns) : -1;
-            int body = spawn >= 0 ? -1 : room.DrawHeld(random);
-            double at = spawn >= 0
-                ? random.NextDouble(actions[spawn].AtSeconds, room.BusySeconds)
-                : random.NextDouble(0, room.GraspSeconds);
-            if (before is not null && random.IsLucky(50))
-            {
-                (spawn, body) = (before.Spawn, before.Body);
-                at = Math.Min(Length, before.AtSeconds + random.Pick(0, 0, random.NextDouble()));
-            }
-
-            CheckAction action = new(
-                at, random.NextInt(players.Count), EventKind.Grab, body, spawn,
-                new Vector3D(random.NextDouble(-0.1, 0.1), random.NextDouble(-0.1, 0.1), 0), default, default);
-            all.Add(action);
-            before = action;
-            Vector3D position = room.DrawPosition();
-            for (int keyframes = FewestKeyframes + random.NextInt(MaxKeyframes - FewestKeyframes + 1); keyframes > 0 && at < Length; keyframes--)
-            {
-                // A part of the way to any place in the room, so that it stays in the room.
-                double gap = random.Pick(0.02, 0.1, 0.1, 0.3);
-                Vector3D velocity = (room.DrawPosition() - position) * 1.5;
-                all.Add(action with { AtSeconds = at, Kind = EventKind.HoldKeyframe, Position = position, Velocity = velocity });
-                position += velocity * gap;
-                at += gap;
-            }
-
-            if (at < Length && random.IsLucky(70))
-            {
-                all.Add(action with { AtSeconds = at, Kind = EventKind.Release, Velocity = room.DrawVelocity(6) });
-            }
-        }
-
-        // By time; actions of one instant in the order drawn. References to spawns are updated to the new order.
-        int[] order = [.. Enumerable.Range(0, all.Count).OrderBy(i => all[i].AtSeconds)];
-        int[] place = new int[order.Length];
-        for (int i = 0; i < order.Length; i++)
-        {
-            place[order[i]] = i;
-        }
-
-        actions.Clear();
-        actions.AddRange(order.Select(i => all[i].Spawn < 0 ? all[i] : all[i] with { Spawn = place[all[i].Spawn] }));
     }
 }

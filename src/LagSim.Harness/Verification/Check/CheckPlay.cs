@@ -243,7 +243,7 @@ internal sealed class CheckPlay
         return true;
     }
 
-    private bool RunUntil(Func<bool> isSo) => run.RunUntil(isSo, () => Host.State == SessionState.Ended, Timeout) == WaitEnd.IsSo;
+    private bool RunUntil(Func<bool> isMet) => run.RunUntil(isMet, () => Host.State == SessionState.Ended, Timeout) == WaitEnd.Met;
 
     private string States() =>
         string.Join("; ", members.Select(m => $"peer {m.Peer} {m.Session.State} {m.Session.EndReason} log {m.Session.LogLength}"));

@@ -49,7 +49,8 @@ internal sealed class HeapScene : CheckScene
         }
     }
 
-    internal override long? MaxEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2; // two heaps with forces would seldom be within the usual budget
+    // Two heaps with forces would seldom be within the usual budget.
+    internal override long? MaxEvents => 1_000 * centres.Length * (forcedPercent > 0 ? 3 : 2) / 2;
 
     internal override double BusySeconds => 4;
 
@@ -92,7 +93,8 @@ internal sealed class HeapScene : CheckScene
     internal override Vector3D DrawSpin(in BodySpec spec) => DrawVelocity(30);
 
     internal override Vector3D DrawVelocity(double most) =>
-        new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * (most / 6); // slow, so that a kicked ball soon rests again
+        // Slow, so that a kicked ball soon rests again.
+        new Vector3D(random.NextDouble(-1, 1), random.NextDouble(-1, 1), random.NextDouble(-1, 1)) * (most / 6);
 
     protected override void AddSurroundings(SceneBuilder builder)
     {

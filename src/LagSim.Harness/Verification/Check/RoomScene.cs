@@ -49,7 +49,8 @@ internal sealed class RoomScene : CheckScene
         isCalm = random.IsLucky(10);
         hasGravity = random.IsLucky(35) || isCalm;
         forcedPercent = !isForced ? 0 : hasGravity ? 15 : 30; // a ball at rest on a floor under a force takes five hundred steps a second
-        restitutions = isCalm ? CalmRestitutions : random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions; // falling balls that lose speed pile up
+        // Falling balls that lose speed pile up.
+        restitutions = isCalm ? CalmRestitutions : random.IsLucky(hasGravity ? 85 : 30) ? [0.9, 1, 1] : Restitutions;
         half = random.NextDouble(1.6, 2.1);
         isFlat = random.IsLucky(60) && !isCalm; // they would lie on top of each other
         integratedPercent = random.IsLucky(20) ? 12 : 0;

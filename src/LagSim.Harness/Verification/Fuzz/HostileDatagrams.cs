@@ -136,7 +136,7 @@ public sealed class HostileDatagrams
             3 => new SnapshotRequestDatagram(Session(), (byte)Below(10), (uint)Below(100), (uint)Below(100), random.NextUInt64()).Encode(buffer),
             4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(7))).Encode(buffer),
             5 => new WelcomeDatagram(
-                random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(JoinSnapshotFormat.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
+                random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(SessionSnapshot.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
             6 => new DesyncQueryDatagram(
                 Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
             7 => DesyncReport().Encode(buffer),

@@ -169,7 +169,8 @@ internal sealed class BadInputCase : IHardCase
         }
         catch (SimulationException end)
         {
-            return place(value) is null ? null : "ended later: " + end.Message; // without a textbook answer it may end in a singularity, with an error
+            // Without a textbook answer it may end in a singularity, with an error.
+            return place(value) is null ? null : "ended later: " + end.Message;
         }
     }
 }

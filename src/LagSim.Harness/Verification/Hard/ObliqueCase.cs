@@ -128,7 +128,8 @@ internal sealed class ObliqueCase : IHardCase
                 double now = SceneEnergy.Of(simulation, SimTime.FromSeconds(0.1 * k));
                 bool isInSteps = Enumerable.Range(0, 4).Any(body => Read(simulation, body, 0.1 * k).Motion == MotionLaw.Constrained);
                 worst = isInSteps || double.IsNaN(before) ? worst : Math.Max(worst, sign * (now - before) / start);
-                before = isInSteps ? double.NaN : now; // velocities are those of the middle of a step there, which island-energy and heap cover
+                // Velocities are those of the middle of a step there, which island-energy and heap cover.
+                before = isInSteps ? double.NaN : now;
             }
 
             context.Report((double)n / scenes);

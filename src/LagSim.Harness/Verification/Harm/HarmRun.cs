@@ -149,7 +149,8 @@ internal sealed class HarmRun
             BackSeconds = backAfter,
             IsExpelled = hasGone,
             Sentence = sentence,
-            HonestPart = Host.Costs.Where(c => honest.Contains(c.Player)).Select(c => c.PeakWork / (options.Budget?.WorkAtOnce ?? double.PositiveInfinity)).DefaultIfEmpty(0).Max(),
+            HonestPart = Host.Costs.Where(c => honest.Contains(c.Player))
+                .Select(c => c.PeakWork / (options.Budget?.WorkAtOnce ?? double.PositiveInfinity)).DefaultIfEmpty(0).Max(),
             Failures = failures,
         };
     }

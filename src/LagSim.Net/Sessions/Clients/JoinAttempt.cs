@@ -64,7 +64,7 @@ internal sealed class JoinAttempt
     internal SnapshotDownload? Download { get; set; }
 
     /// <summary>The snapshot, once it is here.</summary>
-    internal JoinSnapshotFormat? Copy { get; set; }
+    internal SessionSnapshot? Snapshot { get; set; }
 
     /// <summary>The estimate of the host's clock.</summary>
     internal ClockSync Clock { get; } = new();
@@ -75,7 +75,7 @@ internal sealed class JoinAttempt
     private Token128? Cookie { get; set; }
 
     /// <summary>Whether snapshot and clock are ready, so that at most the number is missing.</summary>
-    internal bool IsReady => Copy is not null && Clock.IsReady;
+    internal bool IsReady => Snapshot is not null && Clock.IsReady;
 
     /// <summary>
     /// Returns the cookie if it may still be good, null if another is needed, and schedules the next try; the interval doubles each time,

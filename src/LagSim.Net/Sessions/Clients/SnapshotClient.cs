@@ -51,14 +51,14 @@ internal sealed class SnapshotClient(
         }
 
         string? error = null;
-        if (JoinSnapshotFormat.HashOf(download.Bytes) != attempt.CopyHash)
+        if (SessionSnapshot.HashOf(download.Bytes) != attempt.CopyHash)
         {
             error = "its hash is another one than was announced.";
         }
-        else if (JoinSnapshotFormat.TryDecode(download.Bytes, accelerations, world.Scene, out JoinSnapshotFormat? copy, out error))
+        else if (SessionSnapshot.TryDecode(download.Bytes, accelerations, world.Scene, out SessionSnapshot? snapshot, out error))
         {
-            attempt.Copy = copy;
-            world.Scene = copy.Scene;
+            attempt.Snapshot = snapshot;
+            world.Scene = snapshot.Scene;
             link.Flush(now);
         }
 

@@ -18,12 +18,12 @@ internal sealed class WorldEntry(
     /// <returns>Whether it has begun.</returns>
     internal bool TryBegin(SimTime told)
     {
-        if (attempts.Current is not { Seat: not null, Copy: JoinSnapshotFormat copy } attempt)
+        if (attempts.Current is not { Seat: not null, Snapshot: SessionSnapshot joined } attempt)
         {
             return false;
         }
 
-        if (copy.Snapshot is WorldSnapshot snapshot)
+        if (joined.World is WorldSnapshot snapshot)
         {
             try
             {

@@ -82,7 +82,7 @@ internal sealed class PlayerLimits
     }
 
     /// <summary>Retracts an own event that was refused.</summary>
-    internal void TakeBack(in ExternalEvent external)
+    internal void Retract(in ExternalEvent external)
     {
         if (external.Kind == EventKind.Spawn)
         {

@@ -179,7 +179,7 @@ internal sealed class SharedWorld
     internal void Retract(in ExternalEvent external)
     {
         counters.EventsLost += live!.Retract(external) ? 0 : 1;
-        Limits.TakeBack(external);
+        Limits.Retract(external);
     }
 
     /// <summary>Advances the world ahead of the shared time by a bounded number of events. The world must exist.</summary>

@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>Answers requests to join: welcomes a client with a link and a snapshot to download, or refuses it with the reason.</summary>
 internal sealed class Admission(
     ulong sessionId, SimDuration history, JoinCookies cookies, AddressChallenge challenge, JoinRules rules,
-    PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinSnapshots copies, ClientTimeouts timeouts,
+    PlayerPlaces places, ClientRoster roster, WaitingRoom room, JoinSnapshots snapshots, ClientTimeouts timeouts,
     LinkFactory links, DatagramSender sender, SessionCounters counters, IClock clock)
 {
     private ulong joins;
@@ -27,10 +27,10 @@ internal sealed class Admission(
         }
 
         known ??= Admit(join, from, clock.Now);
-        if (known?.Copy is JoinSnapshot copy)
+        if (known?.Snapshot is JoinSnapshot snapshot)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.WelcomeBytes];
-            WelcomeDatagram welcome = new(nonce, known.Link.SessionId, history, copy.Bytes.Length, copy.Hash, copy.LogIndex);
+            WelcomeDatagram welcome = new(nonce, known.Link.SessionId, history, snapshot.Bytes.Length, snapshot.Hash, snapshot.LogIndex);
             sender.Send(bytes.Slice(0, welcome.Encode(bytes)), known.Link);
         }
     }
@@ -57,7 +57,7 @@ internal sealed class Admission(
         JoinSnapshot? made;
         try
         {
-            made = copies.For(now);
+            made = snapshots.For(now);
         }
         catch (SceneException)
         {

@@ -11,11 +11,11 @@ internal sealed class Client
     // The committed states it reports, by the number of the update.
     private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32];
 
-    internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot copy)
+    internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot snapshot)
     {
         Claim = claim;
         Link = link;
-        Copy = copy;
+        Snapshot = snapshot;
         DesyncQueries = new RateLimit(2, RecentEvents.Most / DesyncQueryDatagram.MaxEvents, link.Heard);
     }
 
@@ -31,7 +31,7 @@ internal sealed class Client
     internal CatchingUp CatchingUp { get; private set; } = new();
 
     /// <summary>The snapshot it downloads; null once it has it.</summary>
-    internal JoinSnapshot? Copy { get; set; }
+    internal JoinSnapshot? Snapshot { get; set; }
 
     /// <summary>The last chunk request that was answered.</summary>
     internal uint LastRequest { get; set; }

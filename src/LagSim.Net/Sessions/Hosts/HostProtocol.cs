@@ -36,7 +36,7 @@ internal sealed class HostProtocol : ISessionProtocol
         broadcast = new LogBroadcast(Roster, Log, Watermark, parts.World, parts.Commits, parts.KeepAlive, parts.Sender, parts.Clock);
         Log.Recorded += broadcast.NoteRecorded;
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
-        timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestCopy, now);
+        timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestDownload, now);
         Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts);
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
@@ -180,8 +180,9 @@ internal sealed class HostProtocol : ISessionProtocol
 
         Parts.Commits.Commit(Watermark.Now);
         Log.Settle();
-        Handshake.Copies.Forget(now);
-        Log.Lines.ForgetUpTo(Roster.All.Aggregate(Handshake.Copies.NeededAfter, (least, client) => Math.Min(least, client.Acknowledged)));
+        Handshake.Snapshots.Forget(now);
+        Log.Lines.ForgetUpTo(Roster.All.Aggregate(
+            Handshake.Snapshots.NeededAfter, (least, client) => Math.Min(least, client.Acknowledged)));
         broadcast.Tend(now);
     }
 

@@ -15,7 +15,7 @@ internal sealed class JoinHandshake
     private readonly JoinCookies cookies = new();
     private readonly AddressChallenge challenge;
     private readonly Admission admission;
-    private readonly SnapshotServer snapshots;
+    private readonly SnapshotServer server;
     private readonly SessionCounters counters;
     private readonly IClock clock;
 
@@ -37,12 +37,12 @@ internal sealed class JoinHandshake
         clock = parts.Clock;
         challenge = new AddressChallenge(cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.MaxClientsPerAddress);
-        Copies = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
-        snapshots = new SnapshotServer(roster, new SnapshotRates(options.JoinLimits), challenge, parts.Sender, counters, clock);
+        Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
+        server = new SnapshotServer(roster, new SnapshotRates(options.JoinLimits), challenge, parts.Sender, counters, clock);
         JoinRules rules = new(options, parts.World.Scene!.Hash, BanList, Seating);
-        WaitingRoom room = new(roster, Copies, options.JoinLimits);
+        WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
         admission = new Admission(
-            sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Copies, timeouts, parts.Links,
+            sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Snapshots, timeouts, parts.Links,
             parts.Sender, counters, clock);
     }
 
@@ -50,7 +50,7 @@ internal sealed class JoinHandshake
     internal BanList BanList { get; } = new();
 
     /// <summary>The snapshots for joining clients.</summary>
-    internal JoinSnapshots Copies { get; }
+    internal JoinSnapshots Snapshots { get; }
 
     /// <summary>Gives joining clients their numbers.</summary>
     internal Seating Seating { get; }
@@ -60,7 +60,7 @@ internal sealed class JoinHandshake
 
     internal void OnJoin(in JoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
 
-    internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from) => snapshots.OnSnapshotRequest(request, from);
+    internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from) => server.OnSnapshotRequest(request, from);
 
     /// <summary>Handles a client that proves a new address.</summary>
     internal void OnMove(in MoveDatagram move, PeerAddress from)

@@ -14,19 +14,19 @@ internal sealed class JoinLimits
     internal int ComingOfOne { get; set; } = 16;
 
     /// <summary>
-    /// The most memory, in bytes, for the snapshots being downloaded, unless <see cref="MinCopies"/> of them are larger. A host makes
+    /// The most memory, in bytes, for the snapshots being downloaded, unless <see cref="MinSnapshots"/> of them are larger. A host makes
     /// at most one snapshot per second.
     /// </summary>
-    internal long CopyBytes { get; set; } = 64 << 20;
+    internal long SnapshotBytes { get; set; } = 64 << 20;
 
     /// <summary>
     /// The number of snapshots that always fit, however large, so that a client has at least three timeouts to download its own before it
     /// can be dropped for others.
     /// </summary>
-    internal int MinCopies { get; set; } = 4;
+    internal int MinSnapshots { get; set; } = 4;
 
     /// <summary>The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second.</summary>
-    internal double SlowestCopy { get; set; } = 1_000;
+    internal double SlowestDownload { get; set; } = 1_000;
 
     /// <summary>The rate at which one machine is sent chunks, for all its clients together: 2.3 MB/s.</summary>
     internal double ChunksPerSecond { get; set; } = 2000;

@@ -9,7 +9,7 @@ internal sealed class JoinSnapshot
     internal JoinSnapshot(byte[] bytes, uint logIndex, SimTime made)
     {
         Bytes = bytes;
-        Hash = JoinSnapshotFormat.HashOf(bytes);
+        Hash = SessionSnapshot.HashOf(bytes);
         LogIndex = logIndex;
         Made = made;
     }

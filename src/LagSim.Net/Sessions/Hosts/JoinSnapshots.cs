@@ -14,19 +14,19 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class JoinSnapshots
 {
     /// <summary>The age up to which a snapshot serves the next client too.</summary>
-    private static readonly SimDuration CopyAge = SimDuration.FromSeconds(1);
+    private static readonly SimDuration SharedAge = SimDuration.FromSeconds(1);
 
     private readonly ClientRoster roster;
     private readonly AuthoritativeLog log;
     private readonly SharedWorld world;
     private readonly JoinLimits limits;
     private readonly SimDuration timeout;
-    private readonly byte[] sceneCopy;
+    private readonly byte[] sceneSnapshot;
     private JoinSnapshot? newest;
 
     /// <param name="roster">The clients, which download snapshots.</param>
     /// <param name="log">The log, which continues where a snapshot ends.</param>
-    /// <param name="world">The world to copy.</param>
+    /// <param name="world">The world to snapshot.</param>
     /// <param name="limits">The memory limits for snapshots.</param>
     /// <param name="timeout">The age above which a snapshot is not given to a new client.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
@@ -37,7 +37,7 @@ internal sealed class JoinSnapshots
         this.world = world;
         this.limits = limits;
         this.timeout = timeout;
-        sceneCopy = JoinSnapshotFormat.Encode(world.Scene!, null);
+        sceneSnapshot = SessionSnapshot.Encode(world.Scene!, null);
     }
 
     /// <summary>The last log entry that a client with the newest snapshot does not need.</summary>
@@ -45,10 +45,11 @@ internal sealed class JoinSnapshots
 
     /// <summary>The size in bytes of the snapshots that these clients download; a shared one counts once.</summary>
     internal static long BytesOf(IEnumerable<Client> some) =>
-        some.Select(j => j.Copy).OfType<JoinSnapshot>().Distinct().Sum(copy => (long)copy.Bytes.Length);
+        some.Select(j => j.Snapshot).OfType<JoinSnapshot>().Distinct().Sum(snapshot => (long)snapshot.Bytes.Length);
 
-    /// <summary>The memory that snapshots of that size may take, in bytes; see <see cref="JoinLimits.CopyBytes"/>.</summary>
-    internal long RoomForCopiesLike(JoinSnapshot copy) => Math.Max(limits.CopyBytes, (long)copy.Bytes.Length * limits.MinCopies);
+    /// <summary>The memory that snapshots of that size may take, in bytes; see <see cref="JoinLimits.SnapshotBytes"/>.</summary>
+    internal long RoomForSnapshotsLike(JoinSnapshot snapshot) =>
+        Math.Max(limits.SnapshotBytes, (long)snapshot.Bytes.Length * limits.MinSnapshots);
 
     /// <summary>
     /// Returns the snapshot for a client that joins now: the scene, and the committed state once that lies past the start. Null while the
@@ -70,7 +71,7 @@ internal sealed class JoinSnapshots
                 return null;
             }
 
-            byte[] bytes = hasState ? JoinSnapshotFormat.Encode(world.Scene!, simulation!.Snapshot(settledTo)) : sceneCopy;
+            byte[] bytes = hasState ? SessionSnapshot.Encode(world.Scene!, simulation!.Snapshot(settledTo)) : sceneSnapshot;
             newest = new JoinSnapshot(bytes, log.Lines.Settled, now);
         }
 
@@ -82,11 +83,11 @@ internal sealed class JoinSnapshots
     {
         foreach (Client client in roster.All)
         {
-            client.Copy = client.IsReady ? null : client.Copy;
+            client.Snapshot = client.IsReady ? null : client.Snapshot;
         }
 
-        bool isFetched = roster.All.Exists(j => j.Copy == newest);
-        newest = newest is not null && now - newest.Made <= (isFetched ? timeout : CopyAge) ? newest : null;
+        bool isFetched = roster.All.Exists(j => j.Snapshot == newest);
+        newest = newest is not null && now - newest.Made <= (isFetched ? timeout : SharedAge) ? newest : null;
     }
 
     /// <summary>
@@ -96,6 +97,6 @@ internal sealed class JoinSnapshots
     /// <remarks>
     /// So clients are not dropped each time that another joins, and none gets an older world because others keep downloading it.
     /// </remarks>
-    private bool Serves(JoinSnapshot copy, SimTime now) =>
-        now - copy.Made <= CopyAge || copy.Bytes.Length + BytesOf(roster.All) > RoomForCopiesLike(copy);
+    private bool Serves(JoinSnapshot snapshot, SimTime now) =>
+        now - snapshot.Made <= SharedAge || snapshot.Bytes.Length + BytesOf(roster.All) > RoomForSnapshotsLike(snapshot);
 }

@@ -17,7 +17,7 @@ internal sealed class SnapshotServer(
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from)
     {
         Client? client = roster.Of(request.SessionId);
-        if (client is null || client.Link.Other != from || client.Copy is null || request.Number <= client.LastRequest)
+        if (client is null || client.Link.Other != from || client.Snapshot is null || request.Number <= client.LastRequest)
         {
             counters.DatagramsIgnored++;
             if (client is not null && client.Link.Other != from)
@@ -33,18 +33,18 @@ internal sealed class SnapshotServer(
         client.LastRequest = request.Number;
         client.Link.NoteHeard(now);
         client.Link.CountReceived(WireFormat.SnapshotRequestBytes);
-        SendChunks(client, client.Copy.Bytes, request, now);
+        SendChunks(client, client.Snapshot.Bytes, request, now);
     }
 
     /// <summary>Sends the requested chunks, as far as the pace allows; the client requests missing ones again.</summary>
-    private void SendChunks(Client client, ReadOnlySpan<byte> copy, in SnapshotRequestDatagram request, SimTime now)
+    private void SendChunks(Client client, ReadOnlySpan<byte> snapshot, in SnapshotRequestDatagram request, SimTime now)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.MaxBytes];
-        long most = MaxRepeats * ((copy.Length / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks);
+        long most = MaxRepeats * ((snapshot.Length / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks);
         for (int n = 0; n < SnapshotRequestDatagram.MaxChunks; n++)
         {
             long index = (long)request.First + n;
-            if ((request.Wanted >> n & 1) == 0 || index * SnapshotChunkDatagram.MaxData >= copy.Length)
+            if ((request.Wanted >> n & 1) == 0 || index * SnapshotChunkDatagram.MaxData >= snapshot.Length)
             {
                 continue;
             }
@@ -56,7 +56,8 @@ internal sealed class SnapshotServer(
 
             client.ChunksGiven++;
             int at = (int)index * SnapshotChunkDatagram.MaxData;
-            SnapshotChunkDatagram chunk = new(request.SessionId, (uint)index, copy.Slice(at, Math.Min(SnapshotChunkDatagram.MaxData, copy.Length - at)));
+            SnapshotChunkDatagram chunk = new(
+                request.SessionId, (uint)index, snapshot.Slice(at, Math.Min(SnapshotChunkDatagram.MaxData, snapshot.Length - at)));
             sender.Send(bytes.Slice(0, chunk.Encode(bytes)), client.Link);
         }
     }

@@ -8,7 +8,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// Limits the number of joining clients and the size of their snapshots. A newcomer displaces the oldest joining client of the machine with
 /// the most.
 /// </summary>
-internal sealed class WaitingRoom(ClientRoster roster, JoinSnapshots copies, JoinLimits limits)
+internal sealed class WaitingRoom(ClientRoster roster, JoinSnapshots snapshots, JoinLimits limits)
 {
     /// <summary>
     /// Drops the oldest joining clients of the machine with the most, while there are too many or their snapshots take too much memory.
@@ -29,8 +29,8 @@ internal sealed class WaitingRoom(ClientRoster roster, JoinSnapshots copies, Joi
             LeaveOut(OldestOf(coming));
         }
 
-        while (coming.FindAll(j => j.Copy != made) is { Count: > 0 } others
-            && made.Bytes.Length + JoinSnapshots.BytesOf(others) > copies.RoomForCopiesLike(made))
+        while (coming.FindAll(j => j.Snapshot != made) is { Count: > 0 } others
+            && made.Bytes.Length + JoinSnapshots.BytesOf(others) > snapshots.RoomForSnapshotsLike(made))
         {
             LeaveOut(OldestOf(others));
         }

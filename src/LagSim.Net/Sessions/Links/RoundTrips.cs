@@ -72,7 +72,8 @@ internal sealed class RoundTrips
     /// A link that holds back at that point stays well below twice the shortest round trip. Delay that doubles the shortest round trip is a
     /// queue whatever the jitter: a peer that joins while a queue rises and falls knows no other spread.
     /// </remarks>
-    internal bool HasQueue => Queueing > MinQueue && Queueing > least.Value / 4 && Queueing > Lesser(minSpread.Value * SpreadFactor, least.Value);
+    internal bool HasQueue =>
+        Queueing > MinQueue && Queueing > least.Value / 4 && Queueing > Lesser(minSpread.Value * SpreadFactor, least.Value);
 
     internal void Add(SimDuration sample, SimTime now)
     {

@@ -1,13 +1,22 @@
+using System;
 using System.Collections.Generic;
 using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Harness.SceneFiles;
 
-/// <content>Planes, static spheres and bodies.</content>
-internal ref partial struct SceneJsonReader
+/// <summary>Reads the planes, static spheres and bodies of scene files: each becomes what adds it to a scene.</summary>
+internal static class PartJson
 {
-    private void ReadPlane()
+    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction"]);
+
+    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction"]);
+
+    private static readonly JsonKeys BodyKeys =
+        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
+
+    /// <summary>Reads a plane.</summary>
+    internal static Action<SceneBuilder> Plane(ref JsonCursor cursor)
     {
         string name = "";
         Vector3D normal = default;
@@ -22,7 +31,7 @@ internal ref partial struct SceneJsonReader
             switch (key)
             {
                 case "name":
-                    name = Name();
+                    name = SceneJsonValues.Name(ref cursor);
                     break;
                 case "normal":
                     normal = cursor.Vector();
@@ -48,10 +57,13 @@ internal ref partial struct SceneJsonReader
             throw cursor.FailAt(key, $"a plane needs point_m or offset_m, exactly one; {count} here");
         }
 
-        Add(b => _ = point is Vector3D through ? b.AddPlane(name, normal, through, restitution, friction) : b.AddPlane(name, normal, offset!.Value, restitution, friction));
+        return b => _ = point is Vector3D through
+            ? b.AddPlane(name, normal, through, restitution, friction)
+            : b.AddPlane(name, normal, offset!.Value, restitution, friction);
     }
 
-    private void ReadSphere()
+    /// <summary>Reads a static sphere.</summary>
+    internal static Action<SceneBuilder> Sphere(ref JsonCursor cursor)
     {
         string name = "";
         Vector3D centre = default;
@@ -65,7 +77,7 @@ internal ref partial struct SceneJsonReader
             switch (key)
             {
                 case "name":
-                    name = Name();
+                    name = SceneJsonValues.Name(ref cursor);
                     break;
                 case "centre_m":
                     centre = cursor.Vector();
@@ -82,10 +94,14 @@ internal ref partial struct SceneJsonReader
             }
         }
 
-        Add(b => b.AddStaticSphere(name, centre, radius, restitution, friction));
+        return b => b.AddStaticSphere(name, centre, radius, restitution, friction);
     }
 
-    private void ReadBody()
+    /// <summary>Reads a body.</summary>
+    /// <param name="cursor">Where it stands.</param>
+    /// <param name="forceNames">The forces, of which it may name some.</param>
+    /// <param name="isAlone">Whether it is built without them, to find what is wrong with the body itself.</param>
+    internal static Action<SceneBuilder> Body(ref JsonCursor cursor, ForceNames forceNames, bool isAlone)
     {
         string name = "";
         double radius = 0;
@@ -96,7 +112,7 @@ internal ref partial struct SceneJsonReader
         MotionLaw motion = MotionLaw.Automatic;
         SimDuration step = BodySpec.DefaultStep;
         PeerSet players = PeerSet.Everyone;
-        List<string> forces = new();
+        IReadOnlyList<string> forces = [];
         double tolerance = BodySpec.DefaultTolerance;
         double friction = 0;
         double rollingResistance = 0;
@@ -108,7 +124,7 @@ internal ref partial struct SceneJsonReader
             switch (key)
             {
                 case "name":
-                    name = Name();
+                    name = SceneJsonValues.Name(ref cursor);
                     break;
                 case "radius_m":
                     radius = cursor.Number();
@@ -126,13 +142,13 @@ internal ref partial struct SceneJsonReader
                     velocity = cursor.Vector();
                     break;
                 case "motion":
-                    motion = Motion();
+                    motion = SceneJsonValues.Motion(ref cursor);
                     break;
                 case "players":
-                    players = Peers();
+                    players = SceneJsonValues.Peers(ref cursor);
                     break;
                 case "forces":
-                    forces = ForcesOnBody();
+                    forces = forceNames.Read(ref cursor);
                     break;
                 case "tolerance":
                     tolerance = cursor.Number();
@@ -147,17 +163,16 @@ internal ref partial struct SceneJsonReader
                     spin = cursor.Vector();
                     break;
                 default:
-                    step = Step();
+                    step = SceneJsonValues.Step(ref cursor);
                     break;
             }
         }
 
-        List<string> known = forceNames;
-        bool isAlone = locate is not null; // and no force exists
-        Add(b =>
+        return b =>
         {
-            ForceSet set = isAlone ? ForceSet.None : SetOf(forces, known);
-            b.AddBody(name, new BodySpec(radius, mass, restitution, motion, step, set, tolerance, friction, rollingResistance), position, velocity, players, spin);
-        });
+            ForceSet set = isAlone ? ForceSet.None : forceNames.SetOf(forces);
+            BodySpec spec = new(radius, mass, restitution, motion, step, set, tolerance, friction, rollingResistance);
+            b.AddBody(name, spec, position, velocity, players, spin);
+        };
     }
 }

@@ -12,24 +12,24 @@ namespace LagSim.Net.Wire;
 /// The snapshot from which a client gets the world: its scene, and the committed state if the world has begun long enough ago.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
-internal sealed class JoinSnapshotFormat
+internal sealed class SessionSnapshot
 {
     /// <summary>The longest encoding: 64 MiB, some 300,000 bodies.</summary>
     public const int MaxBytes = 1 << 26;
 
-    private JoinSnapshotFormat(Scene scene, WorldSnapshot? snapshot)
+    private SessionSnapshot(Scene scene, WorldSnapshot? world)
     {
         Scene = scene;
-        Snapshot = snapshot;
+        World = world;
     }
 
     /// <summary>The scene.</summary>
     public Scene Scene { get; }
 
     /// <summary>The committed state; null if the world is to be simulated from its start.</summary>
-    public WorldSnapshot? Snapshot { get; }
+    public WorldSnapshot? World { get; }
 
-    /// <summary>Encodes a copy.</summary>
+    /// <summary>Encodes a snapshot.</summary>
     /// <exception cref="SceneException">The encoding would exceed <see cref="MaxBytes"/>, or the scene cannot be encoded.</exception>
     public static byte[] Encode(Scene scene, WorldSnapshot? snapshot)
     {
@@ -52,12 +52,12 @@ internal sealed class JoinSnapshotFormat
         return bytes;
     }
 
-    /// <summary>The hash by which a complete copy is recognised: the first eight bytes of its SHA-256.</summary>
-    internal static ulong HashOf(ReadOnlySpan<byte> copy)
+    /// <summary>The hash by which a complete snapshot is recognised: the first eight bytes of its SHA-256.</summary>
+    internal static ulong HashOf(ReadOnlySpan<byte> snapshot)
     {
         using SHA256 hash = SHA256.Create();
         Span<byte> bytes = stackalloc byte[32];
-        return hash.TryComputeHash(copy, bytes, out _)
+        return hash.TryComputeHash(snapshot, bytes, out _)
             ? BinaryPrimitives.ReadUInt64LittleEndian(bytes)
             : throw new InvalidOperationException("SHA-256 gave more than 32 bytes.");
     }
@@ -72,7 +72,7 @@ internal sealed class JoinSnapshotFormat
         ReadOnlySpan<byte> bytes,
         IReadOnlyList<IAcceleration>? known,
         Scene? own,
-        [NotNullWhen(true)] out JoinSnapshotFormat? copy,
+        [NotNullWhen(true)] out SessionSnapshot? copy,
         [NotNullWhen(false)] out string? error)
     {
         copy = null;
@@ -104,7 +104,7 @@ internal sealed class JoinSnapshotFormat
             return false;
         }
 
-        copy = new JoinSnapshotFormat(own is not null && own.Hash == scene.Hash ? own : scene, snapshot);
+        copy = new SessionSnapshot(own is not null && own.Hash == scene.Hash ? own : scene, snapshot);
         error = null;
         return true;
     }
