@@ -21,7 +21,7 @@ internal sealed class EventLoop(
     CancellationToken cancellation)
 {
     private Exception? fault;
-    private SimTime partDone = SimTime.MinValue; // the instant that has happened only in part; the least time if there is none
+    private SimTime? partDone; // the instant that has happened only in part
 
     /// <summary>
     /// Whether an advance may stop within an instant, and whether one with more impacts than can be followed blocks the world until an
@@ -36,7 +36,7 @@ internal sealed class EventLoop(
     internal SimTime BlockedAt => Blocked?.At ?? SimTime.MaxValue;
 
     /// <summary>Whether a part of an instant has happened, and the rest has not.</summary>
-    internal bool IsPartDone => partDone != SimTime.MinValue;
+    internal bool IsPartDone => partDone is not null;
 
     /// <summary>Throws if an exception has ended the simulation.</summary>
     internal void ThrowIfFaulted()
@@ -118,9 +118,9 @@ internal sealed class EventLoop(
             Blocked = null;
         }
 
-        if (IsPartDone && changed <= SimTime.Max(partDone, rewinder.KnownTo))
+        if (partDone is SimTime instant && changed <= SimTime.Max(instant, rewinder.KnownTo))
         {
-            RewindInstant(partDone);
+            RewindInstant(instant);
         }
     }
 
@@ -147,7 +147,7 @@ internal sealed class EventLoop(
                 }
 
                 reached = least.Time;
-                partDone = SimTime.MinValue;
+                partDone = null;
                 ForgetUpTo(reached);
             }
             else if (MayWaitBefore(reached) && (verdict == WorkVerdict.StopNow || cancellation.IsCancellationRequested))
@@ -180,7 +180,7 @@ internal sealed class EventLoop(
 
     private void RewindInstant(SimTime instant)
     {
-        partDone = SimTime.MinValue;
+        partDone = null;
         rewinder.RewindInstant(instant);
     }
 

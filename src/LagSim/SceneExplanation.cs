@@ -121,7 +121,7 @@ public sealed class SceneExplanation
         {
             try
             {
-                flights.AddFromScene(i);
+                flights.Roster.AddFromScene(i);
             }
             catch (SimulationException failure)
             {

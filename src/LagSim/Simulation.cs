@@ -180,14 +180,15 @@ public sealed class Simulation
     /// <see cref="AdvanceTo"/> simulates them again, and <see cref="Healed"/> reports what that took.</summary>
     /// <returns>The result. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
     /// <remarks>A submitted event need not have an effect: that depends on what it meets when its time comes; see <see cref="TookEffect"/>.
-    /// Cost: O(1) in the bodies if it lies ahead. Otherwise it cuts the segments since its time of the bodies it can have touched, or of
-    /// all bodies with a full rollback, and the next advance simulates them again.</remarks>
+    /// Cost: O(1) in the bodies if it lies ahead, except for a spawn that outgrows the broad phase, which is then built anew. Otherwise it
+    /// cuts the segments since its time of the bodies it can have touched, or of all bodies with a full rollback, and predicts what those
+    /// bodies meet next; the next advance simulates them again.</remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
         Check(external);
         syncTest?.Submit(external);
-        return Engine.Insert(external, external.Key, isForwarded: false);
+        return Engine.Intake.Insert(external, external.Key, isForwarded: false);
     }
 
     /// <summary>Adds an event that takes effect at <paramref name="arrival"/>, after its own time, by advancing the body alone from the
@@ -206,7 +207,7 @@ public sealed class Simulation
 
         Check(external);
         syncTest?.SubmitForwarded(external, arrival);
-        return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Insert(external, external.At(arrival).Key, isForwarded: true);
+        return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Intake.Insert(external, external.At(arrival).Key, isForwarded: true);
     }
 
     /// <summary>
@@ -217,7 +218,7 @@ public sealed class Simulation
     {
         Engine.Loop.ThrowIfFaulted();
         syncTest?.Retract(external);
-        return Engine.Retract(external);
+        return Engine.Intake.Retract(external);
     }
 
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift
@@ -328,7 +329,7 @@ public sealed class Simulation
         Engine engine = new(scene, options, options.Start, options.Start, scene.BodyArray.Length);
         for (int i = 0; i < scene.BodyArray.Length; i++)
         {
-            engine.AddFromScene(i);
+            engine.Roster.AddFromScene(i);
         }
 
         engine.Begin();
@@ -342,7 +343,7 @@ public sealed class Simulation
         Engine engine = new(scene, options, snapshot.Start, snapshot.Time, snapshot.BodyArray.Length);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
-            engine.AddFromSnapshot(body);
+            engine.Roster.AddFromSnapshot(body);
         }
 
         engine.Timelines.ContinueFrom(snapshot.EventHash);

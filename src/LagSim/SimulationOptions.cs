@@ -1,6 +1,5 @@
 using System;
 using System.Threading;
-using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -36,18 +35,12 @@ public sealed class SimulationOptions
     /// session within one too.
     /// </param>
     /// <param name="healing">How an event before the simulated time is brought in. It has no influence on the result, to the bit.</param>
-    /// <param name="threads">
-    /// The largest number of threads that work for this simulation at once, including the caller's: from 1 to
-    /// <see cref="SceneBuilder.MaxThreads"/>; default as many as there are processors, at most 8. At present everything is done on the
-    /// calling thread; the result is the same, to the bit, for any number.
-    /// </param>
     /// <exception cref="ArgumentOutOfRangeException">
-    /// The threads are not from 1 to 64, the history or the most segments are not above zero, or the start more than 72 days from the
-    /// origin.
+    /// The history or the most segments are not above zero, or the start is more than 72 days from the origin.
     /// </exception>
     public SimulationOptions(
         SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default,
-        HealingMode healing = HealingMode.CausalCone, int? threads = null)
+        HealingMode healing = HealingMode.CausalCone)
     {
         if (history is SimDuration given && given <= SimDuration.Zero)
         {
@@ -64,13 +57,7 @@ public sealed class SimulationOptions
             throw new ArgumentOutOfRangeException(nameof(maxSegments), maxSegments, "At least one segment must be allowed.");
         }
 
-        if (threads is < 1 or > SceneBuilder.MaxThreads)
-        {
-            throw new ArgumentOutOfRangeException(nameof(threads), threads, $"One thread is at work at least, and {SceneBuilder.MaxThreads} at most.");
-        }
-
         Start = start;
-        Threads = threads ?? Math.Min(Environment.ProcessorCount, 8);
         MaxSegments = maxSegments;
         Cancellation = cancellation;
         Healing = healing;
@@ -91,9 +78,6 @@ public sealed class SimulationOptions
 
     /// <summary>How an event before the simulated time is brought in.</summary>
     public HealingMode Healing { get; private set; }
-
-    /// <summary>The largest number of threads that work for the simulation at once.</summary>
-    public int Threads { get; private set; }
 
     /// <summary>
     /// The number of bodies up to which the broad phase is brute force. No bit depends on it; tests set it to have neighbour lists in small
@@ -117,7 +101,6 @@ public sealed class SimulationOptions
     {
         changed.Cancellation = default;
         changed.Healing = HealingMode.FullRollback;
-        changed.Threads = 1;
         changed.Observer = null;
         changed.Parts = EngineParts.Usual;
     });

@@ -20,7 +20,7 @@ internal sealed class SingleBodyWorld(Scene scene, SimTime start, int maxSegment
         Engine engine = new(scene.WithoutBodies(), new SimulationOptions(start, SimDuration.MaxValue, maxSegments), start, start, 1);
         engine.Begin();
         Advance(engine, SimTime.Max(start, spawn.Time - SimDuration.OneTick));
-        engine.Insert(spawn, spawn.Key, isForwarded: false);
+        engine.Intake.Insert(spawn, spawn.Key, isForwarded: false);
         Advance(engine, SimTime.Max(engine.Progress.SimulatedTo, time));
         TimelineStore timelines = engine.Timelines;
         int end = timelines.Last(engine.Bodies.SlotOf(spawn.Body));

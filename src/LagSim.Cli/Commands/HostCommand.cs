@@ -28,6 +28,7 @@ internal static class HostCommand
         };
         Option<int> clients = CommonOptions.Whole(
             "--joiners", "Start once this many clients have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
+        clients.Aliases.Add("--clients");
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
         Option<int> perAddress = CommonOptions.Whole(
             "--per-address", "How many clients may join from one address; 0 means half of the places, or --joiners if that is more",

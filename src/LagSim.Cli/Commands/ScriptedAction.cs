@@ -13,7 +13,7 @@ internal sealed class ScriptedAction
     internal const string Syntax =
         "KIND@SECONDS[:BODY][:X,Y,Z], with SECONDS counted from the session's start. KIND is teleport (to a point, in m), set-velocity (in m/s), "
         + "impulse (in N s), spawn (a body like BODY, at a point, in m), grab (BODY by the point at this distance from its centre, in m), "
-        + "knot (the hand that holds BODY is at a point, in m, at rest; without another for a second it releases the body), "
+        + "keyframe (also knot: the hand that holds BODY is at a point, in m, at rest; without another for a second it releases the body), "
         + "release (with a velocity, in m/s) "
         + "or remove (without X,Y,Z). "
         + "BODY is the name of a body of the scene, by default the first, or PEER.SEQUENCE.0 for a spawned one. "
@@ -21,7 +21,7 @@ internal sealed class ScriptedAction
 
     internal const double MaxSeconds = 1e6;
 
-    private static readonly string[] Kinds = ["teleport", "set-velocity", "impulse", "spawn", "grab", "knot", "release", "remove"];
+    private static readonly string[] Kinds = ["teleport", "set-velocity", "impulse", "spawn", "grab", "keyframe", "release", "remove"];
 
     private readonly string kind;
     private readonly string? body;
@@ -48,6 +48,7 @@ internal sealed class ScriptedAction
     {
         int at = text.IndexOf('@', StringComparison.Ordinal);
         string kind = at < 0 ? text : text[..at];
+        kind = kind == "knot" ? "keyframe" : kind; // the older word, which scripts use
         if (at < 0 || !Kinds.Contains(kind))
         {
             throw Wrong(text, at < 0 ? "it must be KIND@SECONDS:X,Y,Z" : $"'{kind}' must be one of {string.Join(", ", Kinds)}");
@@ -86,7 +87,7 @@ internal sealed class ScriptedAction
             "set-velocity" => PlayerAction.SetVelocity(id, vector),
             "impulse" => PlayerAction.Impulse(id, vector),
             "grab" => PlayerAction.Grab(id, vector),
-            "knot" => PlayerAction.HoldKeyframe(id, vector, Vector3D.Zero),
+            "keyframe" => PlayerAction.HoldKeyframe(id, vector, Vector3D.Zero),
             "release" => PlayerAction.Release(id, vector),
             "remove" => PlayerAction.Remove(id),
             _ when id.Sequence == 0 => PlayerAction.Spawn(scene.Bodies[id.Index].Spec, vector),
@@ -124,7 +125,7 @@ internal sealed class ScriptedAction
         "impulse" => "how hard in N s",
         "spawn" => "where in m",
         "grab" => "how far from the centre in m",
-        "knot" => "where the hand is in m",
+        "keyframe" => "where the hand is in m",
         _ => "how fast it goes on in m/s",
     };
 

@@ -2,7 +2,6 @@ using System;
 using System.Threading;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
-using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -89,13 +88,6 @@ public abstract record SessionOptions
     /// committed world.
     /// </remarks>
     public int MaxSegments { get; init; } = SimulationOptions.DefaultMaxSegments;
-
-    /// <summary>
-    /// The maximum number of threads that work on this peer's world at once, as <see cref="SimulationOptions.Threads"/>: 1 to
-    /// <see cref="SceneBuilder.MaxThreads"/>; null, the default, for its default. Each peer may choose its own: results are bit-identical
-    /// either way.
-    /// </summary>
-    public int? Threads { get; init; }
 
     /// <summary>
     /// How long timelines are kept beyond the lateness limit of events, 0 to 60 s; default 0. For programs that compare settled states.
@@ -208,12 +200,6 @@ public abstract record SessionOptions
         if (MaxSegments < 1)
         {
             throw new ArgumentOutOfRangeException(nameof(MaxSegments), MaxSegments, "The timelines must be allowed one segment at least.");
-        }
-
-        if (Threads is < 1 or > SceneBuilder.MaxThreads)
-        {
-            throw new ArgumentOutOfRangeException(
-                nameof(Threads), Threads, $"One thread is at work at least, and {SceneBuilder.MaxThreads} at most.");
         }
 
         if (ConnectKey is null)

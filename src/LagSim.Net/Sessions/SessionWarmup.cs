@@ -137,7 +137,6 @@ internal sealed class SessionWarmup
         CommitInterval = SimDuration.FromMilliseconds(100),
         Window = new LatencyCompensationWindow(SimDuration.FromMilliseconds(200)),
         MaxSpawned = maxSpawned,
-        Threads = 1,
     };
 
     private static PlayerAction Action(EventKind kind, int body, BodyId spawned)

@@ -272,7 +272,7 @@ internal sealed class SessionRun
         Simulation alone;
         try
         {
-            alone = log.Replay(scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1), end);
+            alone = log.Replay(scene, new SimulationOptions(start, SimDuration.MaxValue, cancellation: cancellation), end);
         }
         catch (SimulationException thrown)
         {

@@ -14,9 +14,8 @@ namespace LagSim.Collisions;
 /// first, or on other queries.
 /// </remarks>
 internal sealed class CollisionPredictor(
-    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, RollbackState rollback, SegmentLookup view,
-    MemberContacts members,
-    StrikeCounts strikes, ContactScale scale, bool hasIslands)
+    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, SegmentLookup view, MemberContacts members, StrikeCounts strikes,
+    ContactScale scale, bool hasIslands)
 {
     /// <summary>
     /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the two, a
@@ -85,7 +84,7 @@ internal sealed class CollisionPredictor(
                 return true;
             }
 
-            from = LookAgain(opened, segment.End, wait);
+            from = Recheck(opened, segment.End, wait);
             if (from == SimTime.MaxValue)
             {
                 return false;
@@ -116,12 +115,7 @@ internal sealed class CollisionPredictor(
     /// </summary>
     internal bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
     {
-        piece = timelines.Last(other);
-        if (rollback.MayBeKnownBeyond(rollback.Cursor) && slot != other)
-        {
-            piece = view.SegmentFrom(slot, other);
-        }
-
+        piece = view.SegmentFrom(slot, other);
         while (true)
         {
             int next = timelines.Next(piece);
@@ -221,7 +215,7 @@ internal sealed class CollisionPredictor(
                 return true;
             }
 
-            from = LookAgain(opened, until, wait);
+            from = Recheck(opened, until, wait);
             if (from == SimTime.MaxValue)
             {
                 return false;
@@ -279,7 +273,7 @@ internal sealed class CollisionPredictor(
     /// <summary>
     /// When it is searched for again, after such a wait; <see cref="SimTime.MaxValue"/> if the segments end before.
     /// </summary>
-    private static SimTime LookAgain(SimTime opened, SimTime end, SimDuration wait)
+    private static SimTime Recheck(SimTime opened, SimTime end, SimDuration wait)
     {
         wait = wait < ContactTime.Soon ? ContactTime.Soon : wait;
         return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
@@ -305,7 +299,7 @@ internal sealed class CollisionPredictor(
             && Vector3D.Dot(surfaces.Normal(surface, position), paths.VelocityAt(piece, now)) < 0;
     }
 
-    /// <summary>The same of two bodies.</summary>
+    /// <summary>Whether two bodies close that are no further apart than places are rounded.</summary>
     private bool ClosesAtOnce(int first, int second, double reach, SimTime opened)
     {
         ContactTime now = ContactTime.At(opened);

@@ -74,7 +74,7 @@ internal class EventPredictor(
         }
 
         SimTime from = SimTime.Max(timelines.Key(last).Time, rollback.Cursor.Time);
-        Span<int> candidates = broadPhase.Current.Candidates(slot, bodies.Spec(slot).Radius, from, rollback.AtHand, out SimTime until);
+        Span<int> candidates = broadPhase.Current.Candidates(slot, bodies.Spec(slot).Radius, from, rollback.HealNumber, out SimTime until);
         if (until < end)
         {
             next.Consider(new EventKey(until, 0, EventKind.None, id, id, 0, 0));

@@ -36,7 +36,7 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
         bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         Span<int> alone = stackalloc int[1] { slot };
         Span<int> who = isOfMany ? graph.Slots : alone;
-        bool isAgain = key.Time <= rollback.Horizon;
+        bool isAgain = rollback.IsActive && key.Time <= rollback.Horizon;
         return Observer?.OnWork(key, who, WorkOf(who.Length, isAgain), isAgain, bodies) ?? WorkVerdict.GoOn;
     }
 

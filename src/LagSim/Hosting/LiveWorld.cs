@@ -163,8 +163,9 @@ public sealed class LiveWorld
 
     /// <summary>Submits an event at its own time.</summary>
     /// <remarks>
-    /// Re-simulation for a late event counts as this step's work. If it is too much, the next step continues, and the world is behind
-    /// meanwhile.
+    /// Re-simulation for a late event is done at once, because a session's host judges the next event by what the world is then. It counts
+    /// as this step's work. Once that is used up, late events are only marked, and the next step heals all of them together; the world is
+    /// behind meanwhile.
     /// </remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
@@ -267,7 +268,7 @@ public sealed class LiveWorld
 
         if (renderedPast < SimDuration.Zero)
         {
-            throw new ArgumentOutOfRangeException(nameof(renderedPast), renderedPast.Value.ToShortString(), "A picture cannot show less than no past.");
+            throw new ArgumentOutOfRangeException(nameof(renderedPast), renderedPast.Value.ToShortString(), "A render snapshot cannot show less than no past; it must be zero or more.");
         }
 
         if (options.History <= ahead)

@@ -41,13 +41,11 @@ public sealed class SimulationHost : IDisposable
     /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
-    /// <param name="threads">The largest number of threads that work for the world at once; as in <see cref="SimulationOptions"/>.</param>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">The threads are not from 1 to 64.</exception>
-    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, int? threads = null)
+    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
-        SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token, threads: threads);
+        SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token);
         world = new LiveWorld(scene, options, lookAhead, contacts: contacts);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }

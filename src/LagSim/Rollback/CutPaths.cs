@@ -47,7 +47,7 @@ internal class CutPaths
         LastSerial = lastSerial;
     }
 
-    /// <summary>The heal runs to its end.</summary>
+    /// <summary>Discards the saved segments. The heal will run to its horizon.</summary>
     internal void GiveUp()
     {
         IsWhole = false;
@@ -116,12 +116,12 @@ internal class CutPaths
     /// <param name="timelines">The paths as they are now.</param>
     /// <param name="time">An instant of which the heal has done all.</param>
     /// <remarks>O(1) as a rule: the body that was on another path the last time is asked first.</remarks>
-    internal bool AreMet(TimelineStore timelines, SimTime time)
+    internal bool HaveReconverged(TimelineStore timelines, SimTime time)
     {
         for (int n = 0; n < bodies.Count; n++)
         {
             int at = (n + differing) % bodies.Count;
-            if (!IsMet(timelines, bodies[at].Slot, bodies[at].Earliest, time))
+            if (!HasReconverged(timelines, bodies[at].Slot, bodies[at].Earliest, time))
             {
                 differing = at;
                 return false;
@@ -175,7 +175,7 @@ internal class CutPaths
         return compared != 0 ? compared : pieces[a].Slot.CompareTo(pieces[b].Slot);
     }
 
-    private bool IsMet(TimelineStore timelines, int slot, int earliest, SimTime time)
+    private bool HasReconverged(TimelineStore timelines, int slot, int earliest, SimTime time)
     {
         int old = None;
         for (int piece = earliest; piece != None && pieces[piece].Key.Time <= time; piece = pieces[piece].Later)

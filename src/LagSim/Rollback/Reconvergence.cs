@@ -7,7 +7,8 @@ using LagSim.Timelines;
 namespace LagSim.Rollback;
 
 /// <summary>
-/// Whether the re-simulated paths are again those that they replaced: then what was simulated from there on is right, and is put back.
+/// Tells whether every re-simulated path is again the one that it replaced, and then puts back what was cut from there on: everything after
+/// that instant would happen as it did before.
 /// </summary>
 internal sealed class Reconvergence(
     BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
@@ -61,7 +62,7 @@ internal sealed class Reconvergence(
             return false;
         }
 
-        return mayBe && cut.AreMet(timelines, at);
+        return mayBe && cut.HaveReconverged(timelines, at);
     }
 
     /// <summary>

@@ -59,7 +59,9 @@ internal class Rewinder : ISegmentOpenedObserver
     internal int FewHealed { get; set; } = 32;
 
     /// <summary>Up to when what bodies do is known of some, and so would have to be rewound.</summary>
-    internal SimTime KnownTo => mode == HealingMode.FullRollback ? progress.SimulatedTo : SimTime.Max(progress.SimulatedTo, rollback.Horizon);
+    internal SimTime KnownTo => mode == HealingMode.FullRollback || !rollback.IsActive
+        ? progress.SimulatedTo
+        : SimTime.Max(progress.SimulatedTo, rollback.Horizon);
 
     /// <summary>
     /// Whether the events at a key are known for some bodies. Of the instant that a full rollback has rewound to, events before the key of
@@ -93,7 +95,7 @@ internal class Rewinder : ISegmentOpenedObserver
         if (key.Time <= progress.SimulatedTo)
         {
             rollback.Cursor = key;
-            rollback.LastOld = timelines.LastSerial; // segments that an unfinished rollback has remade may lie beyond this one
+            rollback.KeepUpTo(timelines.LastSerial);
             progress.SimulatedTo = key.Time - SimDuration.OneTick;
         }
         else
@@ -141,9 +143,9 @@ internal class Rewinder : ISegmentOpenedObserver
             return false;
         }
 
-        SimTime met = rollback.Cursor.Time;
+        SimTime reconvergedAt = rollback.Cursor.Time;
         reconvergence.PutBack(at);
-        End(met);
+        End(reconvergedAt);
         return true;
     }
 
@@ -161,7 +163,7 @@ internal class Rewinder : ISegmentOpenedObserver
         rollback.CountLate();
         if (!rollback.IsActive)
         {
-            rollback.Begin(progress.SimulatedTo);
+            rollback.Begin(mode == HealingMode.FullRollback ? RollbackKind.Full : RollbackKind.CausalCone, progress.SimulatedTo);
             timelines.Openings = this;
             report = new HealReport(time, rollback.Horizon, 1, 0, rollback.SegmentsCut, progress.EventsProcessed);
             if (mode != HealingMode.FullRollback)
@@ -176,14 +178,14 @@ internal class Rewinder : ISegmentOpenedObserver
         }
     }
 
-    private void End(SimTime? met)
+    private void End(SimTime? reconvergedAt)
     {
         reconvergence.GiveUp();
         rollback.End();
         timelines.Openings = null;
         Healed?.Invoke(new HealReport(
             report.From, report.To, report.LateEvents, rollback.BodyCount, rollback.SegmentsCut - report.SegmentsCut,
-            progress.EventsProcessed - report.Events, met));
+            progress.EventsProcessed - report.Events, reconvergedAt));
     }
 
     private void Touch(int slot)
@@ -222,7 +224,10 @@ internal class Rewinder : ISegmentOpenedObserver
             if (any)
             {
                 Redo(body, from);
-                cut.Add(body);
+                if (body != slot)
+                {
+                    cut.Add(body);
+                }
             }
         }
     }
@@ -240,13 +245,14 @@ internal class Rewinder : ISegmentOpenedObserver
     /// Whether simulating all bodies again costs less than finding out at every step which bodies are ahead, and what they did there.
     /// </summary>
     private bool IsNearlyFull() =>
-        rollback.LastOld >= 0 && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MaxSeparateCones));
+        rollback.Kind == RollbackKind.CausalCone
+        && rollback.BodyCount > Math.Max(FewHealed, bodies.Count / 8 * Math.Min(report.LateEvents, MaxSeparateCones));
 
     /// <summary>Cuts every timeline at the key and has all bodies predicted again.</summary>
     private void RewindAll(in EventKey key)
     {
         rollback.Cursor = key;
-        rollback.LastOld = -1; // no body is ahead of another
+        rollback.KeepNothing();
         EventKey from = CutsAllFrom(key);
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {

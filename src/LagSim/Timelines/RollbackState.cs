@@ -5,28 +5,31 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>The progress of a rollback: what is known beyond the current event, and since when.</summary>
-/// <remarks>Not thread-safe. Only the rollback changes it.</remarks>
+/// <remarks>Not thread-safe. The event loop moves the cursor from event to event; all else is changed by the rollback.</remarks>
 internal sealed class RollbackState
 {
     private uint[] healedIn = Array.Empty<uint>(); // by slot: the number of the last rollback that touched the body
 
+    /// <summary>What the current rollback re-simulates. A rollback may be finished in several advances.</summary>
+    internal RollbackKind Kind { get; private set; }
+
     /// <summary>
     /// The rollback horizon: how far the world was simulated before the current rollback, and so how far the paths of bodies that nothing
-    /// late has touched are known. The least time there is if there is no rollback. A rollback may be finished in several advances.
+    /// late has touched are known. Only while a rollback is under way.
     /// </summary>
-    internal SimTime Horizon { get; private set; } = SimTime.MinValue;
+    internal SimTime Horizon { get; private set; }
 
     /// <summary>The current event, or the key that was rewound to.</summary>
     internal EventKey Cursor { get; set; }
 
-    /// <summary>Segments up to this serial are from before the current rollback; -1 if all that is left of them is right.</summary>
-    internal long LastOld { get; set; }
+    /// <summary>Segments up to this serial are from before the current rollback. Only in one of the causal cone.</summary>
+    internal long LastOld { get; private set; }
 
     /// <summary>The number of bodies that the current rollback has touched.</summary>
     internal int BodyCount { get; private set; }
 
-    /// <summary>The number of the current rollback, from 1.</summary>
-    internal uint Number { get; private set; }
+    /// <summary>The number of the current rollback, or of the last one. It begins with 1, so that no rollback has touched a new slot.</summary>
+    internal uint Number { get; private set; } = 1;
 
     /// <summary>How often timelines were rewound for a late event.</summary>
     internal long Count { get; private set; }
@@ -34,28 +37,42 @@ internal sealed class RollbackState
     /// <summary>How many segments were cut off by rollbacks, to be simulated again.</summary>
     internal long SegmentsCut { get; set; }
 
-    /// <summary>The count, if some may be known beyond the current event; else 0.</summary>
-    internal long AtHand => MayBeKnownBeyond(Cursor) && LastOld >= 0 ? Count : 0;
-
     /// <summary>Whether a rollback is under way.</summary>
-    internal bool IsActive => Horizon != SimTime.MinValue;
+    internal bool IsActive => Kind != RollbackKind.None;
+
+    /// <summary>
+    /// What neighbour lists know the current heal by, while bodies' paths may be known beyond the current event; else 0.
+    /// </summary>
+    internal long HealNumber => MayBeKnownBeyond(Cursor) ? Count : 0;
 
     /// <summary>Whether bodies' paths may be known beyond a key.</summary>
-    internal bool MayBeKnownBeyond(in EventKey key) => key.Time <= Horizon;
+    internal bool MayBeKnownBeyond(in EventKey key) => Kind == RollbackKind.CausalCone && key.Time <= Horizon;
 
     /// <summary>A late event has come, whether or not a rollback is under way.</summary>
     internal void CountLate() => Count++;
 
     /// <summary>A rollback begins in a world that was simulated so far.</summary>
-    internal void Begin(SimTime horizon)
+    internal void Begin(RollbackKind kind, SimTime horizon)
     {
+        Kind = kind;
         Horizon = horizon;
         Number++;
         BodyCount = 0;
     }
 
+    /// <summary>The current rollback goes back further, and re-simulates only what depends on late events.</summary>
+    /// <param name="lastOld">The serial of the newest segment: those that the rollback has remade may lie beyond the event, too.</param>
+    internal void KeepUpTo(long lastOld)
+    {
+        Kind = RollbackKind.CausalCone;
+        LastOld = lastOld;
+    }
+
+    /// <summary>Every body was cut at one key. Without a rollback under way that was an instant of which only a part had happened.</summary>
+    internal void KeepNothing() => Kind = IsActive ? RollbackKind.Full : RollbackKind.None;
+
     /// <summary>The current rollback is done.</summary>
-    internal void End() => Horizon = SimTime.MinValue;
+    internal void End() => Kind = RollbackKind.None;
 
     /// <summary>Makes room for a body, which no rollback has touched.</summary>
     internal void AddSlot(int slot)

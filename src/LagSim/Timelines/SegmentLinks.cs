@@ -25,6 +25,11 @@ internal struct SegmentLinks
     /// <summary>Those of a body's newest segment, which one event opened for that body alone.</summary>
     internal static SegmentLinks OfNewest(int segment, long serial, int owner, int previous) => new()
     {
-        Closed = SimTime.MaxValue, Serial = serial, Previous = previous, Next = TimelineStore.None, Owner = owner, Together = segment,
+        Closed = SimTime.MaxValue,
+        Serial = serial,
+        Previous = previous,
+        Next = TimelineStore.None,
+        Owner = owner,
+        Together = segment,
     };
 }

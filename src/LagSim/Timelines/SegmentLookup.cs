@@ -16,12 +16,15 @@ internal class SegmentLookup(TimelineStore timelines, RollbackState rollback)
     }
 
     /// <summary>
-    /// The first segment of another body that a body's newest segment can still meet: the newest, unless that body is ahead.
+    /// The first segment of another body that a body's newest segment can still meet at or after the current event: the newest, unless
+    /// that body is ahead.
     /// </summary>
     internal int SegmentFrom(int slot, int other)
     {
-        int piece = timelines.Last(other);
-        return timelines.Serial(piece) > rollback.LastOld ? piece : PastSegmentFrom(slot, piece);
+        int segment = timelines.Last(other);
+        return slot == other || !rollback.MayBeKnownBeyond(rollback.Cursor) || timelines.Serial(segment) > rollback.LastOld
+            ? segment
+            : PastSegmentFrom(slot, segment);
     }
 
     /// <summary>The segment on which a body comes to an event.</summary>
@@ -31,7 +34,7 @@ internal class SegmentLookup(TimelineStore timelines, RollbackState rollback)
         return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
     }
 
-    /// <summary>The same of another that may be ahead, whose newest segment is given.</summary>
+    /// <summary>The first segment that can still be met of another body that may be ahead, whose newest segment is given.</summary>
     private protected virtual int PastSegmentFrom(int slot, int piece)
     {
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
@@ -44,7 +47,7 @@ internal class SegmentLookup(TimelineStore timelines, RollbackState rollback)
         return piece;
     }
 
-    /// <summary>The same of a body that is ahead: what it did before the late event came.</summary>
+    /// <summary>The segment on which a body that is ahead meets an impact: what it did before the late event came.</summary>
     private protected virtual int PastSegmentAt(int slot, in EventKey key) =>
         timelines.Before(slot, EventKey.BeforeImpacts(key.Time, key.Round));
 }

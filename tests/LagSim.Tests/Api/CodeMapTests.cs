@@ -42,7 +42,8 @@ public sealed partial class CodeMapTests
         .SkipWhile(line => line != "## The map").Skip(1).TakeWhile(line => !line.StartsWith("## ", StringComparison.Ordinal))
         .Select(line => Row().Match(line)).Where(match => match.Success).Select(match => match.Groups[1].Value).ToArray();
 
-    private static string[] Source() => Directory.EnumerateFiles(Path.Combine(RepositoryRoot.Path, "src"), "*.cs", SearchOption.AllDirectories)
+    private static string[] Source() => new[] { "*.cs", "*.csproj" }
+        .SelectMany(what => Directory.EnumerateFiles(Path.Combine(RepositoryRoot.Path, "src"), what, SearchOption.AllDirectories))
         .Select(file => Path.GetRelativePath(RepositoryRoot.Path, Path.GetDirectoryName(file)!).Replace('\\', '/'))
         .Where(folder => !folder.Split('/').Any(part => part is "bin" or "obj"))
         .Distinct().Order(StringComparer.Ordinal).ToArray();

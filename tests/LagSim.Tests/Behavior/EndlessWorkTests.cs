@@ -9,6 +9,7 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Behavior;
 
 /// <summary>Scenes that ask for more events than anyone can wait for, or fall for ever: they can be stopped, and end with a sentence.</summary>
+[Trait("Time", "real")]
 public sealed class EndlessWorkTests
 {
     [Fact]

@@ -268,7 +268,7 @@ public sealed class HeldTests
         WorldSnapshot good = world.Snapshot(At(0.42));
         BodySnapshot b = good.Bodies[0];
         Assert.Equal((MotionLaw.Held, new Hold(1, V(0), At(0.4))), (b.Law, b.Hold));
-        Assert.NotNull(new Simulation(world.Scene, good));
+        Assert.Equal(world.StateHash(At(0.42)), new Simulation(world.Scene, good).StateHash(At(0.42)));
         foreach (Hold bad in new[] { default, new Hold(1, V(0), At(0.39)), new Hold(1, V(0), At(0.41)), new Hold(1, V(2e12), At(0.4)), new Hold(1, V(0), SimTime.MinValue) })
         {
             BodySnapshot other = new(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, default, b.Cubic, default, default, bad);

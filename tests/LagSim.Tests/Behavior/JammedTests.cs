@@ -53,7 +53,7 @@ public sealed class JammedTests
     /// <summary>How many events at most come within half a millisecond.</summary>
     private static long Busiest(int seed)
     {
-        Simulation simulation = new(Draw(seed), OneThread);
+        Simulation simulation = new(Draw(seed), TenSeconds);
         long most = 0;
         for (int k = 1; k * Step <= Until; k++)
         {
@@ -69,7 +69,7 @@ public sealed class JammedTests
     private static double Deepest(int seed)
     {
         Scene scene = Draw(seed, Fine);
-        Simulation simulation = new(scene, OneThread);
+        Simulation simulation = new(scene, TenSeconds);
         simulation.AdvanceTo(At(Until));
         double most = 0;
         Vector3D[] places = new Vector3D[Balls];
@@ -94,7 +94,7 @@ public sealed class JammedTests
         return most;
     }
 
-    private static SimulationOptions OneThread => new(history: SimDuration.FromSeconds(10), threads: 1);
+    private static SimulationOptions TenSeconds => new(history: SimDuration.FromSeconds(10));
 
     private static Scene Draw(int seed, double tolerance = 1e-3)
     {

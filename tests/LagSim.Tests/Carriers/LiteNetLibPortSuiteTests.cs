@@ -1,9 +1,11 @@
 using System.Net;
 using LagSim.Net.Carriers;
+using Xunit;
 
 namespace LagSim.Tests.Carriers;
 
 /// <summary>The suite over LiteNetLib.</summary>
+[Trait("Time", "real")]
 public sealed class LiteNetLibPortSuiteTests : DatagramPortSuite
 {
     /// <inheritdoc/>

@@ -9,6 +9,7 @@ using Xunit;
 namespace LagSim.Tests.Carriers;
 
 /// <summary>What is LiteNetLib's alone; the rest is in <see cref="LiteNetLibPortSuiteTests"/>.</summary>
+[Trait("Time", "real")]
 public sealed class LiteNetLibPortTests
 {
     private const byte Unreliable = 0;

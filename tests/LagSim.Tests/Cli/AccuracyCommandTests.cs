@@ -8,6 +8,7 @@ using Xunit;
 
 namespace LagSim.Tests.Cli;
 
+[Trait("Time", "real")]
 public sealed class AccuracyCommandTests
 {
     private const string Overlap = "deepest_overlap_m";

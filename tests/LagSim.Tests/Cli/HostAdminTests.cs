@@ -8,6 +8,7 @@ namespace LagSim.Tests.Cli;
 
 /// <summary>What is said to a host while it runs.</summary>
 [Collection(RealTime.Name)]
+[Trait("Time", "real")]
 public sealed class HostAdminTests
 {
     [Theory]

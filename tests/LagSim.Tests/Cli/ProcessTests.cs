@@ -10,6 +10,7 @@ namespace LagSim.Tests.Cli;
 
 /// <summary>Real processes of the built tool on loopback: the same committed hash at the same printed time, whatever becomes of the others.</summary>
 [Collection(RealTime.Name)]
+[Trait("Time", "real")]
 public sealed class ProcessTests
 {
     [Fact]

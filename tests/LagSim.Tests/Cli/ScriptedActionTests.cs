@@ -21,6 +21,7 @@ public sealed class ScriptedActionTests
         Assert.Equal(ExternalEvent.SetVelocity(At(1), 2, 3, First, V(-1.5, 0, 1e3)), Stamped("set-velocity@0:-1.5,0,1e3", 0));
         Assert.Equal(ExternalEvent.Impulse(At(1), 2, 3, First, V(0, 4)), Stamped("impulse@2.5:ball:0,4,0", 2.5));
         Assert.Equal(ExternalEvent.Grab(At(1), 2, 3, First, V(0, 0.1)), Stamped("grab@2.5:ball:0,0.1,0", 2.5));
+        Assert.Equal(ExternalEvent.HoldKeyframe(At(1), 2, 3, First, V(1, 4), V(0)), Stamped("keyframe@2.5:ball:1,4,0", 2.5));
         Assert.Equal(ExternalEvent.HoldKeyframe(At(1), 2, 3, First, V(1, 4), V(0)), Stamped("knot@2.5:ball:1,4,0", 2.5));
         Assert.Equal(ExternalEvent.Release(At(1), 2, 3, First, V(0, 4)), Stamped("release@2.5:ball:0,4,0", 2.5));
         Assert.Equal(ExternalEvent.Remove(At(1), 2, 3, First), Stamped("remove@9", 9));
@@ -33,7 +34,7 @@ public sealed class ScriptedActionTests
     [Theory]
     [InlineData("teleport", "it must be KIND@SECONDS:X,Y,Z")]
     [InlineData("", "it must be KIND@SECONDS:X,Y,Z")]
-    [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, grab, knot, release, remove")]
+    [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, grab, keyframe, release, remove")]
     [InlineData("Teleport@3:0,1,2", "'Teleport' must be one of")]
     [InlineData("teleport@:0,1,2", "its time is ''")]
     [InlineData("teleport@x:0,1,2", "its time is 'x', it must be a number of seconds between 0 and 1000000")]

@@ -18,6 +18,7 @@ namespace LagSim.Tests.Cli;
 
 /// <summary>Host, join and relay over real sockets, in this process: that they work, not how fast.</summary>
 [Collection(RealTime.Name)]
+[Trait("Time", "real")]
 public sealed class SessionCommandTests
 {
     private const string Host = "host --scene drop --history-s 0.5 --joiners 1";

@@ -17,6 +17,7 @@ namespace LagSim.Tests.Cli;
 
 /// <summary>Join over real sockets, through ports that change what the host says: what differs or is lost is a check that failed.</summary>
 [Collection(RealTime.Name)]
+[Trait("Time", "real")]
 public sealed class SessionDivergenceTests
 {
     [Fact]

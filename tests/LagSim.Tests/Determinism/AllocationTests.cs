@@ -46,7 +46,7 @@ public sealed class AllocationTests
     public void AdvanceTo_FrictionAndIslandsAfterWarmUp_AllocatesNothing(string name)
     {
         Scene scene = name switch { "rough" => Rough(), "row" => Row(), _ => OnSprings(name == "springs" ? 0 : 0.3) };
-        Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.25), threads: 1));
+        Simulation simulation = new(scene, new SimulationOptions(default, SimDuration.FromSeconds(0.25)));
         long least = Enumerable.Range(0, 8).Select(_ => Measure(simulation, 1_000).Bytes).Skip(4).Min();
         Assert.Equal(0, least);
         Assert.Equal(name != "rough", Enumerable.Range(0, scene.Bodies.Count).Any(n => Read(simulation, BodyId.OfScene(n), simulation.SimulatedTo.ToSeconds()).Motion == MotionLaw.Constrained));

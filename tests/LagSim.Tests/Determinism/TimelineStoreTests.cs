@@ -59,7 +59,7 @@ public sealed class TimelineStoreTests
 
         static (double Times, double RoomForEach) Copied(bool growsByLittle)
         {
-            SimulationOptions options = new(default, SimDuration.FromSeconds(0.25), threads: 1);
+            SimulationOptions options = new(default, SimDuration.FromSeconds(0.25));
             Simulation world = new(Heap(), options.WithParts(new FaultyEngineParts { GrowsByLittle = growsByLittle }));
             long copied = 0;
             int most = 0;

@@ -66,13 +66,6 @@ internal static class ForceSnippets
         BodySpec order4 = new(0.11, 0.43, 0.8, MotionLaw.RungeKutta4, SimDuration.FromSeconds(0.005), air); // fixed steps of 5 ms, the thesis's law
         return [automatic, order5, order4];
     }
-
-    internal static Simulation OneThread(Scene scene)
-    {
-        Simulation world = new(scene, new SimulationOptions(threads: 1));
-        world.AdvanceTo(SimTime.FromSeconds(10));
-        return world;
-    }
 }
 
 /// <summary>Turns about the vertical through the origin what is moved by it, and slows it down.</summary>

@@ -9,41 +9,41 @@ internal enum HealingFault
     /// <summary>Heals right.</summary>
     None = 0,
 
-    /// <summary>A new path is held against what others are doing last, not against what they did before.</summary>
+    /// <summary>A new path is tested against the newest segments of others, not against those that held at the time.</summary>
     ForgetsThePast = 1,
 
-    /// <summary>Of a body that was taken back, but to later than the heal's clock, only the newest piece of path is looked at.</summary>
+    /// <summary>Of a body that was rewound, but to later than the current event, only the newest segment is tested.</summary>
     OverlooksBodiesAhead = 2,
 
     /// <summary>
-    /// A pending contact is given up when its partner has changed at all, as if that one would find it anew, though the piece that it was
-    /// found with still stands.
+    /// A pending contact is dropped when its partner has changed at all, as if the partner would find it anew, though the segment that it
+    /// was found with still stands.
     /// </summary>
     GivesUpByBody = 4,
 
-    /// <summary>The events from outside of whom a heal takes back with others are not applied again.</summary>
+    /// <summary>External events of bodies that a heal rewinds along with others are not applied again.</summary>
     DropsEvents = 8,
 
     /// <summary>Timelines are cut at the time of a key, not at the key.</summary>
     CutsByTime = 16,
 
-    /// <summary>Who has come to rest meanwhile is left there by an event from before.</summary>
+    /// <summary>A late event leaves a body where it is that has come to rest meanwhile.</summary>
     LeavesWhoRests = 32,
 
     /// <summary>A heal ends where the bodies are in their old places again, whichever way they move.</summary>
     StopsWherePlacesMeet = 64,
 
-    /// <summary>What a late event does to one of an island leaves those asleep that lie on it.</summary>
+    /// <summary>A late event on a member of an island leaves those asleep that lie on it.</summary>
     LeavesSleepers = 128,
 
-    /// <summary>The pieces of path that one contact step or one impact on an island opens are not cut together.</summary>
+    /// <summary>The segments that one contact step, or one impact on an island, opens are not cut together.</summary>
     CutsMembersAlone = 256,
 
-    /// <summary>Who was looked at by a step, and found to be no part of it, is not told so.</summary>
+    /// <summary>The near misses of a step are forgotten.</summary>
     ForgetsNearMisses = 512,
 
     /// <summary>
-    /// A heal ends where the members of an island are on their old chords again, whatever they carry: instants, contacts and impulses.
+    /// A heal ends where the members of an island are on their old segments again, whatever they carry: instants, contacts and impulses.
     /// </summary>
     StopsWhereChordsMeet = 1024,
 

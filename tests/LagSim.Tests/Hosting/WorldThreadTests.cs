@@ -1,6 +1,7 @@
 using System;
 using System.Runtime.CompilerServices;
 using System.Threading;
+using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Scenes;
@@ -12,6 +13,7 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Hosting;
 
 /// <summary>The dedicated thread: it waits, it wakes, it stops, and its faults reach the caller.</summary>
+[Trait("Time", "real")]
 public sealed class WorldThreadTests
 {
     // Only a hang reaches this; a pass never waits for it.
@@ -110,6 +112,35 @@ public sealed class WorldThreadTests
         thread.Start();
         Assert.True(ended.Wait(Deadline, TestContext.Current.CancellationToken));
         thread.Dispose();
+    }
+
+    [Fact]
+    public async Task Dispose_ByTwoThreads_ReturnsToEachOnlyOnceTheStepHasEnded()
+    {
+        using ManualResetEventSlim inStep = new();
+        using ManualResetEventSlim goOn = new();
+        bool hasEnded = false;
+        WorldThread thread = new("busy", () =>
+        {
+            inStep.Set();
+            goOn.Wait(Deadline);
+            Volatile.Write(ref hasEnded, true);
+            return SimDuration.MaxValue;
+        });
+        thread.Start();
+        Assert.True(inStep.Wait(Deadline, TestContext.Current.CancellationToken));
+        Task<bool>[] disposers = [Task.Run(EndedOnceDisposed), Task.Run(EndedOnceDisposed)];
+        Task<bool[]> both = Task.WhenAll(disposers);
+        await Task.WhenAny(both, Task.Delay(50, TestContext.Current.CancellationToken)); // one that returns too early would do so now
+        goOn.Set();
+        bool[] ended = await both.WaitAsync(Deadline, TestContext.Current.CancellationToken);
+        Assert.Equal([true, true], ended);
+
+        bool EndedOnceDisposed()
+        {
+            thread.Dispose();
+            return Volatile.Read(ref hasEnded);
+        }
     }
 
     [Fact]

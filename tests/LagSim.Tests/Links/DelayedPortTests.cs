@@ -12,6 +12,7 @@ using Xunit;
 
 namespace LagSim.Tests.Links;
 
+[Trait("Time", "real")]
 public sealed class DelayedPortTests
 {
     private static readonly PeerAddress Sender = PeerAddress.Virtual(7);

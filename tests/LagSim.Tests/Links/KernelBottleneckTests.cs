@@ -9,6 +9,7 @@ using Xunit;
 namespace LagSim.Tests.Links;
 
 /// <summary>The model of a bottleneck against the kernel's <c>tbf</c>: the same datagrams at the times at which they were really sent.</summary>
+[Trait("Time", "real")]
 public sealed class KernelBottleneckTests
 {
     private const int Attempts = 3;

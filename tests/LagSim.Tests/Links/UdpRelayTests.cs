@@ -15,6 +15,7 @@ using Xunit;
 namespace LagSim.Tests.Links;
 
 /// <summary>The relay over real sockets: that it works, not how fast.</summary>
+[Trait("Time", "real")]
 public sealed class UdpRelayTests : IDisposable
 {
     private static readonly TimeSpan Deadline = TimeSpan.FromSeconds(30);

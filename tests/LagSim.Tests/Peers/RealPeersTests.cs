@@ -12,6 +12,7 @@ using Xunit;
 namespace LagSim.Tests.Peers;
 
 /// <summary>Over real sockets and threads: that it works, not how fast.</summary>
+[Trait("Time", "real")]
 public sealed class RealPeersTests
 {
     [Theory(Timeout = 60_000)]

@@ -1,6 +1,5 @@
 using System;
 using System.Linq;
-using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
@@ -162,20 +161,6 @@ public sealed class JoiningTests
             () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
         Assert.Equal(named, refused.ParamName);
         Assert.Contains("must lie between", refused.Message, StringComparison.Ordinal);
-    }
-
-    [Fact]
-    public void Threads_OfASessionOrAHost_AreThoseOfItsWorld()
-    {
-        SessionGroup group = new SessionGroup(ScriptedActions.Box(), 3, LinkProfiles.PureDelay(5), options: peer => new HostOptions { Threads = peer == 0 ? null : 10 + peer }).Connect();
-        Assert.Equal([new SimulationOptions().Threads, 11, 12], group.Sessions.Select(s => s.World!.Simulation.Engine.Threads));
-        using SimulationHost host = new(ScriptedActions.Box(), new VirtualClock(), threads: 13);
-        Assert.Equal(13, host.World.Simulation.Engine.Threads);
-
-        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
-        ArgumentOutOfRangeException refused = Assert.Throws<ArgumentOutOfRangeException>(
-            () => new HostSession(ScriptedActions.Box(), port, new VirtualClock(), new HostOptions { Threads = 65 }, 1));
-        Assert.Equal(("Threads", 65), (refused.ParamName, refused.ActualValue));
     }
 
     [Fact]

@@ -15,6 +15,7 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>However the thread of a session ends, it ends once, says goodbye, and leaves no caller waiting. Over real sockets.</summary>
+[Trait("Time", "real")]
 public sealed class PeerThreadEndTests
 {
     private static readonly PlayerAction Push = PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0));
@@ -156,18 +157,26 @@ public sealed class PeerThreadEndTests
         Assert.Throws<ObjectDisposedException>(() => { _ = host.Do(Push); });
     }
 
-    /// <summary>One action for each event would go on for ever within one step, if those of a step were not counted at its start.</summary>
+    /// <summary>A game that tries a refused action again at once would never leave the step, if new requests did not wait for the next.</summary>
     [Fact]
-    public async Task Handler_ThatAnswersEachEventWithAnother_HoldsUpNoStepAndNoEnd()
+    public async Task Refused_WhoseHandlerTriesAgainEachTime_HoldsUpNoStepAndNoEnd()
     {
-        PeerThread? host = null;
-        host = PeerThread.Host(
-            BuiltInScenes.Pair(), bind: IPAddress.Loopback, setUp: session => session.Logged += entry => _ = host!.Do(Push));
+        int refusals = 0;
+        PlayerAction ofNobody = PlayerAction.Impulse(BodyId.OfScene(99), default);
+        PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), bind: IPAddress.Loopback);
+        host.Refused += (action, _) =>
+        {
+            Interlocked.Increment(ref refusals);
+            Again(action);
+        };
         Assert.True(host.WaitUntilRunning(Deadline));
-        _ = host.Do(Push);
+        _ = host.Do(ofNobody);
         long before = host.Steps;
         Assert.True(SpinWait.SpinUntil(() => host.Steps > before + 10, Deadline));
+        Assert.True(Volatile.Read(ref refusals) > 1); // the control: it was tried again
         await Task.Run(host.Dispose, TestContext.Current.CancellationToken).WaitAsync(Deadline, TestContext.Current.CancellationToken);
+
+        void Again(PlayerAction action) => _ = host.Do(action);
     }
 
     [Fact]

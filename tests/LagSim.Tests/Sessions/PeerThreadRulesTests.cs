@@ -20,6 +20,7 @@ namespace LagSim.Tests.Sessions;
 /// <summary>
 /// What a <see cref="PeerThread"/> promises beside running a session: its carrier, its handlers, its thread, and what is refused.
 /// </summary>
+[Trait("Time", "real")]
 public sealed class PeerThreadRulesTests
 {
     private static readonly PlayerAction Push = PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0));

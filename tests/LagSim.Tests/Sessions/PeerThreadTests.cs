@@ -13,6 +13,7 @@ using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
+[Trait("Time", "real")]
 public sealed class PeerThreadTests
 {
     [Fact]

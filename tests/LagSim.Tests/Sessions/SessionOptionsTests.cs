@@ -36,7 +36,6 @@ public sealed class SessionOptionsTests
         CommitInterval = SimDuration.FromSeconds(2),
         Window = new LatencyCompensationWindow(SimDuration.FromSeconds(3)),
         MaxSegments = 1000,
-        Threads = 2,
         ExtraHistory = SimDuration.FromSeconds(4),
         RenderedPast = SimDuration.FromSeconds(5),
         Timeout = SimDuration.FromSeconds(6),
@@ -71,7 +70,6 @@ public sealed class SessionOptionsTests
         ["RenderedPast"] = new ClientOptions { RenderedPast = Long },
         ["ResendInterval"] = new ClientOptions { ResendInterval = Long },
         ["StartLead"] = new HostOptions { StartLead = Long },
-        ["Threads"] = new ClientOptions { Threads = 0 },
         ["Timeout"] = new ClientOptions { Timeout = Long },
         ["Window"] = new ClientOptions { Window = null! },
     };

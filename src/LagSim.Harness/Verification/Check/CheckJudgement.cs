@@ -29,7 +29,7 @@ internal static class CheckJudgement
     {
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
         SimTime start = members[0].Session.World!.Simulation.Start;
-        SimulationOptions usual = new(start, SimDuration.MaxValue, cancellation: cancellation, threads: 1);
+        SimulationOptions usual = new(start, SimDuration.MaxValue, cancellation: cancellation);
         Simulation alone = log.Replay(drawn.Scene, options.PrepareAlone(usual), end); // the reference takes no step ahead; peers may
         Comparison comparison = Compare(alone, members);
         long lost = members.Sum(m => m.Trace.Lost);

@@ -57,7 +57,7 @@ internal sealed class HarmRun
         {
             IDatagramPort port = network.CreatePort(peer);
             SkewedClock own = new(clock, random.NextDouble(-30, 30), SimDuration.FromSeconds(random.NextDouble(0, 3600)));
-            HostOptions chosen = new() { Cancellation = cancellation, ExpectedClients = Attacker, PlayerBudget = options.Budget, Threads = 1 };
+            HostOptions chosen = new() { Cancellation = cancellation, ExpectedClients = Attacker, PlayerBudget = options.Budget };
             steps.Add(
                 peer == 0
                     ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed)

@@ -54,7 +54,7 @@ public static class HonestPlay
         for (int peer = 0; peer <= Players; peer++)
         {
             IDatagramPort port = network.CreatePort(peer);
-            HostOptions options = new() { ExpectedClients = Players, PlayerBudget = budget, Cancellation = cancellation, Threads = 1 };
+            HostOptions options = new() { ExpectedClients = Players, PlayerBudget = budget, Cancellation = cancellation };
             steps.Add(
                 peer == 0
                     ? new HostSession(built, port, clock, options, seed)

@@ -218,5 +218,5 @@ internal sealed class SharedWorld
     // The session decides what history to drop, by the watermark; the simulation's own limit would go by its look-ahead.
     private SimulationOptions WorldOptions(SimTime start) => optionsRule(new SimulationOptions(
         start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
-        options.SyncTest ? HealingMode.SyncTest : strategy.Mode, options.Threads));
+        options.SyncTest ? HealingMode.SyncTest : strategy.Mode));
 }

@@ -1,0 +1,107 @@
+using LagSim.BroadPhase;
+using LagSim.Collisions;
+using LagSim.Events;
+using LagSim.Rollback;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <summary>Takes in external events, and takes them back: each is logged, and what it changes of known paths is rewound.</summary>
+internal sealed class EventIntake(
+    BodyRoster roster, BodyTable bodies, EventLog log, Progress progress, RollbackState rollback,
+    AdaptiveBroadPhase broadPhase, EventPredictor predictor, Rewinder rewinder, EventLoop loop)
+{
+    /// <summary>Adds an external event at a key, and marks what it changes of what is known already.</summary>
+    internal SubmitResult Insert(in ExternalEvent external, in EventKey key, bool isForwarded)
+    {
+        if (key.Time < progress.HistoryEdge)
+        {
+            return SubmitResult.TooOld;
+        }
+
+        int slot = bodies.SlotOf(external.Body);
+        if (slot < 0)
+        {
+            slot = roster.AddAbsent(external.Body);
+            FitBroadPhase();
+        }
+
+        log.DropBefore(slot, progress.HistoryEdge);
+        if (!log.TryAdd(slot, external, key, isForwarded))
+        {
+            return SubmitResult.Duplicate;
+        }
+
+        loop.Reconsider(key.Time);
+        if (rewinder.IsKnown(key))
+        {
+            rewinder.Mark(slot, key);
+            return SubmitResult.RolledBack;
+        }
+
+        int next = log.Due(slot);
+        if (next == EventLog.None || EventKey.Compare(key, log.Key(next)) < 0)
+        {
+            log.SetDueFrom(slot, key);
+            predictor.Predict(slot);
+        }
+
+        return SubmitResult.Queued;
+    }
+
+    /// <summary>Retracts an external event; false if it is not there (any more).</summary>
+    internal bool Retract(in ExternalEvent external)
+    {
+        int slot = bodies.SlotOf(external.Body);
+        if (slot < 0)
+        {
+            return false;
+        }
+
+        log.DropBefore(slot, progress.HistoryEdge); // what is older can no longer be changed
+        int next = log.Due(slot);
+        EventKey due = next == EventLog.None ? EventKey.Before(progress.Start) : log.Key(next);
+        if (!log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
+        {
+            return false;
+        }
+
+        loop.Reconsider(key.Time);
+        if (key == due && log.Due(slot) == next) // otherwise an earlier one is due again
+        {
+            log.SetDueFrom(slot, key);
+        }
+
+        if (rewinder.IsKnown(key))
+        {
+            rewinder.Mark(slot, key);
+        }
+        else if (key == due)
+        {
+            predictor.Predict(slot);
+        }
+
+        return true;
+    }
+
+    private void FitBroadPhase()
+    {
+        if (!broadPhase.IsOutgrown)
+        {
+            return;
+        }
+
+        if (!rollback.IsActive && rollback.Cursor.Time <= progress.SimulatedTo)
+        {
+            // The cursor is at the last event, which may be long ago, and no body would be listed between then and now.
+            rollback.Cursor = EventKey.Before(progress.SimulatedTo + SimDuration.OneTick);
+        }
+
+        broadPhase.Rebuild(progress.HistoryEdge, rollback.Cursor.Time);
+        foreach (int slot in bodies)
+        {
+            predictor.Predict(slot);
+        }
+    }
+}
