@@ -11,8 +11,8 @@ namespace LagSim;
 
 /// <summary>Adds bodies to every part that keeps something for each body, and forgets those that are gone for good.</summary>
 internal sealed class BodyRoster(
-    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
-    FreeFlights flights, AdaptiveBroadPhase broadPhase, TrajectoryFactory trajectories, CollapseRule collapse)
+    Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress,
+    RollbackState rollback, FreeFlights flights, AdaptiveBroadPhase broadPhase, TrajectoryFactory trajectories, CollapseRule collapse)
 {
     /// <summary>Adds a body of the scene, on the first segment of its flight.</summary>
     internal void AddFromScene(int n)

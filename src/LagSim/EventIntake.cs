@@ -7,7 +7,7 @@ using LagSim.Timelines;
 
 namespace LagSim;
 
-/// <summary>Takes in external events, and takes them back: each is logged, and what it changes of known paths is rewound.</summary>
+/// <summary>Adds external events to the world, and retracts them. Paths that are known beyond such an event are rewound.</summary>
 internal sealed class EventIntake(
     BodyRoster roster, BodyTable bodies, EventLog log, Progress progress, RollbackState rollback,
     AdaptiveBroadPhase broadPhase, EventPredictor predictor, Rewinder rewinder, EventLoop loop)

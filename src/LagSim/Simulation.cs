@@ -180,9 +180,9 @@ public sealed class Simulation
     /// <see cref="AdvanceTo"/> simulates them again, and <see cref="Healed"/> reports what that took.</summary>
     /// <returns>The result. <see cref="SubmitResult.TooOld"/> means that nothing changed.</returns>
     /// <remarks>A submitted event need not have an effect: that depends on what it meets when its time comes; see <see cref="TookEffect"/>.
-    /// Cost: O(1) in the bodies if it lies ahead, except for a spawn that outgrows the broad phase, which is then built anew. Otherwise it
-    /// cuts the segments since its time of the bodies it can have touched, or of all bodies with a full rollback, and predicts what those
-    /// bodies meet next; the next advance simulates them again.</remarks>
+    /// Cost of an event that lies ahead: the same for any number of bodies, unless it is a spawn for which the broad phase has to be
+    /// rebuilt. A late event cuts the segments since its time of the bodies that it can have touched, or of all bodies with a full rollback, and
+    /// predicts their next events. The next advance simulates them again.</remarks>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult Submit(in ExternalEvent external)
     {
@@ -207,7 +207,9 @@ public sealed class Simulation
 
         Check(external);
         syncTest?.SubmitForwarded(external, arrival);
-        return external.Time < HistoryEdge ? SubmitResult.TooOld : Engine.Intake.Insert(external, external.At(arrival).Key, isForwarded: true);
+        return external.Time < HistoryEdge
+            ? SubmitResult.TooOld
+            : Engine.Intake.Insert(external, external.At(arrival).Key, isForwarded: true);
     }
 
     /// <summary>

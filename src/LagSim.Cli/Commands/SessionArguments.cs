@@ -26,7 +26,8 @@ internal sealed class SessionArguments
     };
 
     private readonly Option<string[]> actions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "ACTION" };
-    private readonly Option<double?> length = Seconds("--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.",
+    private readonly Option<double?> length = Seconds(
+        "--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.",
         MinLength, ScriptedAction.MaxSeconds);
     private readonly Option<string?> record = CommonOptions.File("--record", "Record the session in this file, whose name usually ends in .lagsim; an"
         + " existing file is replaced. Each time a fresh copy of the world is taken, as after a rejoin, the recording goes on in another file: after game.lagsim"

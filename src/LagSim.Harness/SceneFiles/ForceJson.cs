@@ -70,7 +70,8 @@ internal static class ForceJson
             ForceKind.Spring => Force.Spring(name, vectors["anchor_m"], numbers["stiffness_n_per_m"], numbers.GetValueOrDefault("damping_kg_per_s")),
             ForceKind.Magnus => Force.Magnus(name, numbers["coefficient_kg"]),
             ForceKind.Magnetic => Force.Magnetic(name, vectors["field_t"], numbers["charge_c"]),
-            _ => Force.Central(name, vectors["centre_m"], numbers["strength_m_per_s2"], Power(cursor, numbers.GetValueOrDefault("power", -2))),
+            _ => Force.Central(
+                name, vectors["centre_m"], numbers["strength_m_per_s2"], Power(cursor, numbers.GetValueOrDefault("power", -2))),
         };
     }
 

@@ -12,8 +12,11 @@ internal static class PartJson
 
     private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction"]);
 
-    private static readonly JsonKeys BodyKeys =
-        new(["name", "radius_m", "mass_kg", "restitution", "position_m"], ["velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players"]);
+    private static readonly JsonKeys BodyKeys = new(
+        ["name", "radius_m", "mass_kg", "restitution", "position_m"],
+        [
+            "velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players",
+        ]);
 
     /// <summary>Reads a plane.</summary>
     internal static Action<SceneBuilder> Plane(ref JsonCursor cursor)

@@ -34,7 +34,8 @@ internal static class SceneJsonValues
             double number = cursor.Number();
             if (!(number >= 0 && number <= PeerSet.MaxPeer && number == Math.Floor(number)))
             {
-                throw cursor.Fail($"the peer {number:R} cannot be granted a right; it must be a whole number between 0 and {PeerSet.MaxPeer}");
+                throw cursor.Fail(
+                    $"the peer {number:R} cannot be granted a right; it must be a whole number between 0 and {PeerSet.MaxPeer}");
             }
 
             if (peers.Contains((int)number))

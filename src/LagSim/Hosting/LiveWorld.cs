@@ -268,7 +268,8 @@ public sealed class LiveWorld
 
         if (renderedPast < SimDuration.Zero)
         {
-            throw new ArgumentOutOfRangeException(nameof(renderedPast), renderedPast.Value.ToShortString(), "A render snapshot cannot show less than no past; it must be zero or more.");
+            throw new ArgumentOutOfRangeException(
+                nameof(renderedPast), renderedPast.Value.ToShortString(), "The past that render snapshots show must be zero or more.");
         }
 
         if (options.History <= ahead)

@@ -87,7 +87,8 @@ internal class ImpactGraphBuilder(
     private void FindBodies(int body, in EventKey key, bool withStruckBefore)
     {
         int slot = graph.Slots[body];
-        foreach (int other in broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, rollback.MayBeKnownBeyond(rollback.Cursor)))
+        bool isHealing = rollback.MayBeKnownBeyond(rollback.Cursor);
+        foreach (int other in broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, isHealing))
         {
             int piece = other == slot || !timelines.IsKnown(other) || flights.AreApart(slot, other, key.Time, key.Time)
                 ? TimelineStore.None : view.SegmentAt(other, key);

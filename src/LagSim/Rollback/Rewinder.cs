@@ -95,7 +95,7 @@ internal class Rewinder : ISegmentOpenedObserver
         if (key.Time <= progress.SimulatedTo)
         {
             rollback.Cursor = key;
-            rollback.KeepUpTo(timelines.LastSerial);
+            rollback.BecomeCausalCone(timelines.LastSerial);
             progress.SimulatedTo = key.Time - SimDuration.OneTick;
         }
         else
@@ -252,7 +252,7 @@ internal class Rewinder : ISegmentOpenedObserver
     private void RewindAll(in EventKey key)
     {
         rollback.Cursor = key;
-        rollback.KeepNothing();
+        rollback.BecomeFull();
         EventKey from = CutsAllFrom(key);
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {

@@ -141,7 +141,8 @@ public sealed class Scene
     /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
         new(
-            Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray, SmallestRadius, Spawners, Box);
+            Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray,
+            SmallestRadius, Spawners, Box);
 
     private static void ThrowIfNull(string name)
     {

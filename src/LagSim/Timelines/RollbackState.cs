@@ -28,7 +28,9 @@ internal sealed class RollbackState
     /// <summary>The number of bodies that the current rollback has touched.</summary>
     internal int BodyCount { get; private set; }
 
-    /// <summary>The number of the current rollback, or of the last one. It begins with 1, so that no rollback has touched a new slot.</summary>
+    /// <summary>
+    /// The number of the current rollback, or of the last one; 1 before the first, so that no rollback has touched a new slot.
+    /// </summary>
     internal uint Number { get; private set; } = 1;
 
     /// <summary>How often timelines were rewound for a late event.</summary>
@@ -60,16 +62,16 @@ internal sealed class RollbackState
         BodyCount = 0;
     }
 
-    /// <summary>The current rollback goes back further, and re-simulates only what depends on late events.</summary>
-    /// <param name="lastOld">The serial of the newest segment: those that the rollback has remade may lie beyond the event, too.</param>
-    internal void KeepUpTo(long lastOld)
+    /// <summary>From now on the current rollback re-simulates only what depends on late events.</summary>
+    /// <param name="lastOld">The serial of the newest segment. What the rollback has remade so far may lie beyond the event, too.</param>
+    internal void BecomeCausalCone(long lastOld)
     {
         Kind = RollbackKind.CausalCone;
         LastOld = lastOld;
     }
 
-    /// <summary>Every body was cut at one key. Without a rollback under way that was an instant of which only a part had happened.</summary>
-    internal void KeepNothing() => Kind = IsActive ? RollbackKind.Full : RollbackKind.None;
+    /// <summary>From now on the current rollback, if there is one, re-simulates all bodies.</summary>
+    internal void BecomeFull() => Kind = IsActive ? RollbackKind.Full : RollbackKind.None;
 
     /// <summary>The current rollback is done.</summary>
     internal void End() => Kind = RollbackKind.None;

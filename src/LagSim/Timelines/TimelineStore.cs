@@ -318,8 +318,8 @@ internal sealed class TimelineStore
         if (used == MaxSegments)
         {
             throw new TimelinesFullException(
-                $"At {now.ToShortString()} the timelines hold {MaxSegments} segments, the most that the options allow: allow more, keep a shorter"
-                + " history, or look for what makes so many events.");
+                $"At {now.ToShortString()} the timelines hold {MaxSegments} segments, the most that the options allow: allow more, keep a"
+                + " shorter history, or look for what makes so many events.");
         }
 
         if (used == segments.Length)

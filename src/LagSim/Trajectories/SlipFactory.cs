@@ -20,7 +20,9 @@ namespace LagSim.Trajectories;
 /// </remarks>
 internal sealed class SlipFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits)
 {
-    /// <summary>The largest turn, in radians, of the direction of slip or rolling in one segment, where gravity does not pull along it.</summary>
+    /// <summary>
+    /// The largest turn, in radians, of the direction of slip or rolling in one segment, where gravity does not pull along it.
+    /// </summary>
     private const double MaxTurn = 1.0 / 128;
 
     /// <summary>A slip, motion or turning on a surface slower than this, in m/s, counts as the rounding of zero.</summary>

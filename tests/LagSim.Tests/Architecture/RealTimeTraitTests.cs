@@ -8,7 +8,9 @@ using Xunit;
 
 namespace LagSim.Tests.Architecture;
 
-/// <summary>Tests that open sockets, start threads or processes, or read a real clock have the trait by which they can be left out.</summary>
+/// <summary>
+/// Tests that open sockets, start threads or processes, or read a real clock have the trait by which they can be left out.
+/// </summary>
 public sealed partial class RealTimeTraitTests
 {
     private const string Trait = "[Trait(\"Time\", \"real\")]";
@@ -33,6 +35,7 @@ public sealed partial class RealTimeTraitTests
     private static IEnumerable<string> WithoutTrait(IEnumerable<(string Name, string Text)> files) => files
         .Where(file => Real().IsMatch(file.Text) && !file.Text.Contains(Trait, StringComparison.Ordinal)).Select(file => file.Name);
 
-    [GeneratedRegex(@"UdpPort\(|PeerThread\.|PeerThread\(|new UdpRelay|Process\.Start|StopwatchClock\(|ToolProcess|KernelLink|LiteNetLibPort|WorldThread\(|RealPeers")]
+    [GeneratedRegex(
+        @"UdpPort\(|PeerThread[.(]|new UdpRelay|Process\.Start|StopwatchClock\(|ToolProcess|KernelLink|LiteNetLibPort|WorldThread\(|RealPeers")]
     private static partial Regex Real();
 }

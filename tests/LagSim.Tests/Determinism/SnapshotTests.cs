@@ -135,7 +135,7 @@ public sealed class SnapshotTests
     {
         Simulation world = Run(new SceneBuilder("one").AddPlane("floor", Vector3D.Up, V(0)).AddBody("ball", Ball(), V(0, 3)).Build(), 1);
         WorldSnapshot good = world.Snapshot(At(0.5));
-        Assert.Equal(world.StateHash(At(0.5)), new Simulation(world.Scene, good).StateHash(At(0.5))); // the control: it is refused for the change alone
+        Assert.Equal(world.StateHash(At(0.5)), new Simulation(world.Scene, good).StateHash(At(0.5))); // the control, without the change
         WorldSnapshot bad = new(good.Start, good.Time, good.EventHash, [change(good.Bodies[0])]);
         Assert.Contains(word, Assert.Throws<SceneException>(() => new Simulation(world.Scene, bad)).Message, StringComparison.Ordinal);
     }

@@ -16,8 +16,8 @@ internal enum HealingFault
     OverlooksBodiesAhead = 2,
 
     /// <summary>
-    /// A pending contact is dropped when its partner has changed at all, as if the partner would find it anew, though the segment that it
-    /// was found with still stands.
+    /// A pending contact is dropped when its partner has another newest segment, although the one that the contact was found with still
+    /// stands.
     /// </summary>
     GivesUpByBody = 4,
 

@@ -1,7 +1,6 @@
 using System;
 using System.Runtime.CompilerServices;
 using System.Threading;
-using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Scenes;
@@ -115,7 +114,7 @@ public sealed class WorldThreadTests
     }
 
     [Fact]
-    public async Task Dispose_ByTwoThreads_ReturnsToEachOnlyOnceTheStepHasEnded()
+    public void Dispose_ByTwoThreads_ReturnsToEachOnlyOnceTheStepHasEnded()
     {
         using ManualResetEventSlim inStep = new();
         using ManualResetEventSlim goOn = new();
@@ -129,18 +128,21 @@ public sealed class WorldThreadTests
         });
         thread.Start();
         Assert.True(inStep.Wait(Deadline, TestContext.Current.CancellationToken));
-        Task<bool>[] disposers = [Task.Run(EndedOnceDisposed), Task.Run(EndedOnceDisposed)];
-        Task<bool[]> both = Task.WhenAll(disposers);
-        await Task.WhenAny(both, Task.Delay(50, TestContext.Current.CancellationToken)); // one that returns too early would do so now
+        bool[] ended = new bool[2];
+        Thread[] disposers = [new(() => Dispose(0)), new(() => Dispose(1))];
+        Array.ForEach(disposers, disposer => disposer.Start());
+        Assert.True(SpinWait.SpinUntil(() => Array.TrueForAll(disposers, WaitsOrHasReturned), Deadline));
         goOn.Set();
-        bool[] ended = await both.WaitAsync(Deadline, TestContext.Current.CancellationToken);
+        Assert.All(disposers, disposer => Assert.True(disposer.Join(Deadline)));
         Assert.Equal([true, true], ended);
 
-        bool EndedOnceDisposed()
+        void Dispose(int n)
         {
             thread.Dispose();
-            return Volatile.Read(ref hasEnded);
+            ended[n] = Volatile.Read(ref hasEnded);
         }
+
+        static bool WaitsOrHasReturned(Thread disposer) => (disposer.ThreadState & (ThreadState.WaitSleepJoin | ThreadState.Stopped)) != 0;
     }
 
     [Fact]

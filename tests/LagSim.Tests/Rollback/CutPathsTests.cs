@@ -30,7 +30,9 @@ public sealed class CutPathsTests
         Assert.Equal([0, 1, 2], Openings(timelines, 1));
     }
 
-    /// <summary>What was cut up to an instant, the instant included, has been made anew; only what comes after it is put back.</summary>
+    /// <summary>
+    /// Only segments opened after the instant are put back. Earlier ones, and those of the instant itself, have been simulated again.
+    /// </summary>
     [Fact]
     public void PutBack_FromTheInstantOfTheImpact_LeavesTheImpactOut()
     {

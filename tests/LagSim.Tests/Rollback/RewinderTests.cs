@@ -56,7 +56,7 @@ public sealed class RewinderTests
         Assert.Equal(left, Count(world.Timelines, 0));
     }
 
-    /// <summary>A full rollback cuts everybody at the key, whoever was struck by what.</summary>
+    /// <summary>A full rollback cuts all bodies at the key, whether or not they shared an impact.</summary>
     [Fact]
     public void Mark_InAFullRollback_CutsAllBodies()
     {

@@ -26,7 +26,7 @@ public sealed class HostileSceneFileTests
         long allocated = GC.GetAllocatedBytesForCurrentThread();
         SceneFileException refusal = SceneText.Refusal(bytes);
 
-        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - allocated, 0, Million); // less than a byte for each: it went no deeper than it may
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - allocated, 0, Million); // less than a byte for each value
         Assert.Matches("must be|unknown key", refusal.Message);
         Assert.InRange(refusal.Message.Length, 20, 300);
     }

@@ -96,7 +96,8 @@ internal sealed class Intruder
             }
             else if (WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _))
             {
-                (SessionId, Peer, number, fetches, SnapshotBytes, CopyHash) = (welcome.SessionId, 0, 0, 0, welcome.CopyLength, welcome.CopyHash);
+                (SessionId, Peer, number, fetches, SnapshotBytes, CopyHash) =
+                    (welcome.SessionId, 0, 0, 0, welcome.CopyLength, welcome.CopyHash);
                 if (sits)
                 {
                     Update(isReady: true);

@@ -157,7 +157,9 @@ public sealed class PeerThreadEndTests
         Assert.Throws<ObjectDisposedException>(() => { _ = host.Do(Push); });
     }
 
-    /// <summary>A game that tries a refused action again at once would never leave the step, if new requests did not wait for the next.</summary>
+    /// <summary>
+    /// A game that tries a refused action again at once would never leave the step, if new requests did not wait for the next.
+    /// </summary>
     [Fact]
     public async Task Refused_WhoseHandlerTriesAgainEachTime_HoldsUpNoStepAndNoEnd()
     {

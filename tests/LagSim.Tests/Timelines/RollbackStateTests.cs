@@ -5,7 +5,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Timelines;
 
-/// <summary>Which bodies a rollback has touched: each is counted once, and every rollback counts anew.</summary>
+/// <summary>A rollback counts each body that it touches once, and the next rollback starts from zero.</summary>
 public sealed class RollbackStateTests
 {
     private readonly RollbackState rollback = new();

@@ -44,7 +44,8 @@ public sealed class WirePageTests
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
             Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
-            Assert.Equal(Convert.ToHexString(SessionSnapshot.Encode(world.Scene, snapshot)), Convert.ToHexString(Copy(Page, world.Scene, snapshot)));
+            Assert.Equal(
+                Convert.ToHexString(SessionSnapshot.Encode(world.Scene, snapshot)), Convert.ToHexString(Copy(Page, world.Scene, snapshot)));
             dense += snapshot.Bodies.Count(b => b.Law == MotionLaw.RungeKutta4);
             carried += snapshot.Bodies.Count(b => b.SupportCount > 0);
             held += snapshot.Bodies.Count(b => b.Law == MotionLaw.Held);
