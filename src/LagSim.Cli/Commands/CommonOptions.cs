@@ -193,7 +193,8 @@ internal sealed class CommonOptions
                 return value;
             }
 
-            result.AddError($"{name} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
+            string typed = (result.Parent as OptionResult)?.IdentifierToken?.Value ?? name; // it may be an alias
+            result.AddError($"{typed} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
             return byDefault;
         },
     };

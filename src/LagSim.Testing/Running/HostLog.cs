@@ -12,6 +12,8 @@ internal sealed class HostLog
 {
     private readonly List<ExternalEvent> accepted = [];
     private readonly List<uint> acceptedEntries = [];
+    private Session? followed;
+    private SimTime latest = SimTime.MinValue; // of the accepted events
 
     /// <summary>The accepted events, in the order of the log.</summary>
     internal IReadOnlyList<ExternalEvent> Accepted => accepted;
@@ -26,7 +28,21 @@ internal sealed class HostLog
     internal long TooLate { get; private set; }
 
     /// <summary>Subscribes to the host. Call it before the first step.</summary>
-    internal void Follow(Session host) => host.Logged += Take;
+    internal void Follow(Session host)
+    {
+        followed = host;
+        host.Logged += Take;
+    }
+
+    /// <summary>
+    /// Returns whether a session has heard of every verdict, waits for none, and has simulated every accepted event. The last of them may
+    /// lie ahead of all worlds when all have heard of it; a run that ended then would compare its effect nowhere.
+    /// </summary>
+    internal bool IsSettled(Session session) =>
+        session.State == SessionState.Running
+        && session.LogLength == followed!.LogLength
+        && session is not ClientSession { UnconfirmedEvents: > 0 }
+        && session.World!.Simulation.SimulatedTo >= latest;
 
     /// <summary>Simulates the reference: a world that has every accepted event from the start, as without latency.</summary>
     /// <param name="scene">The session's scene.</param>
@@ -51,6 +67,7 @@ internal sealed class HostLog
         {
             accepted.Add(entry.Event);
             acceptedEntries.Add(entry.Index);
+            latest = SimTime.Max(latest, entry.Event.Time);
             return;
         }
 

@@ -182,11 +182,8 @@ internal sealed class SessionRun
     private void Settle()
     {
         run.EndFrames(); // the watched session has ended
-        RunUntil(() => Members.All(HasHeardAll), "Not every player had heard of everything");
+        RunUntil(() => Members.All(m => m.Player.HasLeft || log.IsSettled(m.Session)), "Not every player had heard of everything");
     }
-
-    private bool HasHeardAll(Member member) => member.Player.HasLeft
-        || (member.IsRunning && member.Session.LogLength == Host.LogLength && member.Session is not ClientSession { UnconfirmedEvents: > 0 });
 
     private void Add(int number, int expectedClients)
     {

@@ -55,7 +55,7 @@ internal readonly struct Forces
         {
             throw new SimulationException(
                 $"At {(epoch + SimDuration.FromSeconds(seconds)).ToShortString()}, {Limits.Short(at)} s after the scene's start, force '{force.Name}', version"
-                + $" {force.Acceleration!.Version}, which the program supplies, threw for {scene.Whose(body)}, at {Limits.Short(position)} m and"
+                + $" {force.Acceleration!.Version}, which the program supplies, threw for {scene.Describe(body)}, at {Limits.Short(position)} m and"
                 + $" {Limits.Short(velocity)} m/s: {failure.GetType().Name}: {failure.Message}",
                 failure);
         }

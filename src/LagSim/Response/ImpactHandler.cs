@@ -71,6 +71,6 @@ internal sealed class ImpactHandler(
     }
 
     private EndlessInstantException Endless(int slot, SimTime time) => new(
-        $"At {time.ToShortString()} the impacts of {scene.Whose(bodies.Id(slot))} have no end: {MaxRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
+        $"At {time.ToShortString()} the impacts of {scene.Describe(bodies.Id(slot))} have no end: {MaxRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
         + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
 }

@@ -90,9 +90,6 @@ public sealed class Scene
     /// <summary>Those of the forces that are a program's own, which a peer must have to share the scene.</summary>
     public IReadOnlyList<IAcceleration> Accelerations { get; }
 
-    /// <summary>A body in words: the name that the scene gives it, and its identity.</summary>
-    internal string Whose(BodyId id) => id.Peer == 0 && id.Sequence == 0 ? $"body '{BodyArray[id.Index].Name}' ({id})" : $"body {id}";
-
     internal StaticPlane[] PlaneArray { get; }
 
     internal StaticSphere[] SphereArray { get; }
@@ -120,6 +117,10 @@ public sealed class Scene
 
         throw new ArgumentException($"Scene '{Name}' has no body named '{name}'.", nameof(name));
     }
+
+    /// <summary>A body in words, for a message: <c>body 'ball' (0.0.0)</c>, or its identity alone for one that is not of the scene.</summary>
+    public string Describe(BodyId body) =>
+        body.Peer == 0 && body.Sequence == 0 && body.Index < BodyArray.Length ? $"body '{BodyArray[body.Index].Name}' ({body})" : $"body {body}";
 
     /// <summary>The set of the force of that name alone.</summary>
     /// <exception cref="ArgumentException">No force of the scene has that name.</exception>

@@ -25,7 +25,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
-        string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Whose(bodies.Id(slot))}";
+        string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Describe(bodies.Id(slot))}";
         foreach (Force force in spec.Forces.Among(scene.ForceArray))
         {
             if (force.Kind == ForceKind.Central && force.Power < 0 && x == force.Vector)
@@ -38,7 +38,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         if (!isFinite || (double.IsPositiveInfinity(tooLarge) && forces.HasSupplied(spec)) || (tooStiff == 0 && tooLarge == 0))
         {
             return new SimulationException(
-                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {scene.Whose(bodies.Id(slot))} became NaN or "
+                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {scene.Describe(bodies.Id(slot))} became NaN or "
                 + $"infinite; what the forces {spec.Forces.NamesAmong(scene.ForceArray)} give must be finite.");
         }
 
@@ -63,7 +63,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
     {
         double most = 1 / SimDuration.FromTicks(Contacts.ContactScale.ShortestTicks).ToSeconds();
         return new SimulationException(
-            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Whose(bodies.Id(slot))}, which touches something, "
+            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Describe(bodies.Id(slot))}, which touches something, "
             + $"{ActTooFast(rate, rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in persistent contact moves by steps that follow at most"
             + $" {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
     }
@@ -131,7 +131,7 @@ internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bod
         double least = history.ToSeconds() / timelines.MaxSegments;
         ref readonly MotionSegment path = ref timelines.Segment(last);
         string rates = RatesOn(whose, path.Position, path.Velocity, timelines.SpinOf(last).AtEpoch);
-        return $" Most are of {scene.Whose(bodies.Id(whose))}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
+        return $" Most are of {scene.Describe(bodies.Id(whose))}: {most}, of {Limits.Short(mean)} s in the mean; the history that is kept, {history.ToShortString()}, has room for"
             + $" pieces of {Limits.Short(least)} s."
             + (rates.Length > 0 ? $" On it {rates}." : "") + Jumps(bodies.Spec(whose));
     }

@@ -55,7 +55,7 @@ internal sealed class StateLimits(Scene scene)
         if (!position.IsFinite || !(velocity.Length <= limit))
         {
             throw new SimulationException(
-                $"At {time.ToShortString()} {scene.Whose(body)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
+                $"At {time.ToShortString()} {scene.Describe(body)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
                 + $"{Limits.Text(limit)} m/s, a fifth of the smallest radius in a tick.");
         }
     }

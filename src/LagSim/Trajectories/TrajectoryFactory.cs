@@ -105,7 +105,7 @@ internal sealed class TrajectoryFactory
         else if (segment.Acceleration != Vector3D.Zero)
         {
             throw new SimulationException(
-                $"At {key.Time.ToShortString()} {scene.Whose(bodies.Id(slot))} reaches {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick;"
+                $"At {key.Time.ToShortString()} {scene.Describe(bodies.Id(slot))} reaches {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick;"
                 + " it falls without end, and may not become faster.");
         }
         else

@@ -23,7 +23,7 @@ public sealed class SessionUsageTests
     [InlineData("host", "--scene")]
     [InlineData("host --scene drop --port 65536", "--port is '65536'; it must be a whole number between 0 and 65535")]
     [InlineData("host --scene drop --joiners 9", "--joiners is '9'; it must be a whole number between 0 and 8")]
-    [InlineData("host --scene drop --clients 9", "--joiners is '9'; it must be a whole number between 0 and 8")]
+    [InlineData("host --scene drop --clients 9", "--clients is '9'; it must be a whole number between 0 and 8")]
     [InlineData("host --scene drop --history-s 6", "--history-s is '6'; it must be a number between 0.05 and 5")]
     [InlineData("host --scene drop --timeout-s 0.1", "--timeout-s is '0.1'; it must be a number between 0.5 and 600")]
     [InlineData("host --scene drop --for-s NaN", "--for-s is 'NaN'; it must be a number between 0.1 and 1000000")]

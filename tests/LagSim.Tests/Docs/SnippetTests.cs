@@ -30,7 +30,7 @@ public sealed partial class SnippetTests
     [Theory]
     [InlineData("README.md", 1)]
     [InlineData("docs/TUTORIAL.md", 4)]
-    [InlineData("docs/GAMELOOP.md", 7)]
+    [InlineData("docs/GAMELOOP.md", 8)]
     [InlineData("docs/ENGINES.md", 1)]
     [InlineData("docs/TUNING.md", 1)]
     [InlineData("src/LagSim/README.md", 1)]

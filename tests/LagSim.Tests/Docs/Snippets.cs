@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Concurrent;
 using System.Net;
 using System.Threading.Tasks;
 using LagSim.Events;
@@ -100,6 +101,34 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         // the action shows here at once, and takes effect on every other machine at the same instant;
         // it throws if it is not allowed, and does nothing if the body is gone
         await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+    }
+
+    internal async Task Spawn(PeerThread peer, ConcurrentQueue<(byte Player, bool IsHere)> arrivals, Vector3D position, Vector3D velocity)
+    {
+        // who is here; called on the session's thread, so hand it on to your own
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, setUp: session =>
+        {
+            session.ClientCame += link => arrivals.Enqueue((link.Peer, true));
+            session.ClientGone += link => arrivals.Enqueue((link.Peer, false));
+        });
+
+        // this player fires; the answer has the new body's identity
+        ExternalEvent shot = await peer.Do(PlayerAction.Spawn(new BodySpec(radius: 0.05, mass: 0.02, restitution: 0.5), position, velocity));
+        BodyId bullet = shot.Body;
+
+        // each frame: all bodies, whoever spawned them; a body that is not there now is skipped
+        if (peer.Latest() is RenderSnapshot all)
+        {
+            for (int n = 0; n < all.BodyCount; n++)
+            {
+                BodyId body = all.BodyAt(n);
+                if (all.TryRead(body, peer.Session.DisplayTime, out BodyState at))
+                {
+                    DrawBall(at.Position, all.RadiusOf(body), isOwn: body.Peer == peer.Session.Peer);
+                }
+            }
+        }
+        DrawBall(position, bullet.Index, isOwn: true);
     }
 
     internal static async Task Hold(PeerThread peer, BodyId ball, Vector3D hand, Vector3D handVelocity)
@@ -223,6 +252,8 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     }
 
     private void Draw(Vector3D place) => show(place);
+
+    private void DrawBall(Vector3D place, double radius, bool isOwn) => show(isOwn ? place * radius : place);
 
     private void DrawHand(Vector3D place) => show(place);
 

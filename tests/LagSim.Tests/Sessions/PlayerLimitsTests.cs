@@ -102,7 +102,7 @@ public sealed class PlayerLimitsTests
     {
         SessionGroup group = Group();
         SceneException fast = Assert.Throws<SceneException>(() => group.Do(peer, PlayerAction.SetVelocity(First, V(0, 101))));
-        Assert.Equal("The SetVelocity gives body 0.0.0 a speed of 101 m/s; in this session a player may give 100 m/s at most.", fast.Message);
+        Assert.Equal("The SetVelocity gives body 'ball 0' (0.0.0) a speed of 101 m/s; in this session a player may give 100 m/s at most.", fast.Message);
         ExternalEvent first = group.Do(peer, Above(0));
         group.Do(peer, Above(1));
         group.Do(peer, Above(2));

@@ -85,6 +85,24 @@ public sealed class SessionTestTests
         Assert.Throws<WorldsDifferException>(result.ThrowIfWorldsDiffer);
     }
 
+    /// <summary>An action with a long local lag lies ahead of every other world when the last player has heard of it.</summary>
+    [Fact]
+    public void Run_LastActionAheadOfEveryWorld_IsSimulatedAndComparedInAll()
+    {
+        LatencyCompensationWindow ahead = new LatencyCompensationWindow(lookAhead: SimDuration.FromSeconds(0.5))
+            .WithLocalLag(EventKind.SetVelocity, SimDuration.FromSeconds(0.5));
+        SessionTest test = new SessionTest(Box())
+            .WithOptions(player => new ClientOptions { Window = player == 1 ? ahead : new LatencyCompensationWindow() })
+            .WithClients(2, "lan");
+        Dictionary<int, Session> sessions = [];
+        test.PrepareSession = sessions.Add;
+        SimTime last = SimTime.MaxValue;
+        SessionTestResult result = test.At(2, 1, player => last = player.Do(PlayerAction.SetVelocity(First, V(4, 1))).Time).Run(2, Cancellation);
+        Assert.Equal(1, result.EventsAccepted);
+        Assert.Equal([0, 1, 2], sessions.Keys);
+        Assert.All(sessions, s => Assert.True(s.Value.World!.Simulation.SimulatedTo >= last, $"player {s.Key}"));
+    }
+
     [Fact]
     public void Run_ForceThatIsAnotherForOnePlayer_Throws()
     {

@@ -228,20 +228,7 @@ internal sealed class CheckPlay
         }
     }
 
-    private bool IsSettled()
-    {
-        foreach (CheckMember member in members)
-        {
-            bool isOut = member.HasGone || member.Session.State == SessionState.Ended;
-            if (!isOut && (member.Session.State != SessionState.Running || member.Session.LogLength != Host.LogLength
-                || member.Session is ClientSession { UnconfirmedEvents: > 0 }))
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
+    private bool IsSettled() => members.All(m => m.HasGone || m.Session.State == SessionState.Ended || Log.IsSettled(m.Session));
 
     private bool RunUntil(Func<bool> isMet) => run.RunUntil(isMet, () => Host.State == SessionState.Ended, Timeout) == WaitEnd.Met;
 

@@ -34,8 +34,7 @@ internal sealed class PlayerLimits
             }
 
             sentence = $"Peer {external.Peer} has spawned {options.MaxSpawned} {(options.MaxSpawned == 1 ? "body that is" : "bodies that are")} still there, and no"
-                + " player may have more at a time; some have to be"
-                + " removed first.";
+                + " player may have more at a time; some have to be removed first.";
             return Verdict.NoRight;
         }
 
@@ -48,7 +47,7 @@ internal sealed class PlayerLimits
         }
 
         sentence = FormattableString.Invariant(
-            $"The {external.Kind} gives {(turns ? "the surface of body" : "body")} {external.Body} a speed of {speed:R} m/s;")
+            $"The {external.Kind} gives {(turns ? "the surface of " : "")}{world.Scene.Describe(external.Body)} a speed of {speed:R} m/s;")
             + FormattableString.Invariant($" in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
         return Verdict.Invalid;
     }
