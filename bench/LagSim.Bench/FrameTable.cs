@@ -31,8 +31,8 @@ internal sealed class FrameTable
     private readonly List<double> healMilliseconds = new();
     private readonly List<double> healedEvents = new();
     private readonly bool heals;
-    private SimTime nextNews;
-    private SimTime newsCame;
+    private SimTime nextLateEvent;
+    private SimTime received;
     private uint sequence;
     private volatile bool isHealing;
 
@@ -42,7 +42,7 @@ internal sealed class FrameTable
         SimTime start = clock.Now;
         world = new LiveWorld(BuiltInScenes.Gas(Bodies), new SimulationOptions(start, SimDuration.FromSeconds(2)));
         world.Simulation.Healed += report => healedEvents.Add(report.Events);
-        nextNews = start + SimDuration.FromSeconds(1.5);
+        nextLateEvent = start + SimDuration.FromSeconds(1.5);
     }
 
     internal static void Print(bool brief)
@@ -51,7 +51,7 @@ internal sealed class FrameTable
             CultureInfo.InvariantCulture,
             $"A frame reads {Bodies:N0} bodies while {2 * Pairs} events {Late.ToMilliseconds():0} ms late are healed at a time; wall clock, p50 / p99 / max"));
         Console.WriteLine(
-            "| reader | heals | events re-run by each | a heal takes, ms | asking for the picture, us | reading all bodies, ms | frames while healing: the same, us | the same, ms | pictures | torn | frames in which the picture ends before now |");
+            "| reader | heals | events re-run by each | a heal takes, ms | asking for the render snapshot, us | reading all bodies, ms | frames while healing: the same, us | the same, ms | render snapshots | torn | frames in which the render snapshot ends before now |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|---|");
         new FrameTable(heals: true).Measure(60, brief ? 0.1 : 2.5);
         foreach (int rate in brief ? new[] { 60 } : new[] { 60, 0 })
@@ -66,10 +66,10 @@ internal sealed class FrameTable
     private SimDuration Step()
     {
         SimTime now = clock.Now;
-        if (heals && !isHealing && now >= nextNews)
+        if (heals && !isHealing && now >= nextLateEvent)
         {
             isHealing = true;
-            newsCame = now;
+            received = now;
             for (int i = 0; i < Pairs; i++)
             {
                 int first = random.Next(Bodies);
@@ -84,12 +84,12 @@ internal sealed class FrameTable
         SimTime due = world.Step(clock.Now);
         if (isHealing && !world.IsBehind)
         {
-            healMilliseconds.Add((clock.Now - newsCame).ToMilliseconds());
-            nextNews = newsCame + Between;
+            healMilliseconds.Add((clock.Now - received).ToMilliseconds());
+            nextLateEvent = received + Between;
             isHealing = false;
         }
 
-        due = heals ? SimTime.Min(due, SimTime.Max(nextNews, clock.Now)) : due;
+        due = heals ? SimTime.Min(due, SimTime.Max(nextLateEvent, clock.Now)) : due;
         return due == SimTime.MaxValue ? SimDuration.MaxValue : due - clock.Now;
     }
 

@@ -28,7 +28,7 @@ internal static class UnequalHeapTable
             CultureInfo.InvariantCulture,
             $"64 balls of radii 0.08 to 0.16 m, friction 0.4, dropped into a pit {Side * Cell:0.##} m wide; the first {Seconds} s, "
             + $"{Runs} drawn heaps each; share of real time on one core"));
-        Console.WriteLine("| restitution | masses, kg | least | middle | most | its dearest quarter of a second |");
+        Console.WriteLine("| restitution | masses, kg | least | middle | most | its most expensive quarter of a second |");
         Console.WriteLine("|---|---|---|---|---|---|");
         double[] restitutions = brief ? [0.2] : [0.2, 0.9, 0.99, 1];
         double[] unlike = brief ? [OfOneDensity] : [OfOneDensity, 100];

@@ -109,7 +109,7 @@ public sealed class SessionTestResult
         return World.TryRead(body, At(seconds), out BodyState state) ? state : default;
     }
 
-    /// <summary>Throws if a player's world differed from <see cref="World"/> at any time.</summary>
+    /// <summary>Throws if a state that a player committed, or what its world keeps at the end, differs from <see cref="World"/>.</summary>
     /// <exception cref="WorldsDifferException">A world differed; the message names the first difference.</exception>
     public void ThrowIfWorldsDiffer()
     {

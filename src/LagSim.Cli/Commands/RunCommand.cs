@@ -146,7 +146,7 @@ internal static class RunCommand
             if (request.Folder is not null)
             {
                 RunReport.Write(request.Folder, scene, summary, request.Seed, request.SampleFile, request.History, done => progress(once + timing + done.ToSeconds()));
-                summary = summary with { PictureSeconds = Lap(ref began) };
+                summary = summary with { DrawingSeconds = Lap(ref began) };
             }
 
             return summary;

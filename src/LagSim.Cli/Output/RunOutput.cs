@@ -23,7 +23,7 @@ internal static class RunOutput
             json.WriteNumber("wall_s", run.WallSeconds);
             json.WriteNumber("written_run_wall_s", run.WritingSeconds);
             json.WriteNumber("timed_runs_wall_s", run.TimingSeconds);
-            json.WriteNumber("picture_wall_s", run.PictureSeconds);
+            json.WriteNumber("picture_wall_s", run.DrawingSeconds);
             json.WriteStartObject("energy_j");
             json.WriteNumber("start", run.StartEnergy);
             json.WriteNumber("end", run.EndEnergy);
@@ -89,13 +89,13 @@ internal static class RunOutput
     {
         if (run.Timed == 0)
         {
-            string drawn = run.PictureSeconds > 0 ? $", and picture {NumberText.Short(run.PictureSeconds)} s" : "";
+            string drawn = run.DrawingSeconds > 0 ? $", and picture {NumberText.Short(run.DrawingSeconds)} s" : "";
             return $"{NumberText.Short(run.WallSeconds)} s for the run and its files, not timed apart{drawn}";
         }
 
         string least = run.Timed == 1 ? "timed once" : $"the least of {NumberText.Count(run.Timed, "run")}";
-        string picture = run.PictureSeconds > 0 ? $", picture {NumberText.Short(run.PictureSeconds)} s" : "";
-        double all = run.WritingSeconds + run.TimingSeconds + run.PictureSeconds;
+        string picture = run.DrawingSeconds > 0 ? $", picture {NumberText.Short(run.DrawingSeconds)} s" : "";
+        double all = run.WritingSeconds + run.TimingSeconds + run.DrawingSeconds;
         return $"{NumberText.Short(run.WallSeconds)} s to simulate, {least} after a warm-up; in all {NumberText.Short(all)} s: run and files"
             + $" {NumberText.Short(run.WritingSeconds)} s, timing {NumberText.Short(run.TimingSeconds)} s{picture}";
     }

@@ -21,5 +21,5 @@ internal sealed record RunSummary(Simulation End, SimTime Until, double StartEne
     internal double TimingSeconds { get; init; }
 
     /// <summary>The wall-clock time of the chart: one more run, and drawing; zero without one.</summary>
-    internal double PictureSeconds { get; init; }
+    internal double DrawingSeconds { get; init; }
 }

@@ -23,7 +23,8 @@ namespace LagSim.Net.Sessions;
 /// from any thread: <see cref="Scene"/>, <see cref="SharedTime"/>, <see cref="State"/>, <see cref="EndReason"/>, <see cref="Committed"/>,
 /// and the reference <see cref="World"/>; of the world itself only its render snapshots, its counts of late steps, and its start.</para>
 /// <para>While a <see cref="PeerThread"/> runs the session, members for the session's thread throw an
-/// <see cref="InvalidOperationException"/> on any other. An exception from a handler then ends nothing, and
+/// <see cref="InvalidOperationException"/> on any other, but for <see cref="Counters"/> and what is reached through
+/// <see cref="World"/>, which are not checked. An exception from a handler then ends nothing, and
 /// <see cref="HandlerFailed"/> reports it; without such a thread it propagates to the caller of <see cref="Step"/>, or of
 /// whatever member raised the event.</para>
 /// </remarks>

@@ -44,7 +44,7 @@ internal class EventPredictor(
     }
 
     /// <summary>
-    /// Looks again what a body meets next, because the window for which the broad phase was asked has ended, or because the impact that
+    /// Predicts a body's next event again, because the window for which the broad phase was asked has ended, or because the impact that
     /// is due was found with a segment on which its partner no longer is.
     /// </summary>
     internal virtual void Recheck(int slot) => Predict(slot);

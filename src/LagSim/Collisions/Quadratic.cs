@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Collisions;
 
-/// <summary>The first descent of a gap that is a parabola, in closed form and without cancellation.</summary>
+/// <summary>When a gap that is a parabola first closes, in closed form and without cancellation.</summary>
 internal static class Quadratic
 {
     /// <summary>As <see cref="RootIsolation.Find"/>, for f(t) = c0 + c1 t + c2 t^2 and all t >= 0.</summary>

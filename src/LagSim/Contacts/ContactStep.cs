@@ -166,7 +166,7 @@ internal sealed class ContactStep
 
     /// <summary>
     /// Sweeps from the impulses of the last step. If they are too large to add up, the normals are solved first, from none. If sweeps do
-    /// not settle, they are solved last.
+    /// not converge, they are solved last.
     /// </summary>
     private void Sweep(double tolerance)
     {
@@ -182,7 +182,7 @@ internal sealed class ContactStep
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MaxSweeps);
         Sweeps += sweeps;
-        if (Rules.SettlesNormals && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
+        if (Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
             Sweeps += SolveNormals(tolerance);

@@ -70,7 +70,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
     internal void Solve(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
         int taken = ContactSolver.Solve(Problem, tolerance, sweeps, knownBodies, knownContacts);
-        if (sweeps == ContactStep.MaxSweeps && step.Rules.SettlesNormals && NormalRefinement.IsNeeded(Problem, taken, tolerance))
+        if (sweeps == ContactStep.MaxSweeps && step.Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, taken, tolerance))
         {
             for (int i = 0; i < Problem.BodyCount; i++)
             {

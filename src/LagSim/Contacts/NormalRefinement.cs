@@ -3,7 +3,7 @@ using LagSim.Scenes;
 
 namespace LagSim.Contacts;
 
-/// <summary>Settles the normals of a <see cref="ContactProblem"/> that sweeps have not settled, with friction as they left it.</summary>
+/// <summary>Solves the normals of a <see cref="ContactProblem"/> on which sweeps have not converged, with friction as they left it.</summary>
 /// <remarks>
 /// <para>A sweep passes an impulse on from one body to the next, so a column of n bodies takes on the order of n² sweeps, and more where a
 /// light body carries a heavy one. <see cref="NormalImpulses"/> solves few contacts exactly, and many from the impulses that the sweeps

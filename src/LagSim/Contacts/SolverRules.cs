@@ -13,6 +13,6 @@ internal class SolverRules
     /// <summary>Whether overlap is pushed out, and what is struck rebounds, only as far as that makes no energy.</summary>
     internal virtual bool LimitsEnergy => true;
 
-    /// <summary>Whether <see cref="NormalRefinement"/> ends what sweeps alone do not settle.</summary>
-    internal virtual bool SettlesNormals => true;
+    /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
+    internal virtual bool RefinesNormals => true;
 }

@@ -289,19 +289,19 @@ public sealed class LiveWorld
     private readonly ref struct Change
     {
         private readonly LiveWorld world;
-        private readonly SimTime front;
+        private readonly SimTime simulatedBefore;
 
         internal Change(LiveWorld world)
         {
             this.world = world;
-            front = world.Simulation.SimulatedTo;
+            simulatedBefore = world.Simulation.SimulatedTo;
             world.changed = true;
             world.Work?.Resume();
         }
 
         internal T Finish<T>(T result)
         {
-            if (world.Simulation.SimulatedTo < front)
+            if (world.Simulation.SimulatedTo < simulatedBefore)
             {
                 // The instant of a late event is simulated at once, whatever this step may still cost. Otherwise one such event a step
                 // would keep the world there.
@@ -310,9 +310,9 @@ public sealed class LiveWorld
             }
 
             world.Work?.ChargeLateEvent(world.Simulation.SimulatedTo);
-            if (world.Simulation.SimulatedTo < front)
+            if (world.Simulation.SimulatedTo < simulatedBefore)
             {
-                world.isBehind |= !world.Simulation.TryAdvanceTo(front, ref world.events);
+                world.isBehind |= !world.Simulation.TryAdvanceTo(simulatedBefore, ref world.events);
             }
 
             return result;

@@ -33,7 +33,7 @@ internal sealed class IslandStepper(
     {
         canonical = default;
         partners.NearMisses.Clear();
-        GatherIsland(slot, key);
+        CollectIsland(slot, key);
         if (!rewinds.AreNone)
         {
             return false;
@@ -82,7 +82,7 @@ internal sealed class IslandStepper(
     /// Collects the solver bodies: all that hold together with a body, through others as well, and which of them are held, by the segments
     /// that they are on at the key.
     /// </summary>
-    private void GatherIsland(int slot, in EventKey key)
+    private void CollectIsland(int slot, in EventKey key)
     {
         graph.Clear();
         graph.AddBody(slot);
@@ -196,7 +196,7 @@ internal sealed class IslandStepper(
     private void SolveStep(SimTime tick, SimDuration length, double tolerance)
     {
         step.Solve(length.ToSeconds(), tolerance);
-        SettleForces(tick, length, tolerance);
+        IterateForces(tick, length, tolerance);
         step.LimitEnergy(length.ToSeconds(), tolerance);
         work.Count(step.Sweeps, step.Problem.ContactCount);
     }
@@ -206,7 +206,7 @@ internal sealed class IslandStepper(
     /// which a magnetic force makes and takes no speed, and a damper none but what it should. At the velocity that the body came with, a
     /// force across it would drive away what lies still.
     /// </summary>
-    private void SettleForces(SimTime tick, SimDuration length, double tolerance)
+    private void IterateForces(SimTime tick, SimDuration length, double tolerance)
     {
         SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
         double last = double.PositiveInfinity;

@@ -36,6 +36,7 @@ public sealed partial class RealTimeTraitTests
         .Where(file => Real().IsMatch(file.Text) && !file.Text.Contains(Trait, StringComparison.Ordinal)).Select(file => file.Name);
 
     [GeneratedRegex(
-        @"UdpPort\(|PeerThread[.(]|new UdpRelay|Process\.Start|StopwatchClock\(|ToolProcess|KernelLink|LiteNetLibPort|WorldThread\(|RealPeers")]
+        @"UdpPort\(|PeerThread[.(]|new UdpRelay|Process\.Start|StopwatchClock\(|ToolProcess|KernelLink|LiteNetLibPort|WorldThread\(|RealPeers|new Thread\("
+        + @"|SimulationHost\(|Stopwatch\.|Environment\.TickCount|DateTime\.(Utc)?Now")]
     private static partial Regex Real();
 }

@@ -42,7 +42,7 @@ public sealed class InvariantCheckTests
     /// <summary>
     /// A collapse takes in only bodies that one impact struck: when it took in every body that touched, a heal that moved one of them missed it.
     /// And it takes in the same, whichever of them is asked first, and has the key of what is struck in its round: when that was not so, two
-    /// impacts of a round took each other back for ever.
+    /// impacts of a round undid each other for ever.
     /// </summary>
     [Theory]
     [InlineData(20_006)]
@@ -80,7 +80,7 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_HistoryTooShort_TooLateIsAFailure()
     {
-        // Half a second there, and a quarter of one is allowed: the host refuses what clients do, and their senders take it back.
+        // Half a second there, and a quarter of one is allowed: the host refuses what clients do, and their senders retract it.
         CheckOptions options = new() { Sessions = 3, Profile = LinkProfiles.PureDelay(500), ShrinkingPlays = 0, History = SimDuration.FromMilliseconds(250) };
         CheckReport report = Run(options);
         Assert.Equal([1UL, 2, 3], report.Failures.Select(f => f.Whole.Seed));
@@ -146,6 +146,7 @@ public sealed class InvariantCheckTests
     }
 
     [Fact]
+    [Trait("Time", "real")]
     public void Run_AskedToStopWhileAPeersWorldComesToNoEnd_EndsAndNamesTheSeed()
     {
         const ulong Endless = 2;

@@ -64,7 +64,7 @@ public sealed class CompareTestTests
     }
 
     [Fact]
-    public void Divergence_OfAnEvent_LastsUntilThePictureAfterTheArrival()
+    public void Divergence_OfAnEvent_LastsUntilTheRenderSnapshotAfterTheArrival()
     {
         // Two hops of 100 ms to the players, one to or from the host; and the error is there to the last sample before.
         CompareRun run = Run("pair", "delay-100ms", "healing");

@@ -173,7 +173,7 @@ public sealed partial class CorpusTests
         TimelineEntry[] all = paths.SelectMany(path => path).ToArray();
         BodySnapshot[] snapshots = Enumerable.Range(1, 40)
             .SelectMany(i => simulation.Snapshot(world.Start + SimDuration.FromSeconds(world.Seconds * i / 40)).Bodies.ToArray()).ToArray();
-        int[] parties = all.Where(entry => entry.Key.Kind == EventKind.Impact).GroupBy(entry => entry.Key).Select(group => group.Count()).ToArray();
+        int[] struck = all.Where(entry => entry.Key.Kind == EventKind.Impact).GroupBy(entry => entry.Key).Select(group => group.Count()).ToArray();
         double[] masses = world.Scene.Bodies.Select(body => body.Spec.Mass).ToArray();
         bool wakes = paths.Any(path => path.Zip(path.Skip(1)).Any(pair =>
             pair.First.State.Motion == MotionLaw.Resting && pair.Second.State.Motion != MotionLaw.Resting && pair.Second.Key.Kind == EventKind.Impact));
@@ -184,8 +184,8 @@ public sealed partial class CorpusTests
             .. Enum.GetValues<EventKind>().Where(kind => kind is >= EventKind.Spawn and <= EventKind.Remove)
                 .Select(kind => ($"event {kind}", all.Any(entry => entry.Key.Kind == kind))),
             ("a step's end", all.Any(entry => entry.Key.Kind == EventKind.StepEnd)),
-            ("an impact of two", parties.Contains(2)),
-            ("an impact of many", parties.Any(count => count > 4)),
+            ("an impact of two", struck.Contains(2)),
+            ("an impact of many", struck.Any(count => count > 4)),
             ("a wake by impact", wakes),
             ("sliding in a groove", snapshots.Any(body => body is { Law: MotionLaw.Sliding, SupportCount: 2 })),
             ("sliding on a plane", snapshots.Any(body => body is { Law: MotionLaw.Sliding, SupportCount: 1 })),

@@ -147,7 +147,7 @@ internal static class CorpusWorlds
             ExternalEvent.Teleport(At(4), 1, 3, First, V(-2, 0.5), V(3, 0, 0.25)));
     }
 
-    /// <summary>Impacts of many parties: a break, six from all sides at one tick, one onto two that lie on the floor.</summary>
+    /// <summary>Impacts of many bodies: a break, six from all sides at one tick, one onto two that lie on the floor.</summary>
     private static CorpusWorld Together()
     {
         SceneBuilder builder = new SceneBuilder("together").AddPlane("floor", Vector3D.Up, V(0, -50), 0.9)

@@ -37,7 +37,7 @@ public sealed class ArrivalOrderTests
     [Fact]
     public void Spawns_OfHeavyEndsAndLightMiddles_InAnyOrder_GiveTheSameBits()
     {
-        // So unequal that the solver gives up and all parties get their common velocity, a sum over all of them.
+        // So unequal that the solver gives up and all bodies get their common velocity, a sum over all of them.
         for (int seed = 0; seed < 60; seed++)
         {
             Random random = new(seed);

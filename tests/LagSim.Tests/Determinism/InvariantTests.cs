@@ -114,7 +114,7 @@ public sealed class InvariantTests
             simulation.FewHealed = seed % 3;
             simulation.Healed += report => grown += report.Bodies == simulation.BodyCount && report.Bodies > 3 ? 1 : 0;
         }));
-        Assert.True(grown > 8, $"{grown} heals took all back");
+        Assert.True(grown > 8, $"{grown} heals became full rollbacks");
     }
 
     [Theory]

@@ -64,9 +64,9 @@ internal sealed class RandomWorld
     }
 
     /// <summary>
-    /// A world that hears of everything in some order, at any moment of its progress, some of it twice, and of some things that are taken back
+    /// A world that hears of everything in some order, at any moment of its progress, some of it twice, and of some things that are retracted
     /// again. With a history, never later than that allows. In pieces, it goes on by a few events at a time, and more events may come before what
-    /// a late event takes back is simulated again.
+    /// a late event rewinds is simulated again.
     /// </summary>
     internal Simulation Shuffled(
         int seed,
@@ -97,7 +97,7 @@ internal sealed class RandomWorld
 
         for (int i = 0; i < 2; i++)
         {
-            // What turns out never to have been: heard first, taken back later.
+            // What turns out never to have been: submitted first, retracted later.
             ExternalEvent never = Decoy(arrivals, i);
             double heard = Math.Min(never.Time.ToSeconds() + (latest * arrivals.NextDouble()), End);
             double takenBack = Math.Min(heard + (arrivals.NextDouble() * 0.3), never.Time.ToSeconds() + latest);

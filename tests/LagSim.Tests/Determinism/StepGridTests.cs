@@ -7,7 +7,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Determinism;
 
-/// <summary>The grid of an integrator belongs to the timeline: a contact that is taken back gives back the step that it had cut short.</summary>
+/// <summary>The grid of an integrator belongs to the timeline: a contact that is rewound gives back the step that it had cut short.</summary>
 public sealed class StepGridTests
 {
     private static Scene Scene => new SceneBuilder("steps").WithGravity(Floating)

@@ -193,7 +193,7 @@ public sealed class DisplayOffsetsTests
     }
 
     [Fact]
-    public void Update_FramesFurtherApartThanPicturesReachBack_StartsFromWhatIsReal()
+    public void Update_FramesFurtherApartThanRenderSnapshotsReachBack_StartsFromWhatIsReal()
     {
         Corrected(0.5, out Screen screen, past: 0.05);
         screen.Frame(1.01);

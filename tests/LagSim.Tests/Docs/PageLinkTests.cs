@@ -19,6 +19,14 @@ public sealed partial class PageLinkTests
         Assert.Single(Broken(Path.Combine(RepositoryRoot.Path, "README.md"), "[no page](docs/NO-SUCH-PAGE.md)")); // the control
     }
 
+    [Fact]
+    public void Pages_EveryAnchorOfALink_IsAHeadingThere()
+    {
+        string[] broken = [.. Pages().SelectMany(page => WithoutHeading(page, File.ReadAllText(page)))];
+        Assert.True(broken.Length == 0, string.Join('\n', broken));
+        Assert.Equal(2, WithoutHeading(Path.Combine(RepositoryRoot.Path, "README.md"), "[a](docs/TUNING.md#no-such-heading) [b](#nor-this)").Count()); // the control
+    }
+
     /// <summary>Who looks for a rule's code finds it: <c>Contacts/ContactStep.cs</c> on a page is a file of the core.</summary>
     [Fact]
     public void Pages_EveryFileOfTheCoreThatTheyName_IsThere()
@@ -54,12 +62,26 @@ public sealed partial class PageLinkTests
         .Where(path => !File.Exists(path) && !Directory.Exists(path))
         .Select(path => $"{page}: {path}");
 
+    private static IEnumerable<string> WithoutHeading(string page, string text) => Link().Matches(text)
+        .Select(match => match.Groups[1].Value.Split('#'))
+        .Where(link => link.Length == 2 && !link[0].Contains("://", StringComparison.Ordinal))
+        .Select(link => (File: link[0].Length == 0 ? page : Path.Combine(Path.GetDirectoryName(page)!, link[0]), Anchor: link[1]))
+        .Where(link => link.File.EndsWith(".md", StringComparison.Ordinal) && !Anchors(File.ReadAllText(link.File)).Contains(link.Anchor))
+        .Select(link => $"{page}: {link.File} has no heading for #{link.Anchor}");
+
+    /// <summary>The anchors that a page's headings get: in small letters, without punctuation, with a dash for each space.</summary>
+    private static IEnumerable<string> Anchors(string text) => Heading().Matches(text)
+        .Select(match => string.Concat(match.Groups[1].Value.ToLowerInvariant().Where(c => char.IsLetterOrDigit(c) || c is ' ' or '-' or '_')).Replace(' ', '-'));
+
     private static IEnumerable<string> Gone(string text)
     {
         string core = Path.Combine(RepositoryRoot.Path, "src", "LagSim");
         return CoreFile().Matches(text).Select(match => match.Groups[1].Value)
             .Where(file => Directory.Exists(Path.Combine(core, Path.GetDirectoryName(file)!)) && !File.Exists(Path.Combine(core, file)));
     }
+
+    [GeneratedRegex(@"^#+ +(.+?)\s*$", RegexOptions.Multiline)]
+    private static partial Regex Heading();
 
     [GeneratedRegex("`(\\w+/\\w+\\.cs)`")]
     private static partial Regex CoreFile();

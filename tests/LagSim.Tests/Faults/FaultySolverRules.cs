@@ -18,5 +18,5 @@ internal sealed class FaultySolverRules : SolverRules
 
     internal override bool LimitsEnergy => !GainsEnergy;
 
-    internal override bool SettlesNormals => !SweepsAlone;
+    internal override bool RefinesNormals => !SweepsAlone;
 }

@@ -14,7 +14,7 @@ public sealed class PileTests
     [InlineData(HealingMode.FullRollback)]
     public void LateEvents_OneAfterTheOther_LeaveNothingBehindOfWhatWasTakenBack(HealingMode mode)
     {
-        // Each takes some thousand impacts back. Kept looks at what is taken back would fill the memory that is allowed, and be gone through again each time.
+        // Each rewinds some thousand impacts. Near misses of what is rewound would, if kept, fill the memory that is allowed, and be gone through again each time.
         Simulation late = new(Tube(3), new SimulationOptions(default, SimDuration.FromSeconds(0.5), maxSegments: 50_000, healing: mode));
         Simulation inTime = new(Tube(3), KeepAll);
         for (int n = 0; n < 40; n++)

@@ -17,7 +17,7 @@ public sealed class LiveWorldTests
     private static readonly SimulationOptions Kept = new(default, SimDuration.FromSeconds(1));
 
     [Fact]
-    public void Step_WheneverDue_KeepsThePictureAheadOfTheClock()
+    public void Step_WheneverDue_KeepsTheRenderSnapshotAheadOfTheClock()
     {
         LiveWorld world = new(RandomScene, Kept);
         SimTime now = At(0);
@@ -40,7 +40,7 @@ public sealed class LiveWorldTests
     [InlineData(2)]
     [InlineData(3)]
     [InlineData(4)]
-    public void Picture_AfterEventsLateAndTakenBack_ReadsWhatTheSimulationReads(int seed)
+    public void RenderSnapshot_AfterEventsLateAndRetracted_ReadsWhatTheSimulationReads(int seed)
     {
         (int compared, int different) = Follow(seed, publishes: true);
         Assert.True(compared > 1000, $"{compared}");
@@ -48,7 +48,7 @@ public sealed class LiveWorldTests
     }
 
     [Fact]
-    public void Picture_NotPublishedAfterARollback_IsSeenToDiffer()
+    public void RenderSnapshot_NotPublishedAfterARollback_IsSeenToDiffer()
     {
         Assert.True(Enumerable.Range(1, 12).Sum(seed => Follow(seed, publishes: false).Different) > 0);
     }
@@ -104,7 +104,7 @@ public sealed class LiveWorldTests
     }
 
     [Fact]
-    public void Picture_UnknownBodyOrTime_IsNotRead()
+    public void RenderSnapshot_UnknownBodyOrTime_IsNotRead()
     {
         LiveWorld world = new(Drop(1, 1), Kept);
         Assert.False(world.RenderSnapshots.Latest().TryRead(First, At(0), out _)); // before the first
@@ -209,7 +209,7 @@ public sealed class LiveWorldTests
     [Theory]
     [InlineData(1)]
     [InlineData(2)]
-    public void Step_HealOverManySteps_KeepsTheLastWholePictureUntilTheWorldHasCaughtUp(int seed)
+    public void Step_HealOverManySteps_KeepsTheLastWholeRenderSnapshotUntilTheWorldHasCaughtUp(int seed)
     {
         // Pairs of opposite kicks at one instant: in one version of the world, whichever, the velocities add up to what they did.
         (LiveWorld world, Random random) = (new(BuiltInScenes.Gas(100), Kept) { Effort = 1 }, new(seed));
@@ -284,7 +284,7 @@ public sealed class LiveWorldTests
 
     private static Scene RandomScene => new RandomWorld(3).Scene;
 
-    /// <summary>Plays a world with events heard late, twice and taken back, and compares render snapshots with the simulation at random times.</summary>
+    /// <summary>Plays a world with events submitted late, twice and retracted, and compares render snapshots with the simulation at random times.</summary>
     private static (int Compared, int Different) Follow(int seed, bool publishes)
     {
         Random random = new(seed);

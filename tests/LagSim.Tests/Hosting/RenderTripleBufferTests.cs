@@ -15,7 +15,7 @@ public sealed class RenderTripleBufferTests
     private const int Publications = 20_000;
 
     [Fact]
-    public void Latest_WhileAnotherThreadPublishes_IsAlwaysOneWholePictureAndNeverAnOlderOne()
+    public void Latest_WhileAnotherThreadPublishes_IsAlwaysOneWholeSnapshotAndNeverAnOlderOne()
     {
         (long seen, string? fault) = Stress(exchange => exchange.Latest());
         Assert.Null(fault);
@@ -36,7 +36,7 @@ public sealed class RenderTripleBufferTests
     }
 
     [Fact]
-    public void Latest_NothingNew_IsTheSamePicture()
+    public void Latest_NothingNew_IsTheSameSnapshot()
     {
         RenderTripleBuffer exchange = new();
         Assert.Equal(0, exchange.Latest().Number);

@@ -146,7 +146,7 @@ public sealed class WorldThreadTests
     }
 
     [Fact]
-    public void Host_ActionDone_IsInThePicturesThatFollow()
+    public void Host_ActionDone_IsInTheRenderSnapshotsThatFollow()
     {
         ManualClock clock = new() { Now = At(100) };
         using SimulationHost host = new(Drop(0, 0.5), clock);

@@ -1,9 +1,5 @@
 using System.Collections.Generic;
-using LagSim.BroadPhase;
-using LagSim.Collisions;
 using LagSim.Events;
-using LagSim.Rollback;
-using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -26,10 +22,10 @@ public sealed class RewinderTests
     [InlineData(false)]
     public void Mark_BeforeAnImpact_CutsTheOtherTooIfItWasTheImpactOfBoth(bool byOneImpact)
     {
-        World world = new(byOneImpact);
+        RewoundWorld world = new(byOneImpact);
         world.Rewinder.Mark(0, Early);
-        Assert.Equal(1, Count(world.Timelines, 0));
-        Assert.Equal(byOneImpact ? 1 : 3, Count(world.Timelines, 1));
+        Assert.Equal(1, world.Count(0));
+        Assert.Equal(byOneImpact ? 1 : 3, world.Count(1));
         Assert.Equal(byOneImpact, world.Rollback.HasTouched(1));
         Assert.Equal(byOneImpact ? 3 : 1, world.Rollback.SegmentsCut);
         Assert.Equal(At(0.5) - SimDuration.OneTick, world.Progress.SimulatedTo);
@@ -38,10 +34,10 @@ public sealed class RewinderTests
     [Fact]
     public void Mark_AfterTheImpact_LeavesIt()
     {
-        World world = new(byOneImpact: true);
+        RewoundWorld world = new(byOneImpact: true);
         world.Rewinder.Mark(0, Key(1.5, EventKind.SetVelocity));
-        Assert.Equal(2, Count(world.Timelines, 0));
-        Assert.Equal(3, Count(world.Timelines, 1));
+        Assert.Equal(2, world.Count(0));
+        Assert.Equal(3, world.Count(1));
         Assert.False(world.Rollback.HasTouched(1));
     }
 
@@ -51,25 +47,25 @@ public sealed class RewinderTests
     [InlineData(EventKind.StepEnd, 2)]
     public void Mark_AtTheTickOfTheImpact_CutsItIfTheEventPrecedesIt(EventKind kind, int left)
     {
-        World world = new(byOneImpact: true);
+        RewoundWorld world = new(byOneImpact: true);
         world.Rewinder.Mark(0, Key(1, kind));
-        Assert.Equal(left, Count(world.Timelines, 0));
+        Assert.Equal(left, world.Count(0));
     }
 
     /// <summary>A full rollback cuts all bodies at the key, whether or not they shared an impact.</summary>
     [Fact]
     public void Mark_InAFullRollback_CutsAllBodies()
     {
-        World world = new(byOneImpact: false, HealingMode.FullRollback);
+        RewoundWorld world = new(byOneImpact: false, HealingMode.FullRollback);
         world.Rewinder.Mark(0, Early);
-        Assert.Equal(1, Count(world.Timelines, 1));
+        Assert.Equal(1, world.Count(1));
         Assert.True(world.Rollback.HasTouched(1));
     }
 
     [Fact]
     public void Mark_BeforeAnImpact_HasItPredictedAgain()
     {
-        World world = new(byOneImpact: true);
+        RewoundWorld world = new(byOneImpact: true);
         EventKey impact = world.Timelines.Key(world.Timelines.Last(0));
         Assert.Equal(0, world.Scheduler.Count);
         world.Rewinder.Mark(0, Early);
@@ -84,7 +80,7 @@ public sealed class RewinderTests
     [InlineData(false)]
     public void Mark_BeforeAnImpact_MakesTheEventsOfACutBodyDueAgain(bool byOneImpact)
     {
-        World world = new(byOneImpact);
+        RewoundWorld world = new(byOneImpact);
         Assert.Equal(EventLog.None, world.Log.Due(1));
         world.Rewinder.Mark(0, Early);
         int due = world.Log.Due(1);
@@ -94,7 +90,7 @@ public sealed class RewinderTests
     [Fact]
     public void EndIfDone_OnceTheWorldIsWhereItWas_ReportsTheRollbackOnce()
     {
-        World world = new(byOneImpact: true);
+        RewoundWorld world = new(byOneImpact: true);
         List<HealReport> reports = [];
         world.Rewinder.Healed += reports.Add;
         world.Rewinder.Mark(0, Early);
@@ -107,61 +103,5 @@ public sealed class RewinderTests
         world.Rewinder.EndIfDone();
         Assert.Equal(new HealReport(At(0.5), At(3), 1, 2, 3, 0), Assert.Single(reports));
         Assert.False(world.Rollback.IsActive);
-    }
-
-    private static int Count(TimelineStore timelines, int slot)
-    {
-        int count = 0;
-        for (int at = timelines.First(slot); at != TimelineStore.None; at = timelines.Next(at))
-        {
-            count++;
-        }
-
-        return count;
-    }
-
-    /// <summary>Two bodies, and the parts that a rewinder needs.</summary>
-    private sealed class World
-    {
-        internal World(bool byOneImpact, HealingMode mode = HealingMode.CausalCone)
-        {
-            Scene scene = new SceneBuilder("empty").WithGravity(Floating).WithSmallestRadius(0.5).Build();
-            BodyTable bodies = new(2);
-            FreeFlights flights = new(scene.Gravity, scene.RestitutionThreshold, scene.Box);
-            Timelines = new TimelineStore(default, newest: flights);
-            for (int slot = 0; slot < 2; slot++)
-            {
-                flights.AddSlot(slot, 0.5);
-                Log.AddSlot(slot);
-                Scheduler.AddSlot(slot);
-                Rollback.AddSlot(slot);
-            }
-
-            AddTwoStruck(bodies, Timelines, byOneImpact);
-            Log.TryAdd(1, Later, Later.Key, forwarded: false);
-            SegmentLookup view = new(Timelines, Rollback);
-            CollisionPredictor collisions = Predictor(scene, bodies, Timelines, view);
-            CollisionSearch search = new(bodies, Timelines, flights, scene.Surfaces, collisions, new StepMarks());
-            AdaptiveBroadPhase broadPhase = new(scene, bodies, Timelines, bruteForceLimit: 2);
-            broadPhase.Begin();
-            EventPredictor predictor = new(bodies, Timelines, Log, Scheduler, Rollback, flights, broadPhase, search, view);
-            predictor.Predict(0); // so that the broad phase knows them
-            predictor.Predict(1);
-            Reconvergence reconvergence = new(bodies, Timelines, Log, Scheduler, Progress, Rollback, broadPhase, predictor, new CutPaths());
-            Rewinder = new Rewinder(bodies, Timelines, Log, Scheduler, Progress, Rollback, reconvergence, predictor, mode);
-            Progress.SimulatedTo = At(3);
-        }
-
-        internal TimelineStore Timelines { get; }
-
-        internal EventLog Log { get; } = new();
-
-        internal EventScheduler Scheduler { get; } = new(2);
-
-        internal RollbackState Rollback { get; } = new();
-
-        internal Progress Progress { get; } = new(default, SimDuration.MaxValue, default);
-
-        internal Rewinder Rewinder { get; }
     }
 }

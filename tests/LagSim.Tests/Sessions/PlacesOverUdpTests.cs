@@ -12,6 +12,7 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>Machines as sockets have them: what counts as one is the same over real UDP, by its IP address and not by its port.</summary>
+[Trait("Time", "real")]
 public sealed class PlacesOverUdpTests
 {
     private static readonly TimeSpan Deadline = TimeSpan.FromSeconds(20);

@@ -21,7 +21,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
     private const double Within = 2;
     private const int Thousand = 1000;
     private const int Honest = 5;
-    private static readonly string[] Kinds = ["knocks", "joins", "updates", "fetches", "moves", "noise"];
+    private static readonly string[] Kinds = ["connect requests", "joins", "updates", "snapshot requests", "moves", "noise"];
 
     [Theory]
     [InlineData(false, 256)]

@@ -11,7 +11,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Sessions;
 
-/// <summary>What the host says no to is taken back by who did it, however late the no comes.</summary>
+/// <summary>A client retracts what the host refuses, however late the refusal comes.</summary>
 public sealed class RefusedEventTests
 {
     private const double History = 0.3;
@@ -152,7 +152,7 @@ public sealed class RefusedEventTests
     [InlineData(false)]
     public void Retract_OfWhatWasAccepted_IsCountedAndNotDone(bool byNumber)
     {
-        // No host of ours takes back its word.
+        // No host of ours changes a verdict.
         SessionGroup group = Group(1, 0);
         UpdateDatagram last = new();
         group.Network.Lose((from, to, datagram) =>

@@ -25,7 +25,7 @@ public sealed class SessionWarmupTests
 
         Assert.Equal(PlayersKinds, warmup.HeardByHost);
         Assert.Equal(PlayersKinds, warmup.HeardByClient);
-        Assert.NotEqual(0, warmup.HostCounters.EventsRefused); // a host's verdict of no, which is taken back
+        Assert.NotEqual(0, warmup.HostCounters.EventsRefused); // a refusal by the host, after which the sender retracts
         Assert.Equal(warmup.HostCounters.EventsRefused, warmup.ClientCounters.EventsRefused);
         Assert.Equal((0, 0), (warmup.HostCounters.DatagramsMalformed, warmup.ClientCounters.DatagramsMalformed));
         Assert.NotEqual(0, warmup.ClientCounters.StatesAgreed + warmup.ClientCounters.StatesDiffered);

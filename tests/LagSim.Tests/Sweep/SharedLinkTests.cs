@@ -3,13 +3,11 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Experiments.Sweep;
-using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Testing.Running;
-using LagSim.Tests.Sessions;
 using LagSim.Time;
 using Xunit;
 
@@ -36,7 +34,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         double used = 0;
         for (ulong seed = 1; seed <= seeds; seed++)
         {
-            (double a, double b) = Share(queueMs, first, second, seed, SessionFault.None);
+            (double a, double b) = Share(queueMs, first, second, seed);
             ratios.Add(Math.Max(a, b) / Math.Max(1, Math.Min(a, b)));
             used += (a + b) / (RateBitsPerSecond / 8) / seeds;
         }
@@ -52,7 +50,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
     [Fact]
     public void TwoSessionsOnOneLink_OfWhichOneAsksForAHundredth_HaveOtherShares()
     {
-        (double a, double b) = Share(500, 1, 0.01, 1, SessionFault.None);
+        (double a, double b) = Share(500, 1, 0.01, 1);
         output.WriteLine(FormattableString.Invariant($"{a:0} and {b:0} bytes a second"));
         Assert.True(a > 2 * b);
     }
@@ -84,8 +82,20 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         Assert.InRange(outcome.DeliveredBytesPerSecond, 0.95 * outcome.OfferedBytesPerSecond, 1.05 * outcome.OfferedBytesPerSecond);
     }
 
+    /// <summary>Eight balls that never meet: what is measured is the link, not the world.</summary>
+    private static Scene Apart()
+    {
+        SceneBuilder scene = new SceneBuilder("apart").WithGravity(default);
+        for (int n = 0; n < 8; n++)
+        {
+            scene.AddBody($"ball {n}", new BodySpec(0.5, 1, 1), new Vector3D(1000 * n, 0, 0));
+        }
+
+        return scene.Build();
+    }
+
     /// <summary>Bytes a second that came to a client of each of two sessions, both behind one link.</summary>
-    private static (double First, double Second) Share(double queueMs, double firstLoad, double secondLoad, ulong seed, SessionFault fault)
+    private static (double First, double Second) Share(double queueMs, double firstLoad, double secondLoad, ulong seed)
     {
         const double later = 5, from = 15, until = 45;
         const double entry = 47;
@@ -102,10 +112,10 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         for (int n = 0; n < 2; n++)
         {
             network.Connect(4 + n, n, link, up, down);
-            Session host = Add(n, -1, n == 0 ? fault : SessionFault.None);
-            ClientSession actor = (ClientSession)Add(2 + n, n, SessionFault.None);
+            Session host = Add(n, -1);
+            ClientSession actor = (ClientSession)Add(2 + n, n);
             actors.Add((actor, steps.Sessions.Count - 1));
-            Add(4 + n, n, n == 0 ? fault : SessionFault.None);
+            Add(4 + n, n);
         }
 
         RunUntil(() => steps.Sessions.All(s => s.State == SessionState.Running));
@@ -136,14 +146,13 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
 
         long Came(int which) => network.Traffic(4 + which).BytesReceived;
 
-        Session Add(int number, int host, SessionFault faultOfIt)
+        Session Add(int number, int host)
         {
             IDatagramPort port = network.CreatePort(number);
             HostOptions options = new() { ExpectedClients = 2, Cancellation = TestContext.Current.CancellationToken };
             Session session = host < 0
-                ? new HostSession(BuiltInScenes.Billiards(), port, clock, options, seed)
+                ? new HostSession(Apart(), port, clock, options, seed)
                 : new ClientSession(null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(host), seed + (ulong)number);
-            session.Put(faultOfIt);
             steps.Add(session, port);
             return session;
         }

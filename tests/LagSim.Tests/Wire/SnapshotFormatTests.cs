@@ -27,7 +27,7 @@ public sealed class SnapshotFormatTests
         from at in Ticks
         from round in WireGen.Bits32
         from kind in WireGen.Byte
-        from parties in Gen.ArrayOf(WireGen.Bits64, 2)
+        from bodies in Gen.ArrayOf(WireGen.Bits64, 2)
         from peer in WireGen.Byte
         from sequence in WireGen.Bits32
         from law in Gen.Elements(
@@ -41,7 +41,7 @@ public sealed class SnapshotFormatTests
         from contacts in Gen.Choose(0, 4).SelectMany(count => Gen.ArrayOf(WireGen.Contact, count))
         from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
         select new BodySnapshot(
-            BodyId.FromPacked(id), spec, new EventKey(at, round, (EventKind)kind, BodyId.FromPacked(parties[0]), BodyId.FromPacked(parties[1]), peer, sequence),
+            BodyId.FromPacked(id), spec, new EventKey(at, round, (EventKind)kind, BodyId.FromPacked(bodies[0]), BodyId.FromPacked(bodies[1]), peer, sequence),
             law, times[0], times[1], vectors[0], vectors[1], vectors[2], supports,
             IsDense(law) || law == MotionLaw.Held ? vectors[3] : default, IsDense(law) ? vectors[4] : default,
             IsDense(law) ? vectors[5] : default,

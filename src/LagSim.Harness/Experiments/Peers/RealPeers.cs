@@ -231,12 +231,12 @@ public sealed class RealPeers : PeerGroup
     private void MeasureAtRest(double seconds)
     {
         Sample();
-        long[] pictures = Array.ConvertAll(threads, t => t.Latest()!.Number);
+        long[] snapshots = Array.ConvertAll(threads, t => t.Latest()!.Number);
         TimeSpan before = Environment.CpuUsage.TotalTime;
         long began = Stopwatch.GetTimestamp();
         Thread.Sleep(TimeSpan.FromSeconds(seconds));
         double used = (Environment.CpuUsage.TotalTime - before).TotalSeconds / Stopwatch.GetElapsedTime(began).TotalSeconds;
-        CpuCoresAtRest = Array.TrueForAll(threads, t => t.Latest()!.Number == pictures[Array.IndexOf(threads, t)]) ? used : null;
+        CpuCoresAtRest = Array.TrueForAll(threads, t => t.Latest()!.Number == snapshots[Array.IndexOf(threads, t)]) ? used : null;
     }
 
     private void Sample()

@@ -145,8 +145,8 @@ internal sealed class CheckCase
 
     internal SimDuration LookAhead { get; }
 
-    /// <summary>The number of island steps that the scene lets workers take ahead, with all actions; the same on any machine.</summary>
-    internal long StepsAhead { get; private set; }
+    /// <summary>The number of contact steps that the session takes with all actions; the same on any machine.</summary>
+    internal long ContactSteps { get; private set; }
 
     /// <summary>Finds the body that had an index when it was drawn; null if it is left out.</summary>
     internal BodyId? BodyDrawnAs(int index)
@@ -299,7 +299,7 @@ internal sealed class CheckCase
                 return false;
             }
 
-            StepsAhead = alone.Engine.Stepper.StepsTaken;
+            ContactSteps = alone.Engine.Stepper.StepsTaken;
             BodyId body = action.Spawn >= 0 ? bodies[action.Spawn] : BodyId.OfScene(Math.Max(0, action.Body));
             ExternalEvent external = action.On(body).Stamp(time, (byte)action.Peer, (uint)i + 1);
             bodies[i] = external.Body;

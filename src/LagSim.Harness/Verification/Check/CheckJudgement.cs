@@ -30,7 +30,7 @@ internal static class CheckJudgement
         SimTime end = members.Where(m => m.Session.World is not null).Max(m => m.Session.World!.Simulation.SimulatedTo);
         SimTime start = members[0].Session.World!.Simulation.Start;
         SimulationOptions usual = new(start, SimDuration.MaxValue, cancellation: cancellation);
-        Simulation alone = log.Replay(drawn.Scene, options.PrepareAlone(usual), end); // the reference takes no step ahead; peers may
+        Simulation alone = log.Replay(drawn.Scene, options.PrepareAlone(usual), end);
         Comparison comparison = Compare(alone, members);
         long lost = members.Sum(m => m.Trace.Lost);
         return outcome with
@@ -44,7 +44,7 @@ internal static class CheckJudgement
             HealsThatChangedAnImpact = members.Sum(m => m.Heals.Sum(h => h.Changed)),
             EventsRerun = members.Sum(m => m.Heals.Sum(h => h.Events)),
             Impacts = alone.ImpactsProcessed,
-            Met = SceneFeatures.Of(alone, log.Accepted, drawn.StepsAhead),
+            Met = SceneFeatures.Of(alone, log.Accepted, drawn.ContactSteps),
             TooLateEvents = log.TooLate + lost,
             LostEvents = lost,
             RefusedEvents = log.Refused - log.TooLate,

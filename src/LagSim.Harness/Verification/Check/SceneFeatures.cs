@@ -20,7 +20,7 @@ public readonly record struct SceneFeatures
     public static IReadOnlyList<(string Name, Func<SceneFeatures, bool> IsMet)> All { get; } =
     [
         ("large_island", met => met.LargeIsland), ("hand_in_island", met => met.HandInIsland), ("removal_from_island", met => met.RemovalFromIsland),
-        ("magnus", met => met.Magnus), ("force_in_contact", met => met.ForceInContact), ("steps_ahead", met => met.StepsAhead),
+        ("magnus", met => met.Magnus), ("force_in_contact", met => met.ForceInContact), ("steps_ahead", met => met.ContactSteps),
         ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
     ];
@@ -41,7 +41,7 @@ public readonly record struct SceneFeatures
     public bool ForceInContact { get; init; }
 
     /// <summary>Contact steps were taken.</summary>
-    public bool StepsAhead { get; init; }
+    public bool ContactSteps { get; init; }
 
     /// <summary>The world was a periodic box.</summary>
     public bool PeriodicBox { get; init; }
@@ -66,10 +66,10 @@ public readonly record struct SceneFeatures
 
     /// <param name="alone">The world, advanced to its end, with unlimited history.</param>
     /// <param name="accepted">The accepted events of players.</param>
-    /// <param name="stepsAhead">The number of contact steps.</param>
-    internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long stepsAhead)
+    /// <param name="contactSteps">The number of contact steps.</param>
+    internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long contactSteps)
     {
-        SceneFeatures met = new() { StepsAhead = stepsAhead > 0, PeriodicBox = alone.Scene.Box.Exists };
+        SceneFeatures met = new() { ContactSteps = contactSteps > 0, PeriodicBox = alone.Scene.Box.Exists };
         List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
         Dictionary<EventKey, int> steps = [];
         for (int n = 0; n < alone.BodyCount; n++)

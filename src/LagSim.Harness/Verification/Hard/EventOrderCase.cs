@@ -18,7 +18,7 @@ internal sealed class EventOrderCase : IHardCase
     public string Name => "event-order";
 
     public string Title =>
-        "a long run of a crowd: the same events, to the bit, whether all pairs are looked at or an index of the paths names them, on any number of threads";
+        "a long run of a crowd: the same events, to the bit, whether the broad phase is brute force or a neighbour list, on any number of threads";
 
     public IEnumerable<HardRow> Rows(HardContext context)
     {
@@ -100,9 +100,9 @@ internal sealed class EventOrderCase : IHardCase
         return new World(simulation.EventHash(end), simulation.StateHash(end), simulation.EventsProcessed);
     }
 
-    private HardRow Row(string size, World pairs, params World[] worlds) => new(
-        Name, size, worlds.Sum(w => (w.Events != pairs.Events ? 1 : 0) + (w.State != pairs.State ? 1 : 0)), "hashes_that_differ", 0,
-        "a hash of every event's key and outcome and one of all states at the end: a bit is right or wrong", "the run on one thread that looks at all pairs");
+    private HardRow Row(string size, World bruteForce, params World[] worlds) => new(
+        Name, size, worlds.Sum(w => (w.Events != bruteForce.Events ? 1 : 0) + (w.State != bruteForce.State ? 1 : 0)), "hashes_that_differ", 0,
+        "a hash of every event's key and outcome and one of all states at the end: a bit is right or wrong", "the run on one thread by brute force");
 
     private readonly record struct World(ulong Events, ulong State, long Count);
 }

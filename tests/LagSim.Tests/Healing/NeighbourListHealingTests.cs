@@ -12,7 +12,7 @@ namespace LagSim.Tests.Healing;
 /// Heals by the index of who is near: a body that is ahead of what is being healed moves from shell to shell, and must still be met where
 /// it was.
 /// </summary>
-public sealed class CrowdedIndexTests
+public sealed class NeighbourListHealingTests
 {
     private const double End = 0.6;
 
