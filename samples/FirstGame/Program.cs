@@ -14,8 +14,8 @@ Scene scene = new SceneBuilder("my first world")
 
 // "join ADDRESS:PORT" makes this program a client; anything else makes it the host.
 using PeerThread me = args is ["join", string address]
-    ? PeerThread.Join(IPEndPoint.Parse(address))
-    : PeerThread.Host(scene, udpPort: 5000);
+    ? PeerThread.Join(IPEndPoint.Parse(address), setUp: Watch)
+    : PeerThread.Host(scene, udpPort: 5000, setUp: Watch);
 if (!me.WaitUntilRunning(TimeSpan.FromSeconds(15)))
 {
     Console.Error.WriteLine(me.Session.EndReason);
@@ -38,9 +38,7 @@ for (int frame = 0; frame < 60 * 10 && me.State == SessionState.Running; frame++
     Thread.Sleep(1000 / 60);
 }
 
-if (await me.Ask(session => session.Committed) is CommittedState last)
-{
-    Console.WriteLine($"committed state {last.StateHash:x16}");
-}
-
 return 0;
+
+static void Watch(Session session) => session.StateCommitted +=
+    state => Console.WriteLine($"committed at {state.Time.ToSeconds():F2} s: {state.StateHash:x16}");

@@ -172,8 +172,9 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>Waits until the world is running or the session has ended.</summary>
-    /// <param name="timeout">The longest time to wait.</param>
+    /// <param name="timeout">The longest time to wait: zero or more, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
     /// <returns>Whether it is running; if the session has ended instead, <see cref="Session.EndReason"/> says why.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The timeout is negative, or longer than 24 days.</exception>
     /// <exception cref="InvalidOperationException">
     /// The thread ended with an exception, the inner one; or this is the session's own thread, which would wait for itself.
     /// </exception>

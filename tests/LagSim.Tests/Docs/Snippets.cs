@@ -187,9 +187,12 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
 
-        // on another machine: a client gets the scene from the host
+        // on another machine, with the host's address: a client gets the scene from the host
         using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
-        client.WaitUntilRunning(TimeSpan.FromSeconds(15));
+        if (!client.WaitUntilRunning(TimeSpan.FromSeconds(15)))
+        {
+            throw new InvalidOperationException(client.Session.EndReason);
+        }
 
         // each frame
         if (client.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, client.Session.DisplayTime, out BodyState state))

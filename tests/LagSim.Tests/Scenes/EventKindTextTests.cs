@@ -2,6 +2,7 @@ using System;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.SceneFiles.Runs;
+using LagSim.Scenes;
 using Xunit;
 
 namespace LagSim.Tests.Scenes;
@@ -15,5 +16,15 @@ public sealed class EventKindTextTests
         string[] words = ["none", "start", "spawn", "teleport", "setvelocity", "impulse", "grab", "holdknot", "release", "remove", "impact", "stepend"];
 
         Assert.Equal(words, Enum.GetValues<EventKind>().Order().Select(EventKindText.Of));
+    }
+
+    /// <summary>What a game prints of an action that was refused names it.</summary>
+    [Fact]
+    public void ToString_OfAnAction_NamesItsKindAndItsBody()
+    {
+        BodyId body = BodyId.OfScene(3);
+        Assert.Equal("Grab of body 0.0.3", PlayerAction.Grab(body, default).ToString());
+        Assert.Equal("Spawn", PlayerAction.Spawn(new BodySpec(1, 1, 1), default).ToString());
+        Assert.Equal("None", default(PlayerAction).ToString());
     }
 }

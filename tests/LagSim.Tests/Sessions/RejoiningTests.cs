@@ -238,7 +238,7 @@ public sealed class RejoiningTests
         group.Run(Timeout.ToSeconds() + 5.5);
         Assert.Equal((SessionState.Ended, SessionEnd.HostSilent), (group.Sessions[1].State, group.Sessions[1].EndedBy));
         Assert.Equal(
-            "The host at virtual:0 fell silent for 3 s. It asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
+            "The host at virtual:0 fell silent for 3 s. This peer asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
     }
 
     private static SessionGroup Group(int peers, Func<int, SimDuration>? rejoinTime = null, int seed = 1) => new SessionGroup(

@@ -38,7 +38,7 @@ public sealed class SessionEndTests
         group.Run(15);
         Assert.All(group.Sessions.Skip(1), s => Assert.Equal(SessionState.Rejoining, s.State)); // they ask to be let in again
         Assert.True(group.RunUntil(() => group.Sessions.Skip(1).All(s => s.State == SessionState.Ended), 40));
-        Assert.EndsWith("It asked for 20 s to be let in again, in vain.", group.Sessions[1].EndReason, System.StringComparison.Ordinal);
+        Assert.EndsWith("This peer asked for 20 s to be let in again, in vain.", group.Sessions[1].EndReason, System.StringComparison.Ordinal);
         Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.Disconnected], group.Sessions.Select(s => s.EndedBy));
     }
 

@@ -177,7 +177,7 @@ internal sealed class HostLoss(
         if (now - rejoining > options.RejoinTime && !isWelcome) // the download may take longer than that
         {
             status.End(rejoiningFor, FormattableString.Invariant(
-                $"{status.RejoiningBecause} It asked for {options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain."));
+                $"{status.RejoiningBecause} This peer asked for {options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain."));
         }
         else if (isWelcome && connection.Link is UpdateLink link && now - link.Heard > options.Timeout)
         {
