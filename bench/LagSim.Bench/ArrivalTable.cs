@@ -33,7 +33,8 @@ internal sealed class ArrivalTable
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"An event {Late.ToMilliseconds():0} ms late among bodies of a gas, real time, p50 / p99 / max in ms. Divergence: from the stamp until a reader at full speed sees the event"));
-        Console.WriteLine("| bodies | divergence | compute: from arrival to published render snapshot | divergence - lateness - compute | a step without late events |");
+        Console.WriteLine(
+            "| bodies | divergence | compute: from arrival to published render snapshot | divergence - lateness - compute | a step without late events |");
         Console.WriteLine("|---|---|---|---|---|");
         new ArrivalTable(1_000).Measure(1_000, brief ? 5 : 100); // so that nothing is measured that the compiler has not finished with
         foreach (int bodies in brief ? new[] { 1_000 } : new[] { 100, 1_000, 3_000 })

@@ -51,7 +51,9 @@ internal sealed class FrameTable
             CultureInfo.InvariantCulture,
             $"A frame reads {Bodies:N0} bodies while {2 * Pairs} events {Late.ToMilliseconds():0} ms late are healed at a time; wall clock, p50 / p99 / max"));
         Console.WriteLine(
-            "| reader | heals | events re-run by each | a heal takes, ms | asking for the render snapshot, us | reading all bodies, ms | frames while healing: the same, us | the same, ms | render snapshots | torn | frames in which the render snapshot ends before now |");
+            "| reader | heals | events re-run by each | a heal takes, ms | asking for the render snapshot, us | reading all bodies, ms "
+            + "| frames while healing: the same, us | the same, ms "
+            + "| render snapshots | torn | frames in which the render snapshot ends before now |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|---|");
         new FrameTable(heals: true).Measure(60, brief ? 0.1 : 2.5);
         foreach (int rate in brief ? new[] { 60 } : new[] { 60, 0 })

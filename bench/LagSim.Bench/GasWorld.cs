@@ -9,7 +9,9 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>A gas in a periodic box, run until it has forgotten its lattice, that gets late events and retracts them, so that it stays the gas it was.</summary>
+/// <summary>
+/// A gas in a periodic box, run until it has forgotten its lattice. It gets late events and retracts them, so it stays the gas it was.
+/// </summary>
 internal sealed class GasWorld
 {
     private static readonly SimDuration Half = SimDuration.FromSeconds(0.5); // a second to settle, of which the second half is counted
@@ -59,14 +61,17 @@ internal sealed class GasWorld
             Simulation.AdvanceTo(now);
             if (!changed || Simulation.Engine.Timelines.EventHash != events)
             {
-                throw new InvalidOperationException($"A late event of {external.Time} {(changed ? "was retracted and left something behind" : "changed nothing")}.");
+                throw new InvalidOperationException(
+                    $"A late event of {external.Time} {(changed ? "was retracted and left something behind" : "changed nothing")}.");
             }
         }
 
         return heals;
     }
 
-    /// <summary>Brings in so many events at once, up to so late and at least nine tenths of that, in any order of their stamps; and retracts them.</summary>
+    /// <summary>
+    /// Submits so many events at once, up to so late and at least nine tenths of that, in any order of their stamps; then retracts them.
+    /// </summary>
     /// <exception cref="InvalidOperationException">The heal did not leave what it should.</exception>
     internal Heal BringTogether(int count, double late)
     {
@@ -89,7 +94,8 @@ internal sealed class GasWorld
         Together(external => Simulation.Retract(external));
         return changed && Simulation.Engine.Timelines.EventHash == events
             ? heal
-            : throw new InvalidOperationException($"{count} late events {(changed ? "were retracted and left something behind" : "changed nothing")}.");
+            : throw new InvalidOperationException(
+                $"{count} late events {(changed ? "were retracted and left something behind" : "changed nothing")}.");
 
         void Together(Action<ExternalEvent> bring)
         {

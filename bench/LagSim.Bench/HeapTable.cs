@@ -7,7 +7,10 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>What heaps of balls in persistent contact cost, which costs the most there is: by their size, with and without friction, and several of them.</summary>
+/// <summary>
+/// The cost of heaps of balls in persistent contact, the most expensive scenes there are: by size, with and without friction, and several
+/// heaps at once.
+/// </summary>
 internal static class HeapTable
 {
     private const double Seconds = 3;
@@ -18,7 +21,8 @@ internal static class HeapTable
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture,
             $"Heaps of balls of 0.5 m and 1 kg, three by three a layer, let fall into a groove whose sides stand at 45 degrees, restitution 0.2; the first {Seconds} s; wall clock"));
-        Console.WriteLine("| heaps | balls in each | friction | ms for a simulated second, the most expensive quarter of one | the mean | events | hash |");
+        Console.WriteLine(
+            "| heaps | balls in each | friction | ms for a simulated second, the most expensive quarter of one | the mean | events | hash |");
         Console.WriteLine("|---|---|---|---|---|---|---|");
         Row[] rows = brief
             ? [new(1, 9, 0.3), new(2, 9, 0.3)]

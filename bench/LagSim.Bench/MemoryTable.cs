@@ -21,7 +21,8 @@ internal static class MemoryTable
         Console.WriteLine(string.Create(
             CultureInfo.InvariantCulture, $"Memory after 3 s of gas at volume fraction {Fraction}, H = {History} s; a segment with its key and links takes {SegmentBytes()} bytes"));
         Console.WriteLine(
-            "| bodies | segments a second each | kept each | formula, MB | room for segments, MB | room : formula | the same with one segment more a body | neighbour lists, MB | all else, MB | whole world by the collector, MB |");
+            "| bodies | segments a second each | kept each | formula, MB | room for segments, MB | room : formula | the same with one segment more a body "
+            + "| neighbour lists, MB | all else, MB | whole world by the collector, MB |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|");
         foreach (int bodies in brief ? new[] { 1_000 } : new[] { 1_000, 2_000, 4_000, 10_000, 30_000 })
         {

@@ -196,7 +196,9 @@ public sealed class SessionTest
     /// Ends a run early, by an <see cref="OperationCanceledException"/>; default none. Pass that of the test framework.
     /// </param>
     /// <returns>The result: how many events were late, what healing did, the network traffic, and the world to read.</returns>
-    /// <exception cref="WorldsDifferException">A state that a player committed, or what its world keeps at the end, differs. The message names the first difference.</exception>
+    /// <exception cref="WorldsDifferException">
+    /// A state that a player committed, or what its world keeps at the end, differs. The message names the first difference.
+    /// </exception>
     /// <exception cref="SessionTestException">The session did not finish, or a player performed an action that is not allowed.</exception>
     /// <exception cref="ArgumentOutOfRangeException">
     /// <paramref name="seconds"/> is out of range, or something is planned for later.

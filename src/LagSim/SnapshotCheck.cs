@@ -112,7 +112,8 @@ internal static class SnapshotCheck
         bool isMember = body.Segment.IsOfIsland;
         if (!isMember && (body.Contacts.Length > 0 || body.Centre != default || body.StillSince != default))
         {
-            throw new SceneException($"The motion of {whose} is {body.Law}; only what is Constrained, or rests and no plane carries it, has persistent contacts.");
+            throw new SceneException(
+                $"The motion of {whose} is {body.Law}; only what is Constrained, or rests and no plane carries it, has persistent contacts.");
         }
 
         SimDuration longest = new ContactScale(scene.ContactTolerance, scene.Gravity, default).Step;

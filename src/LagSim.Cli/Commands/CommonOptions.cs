@@ -193,8 +193,7 @@ internal sealed class CommonOptions
                 return value;
             }
 
-            string typed = (result.Parent as OptionResult)?.IdentifierToken?.Value ?? name; // it may be an alias
-            result.AddError($"{typed} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
+            result.AddError($"{Typed(result, name)} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
             return byDefault;
         },
     };
@@ -207,7 +206,7 @@ internal sealed class CommonOptions
             return value;
         }
 
-        result.AddError(FormattableString.Invariant($"{name} is '{Token(result)}'; it must be a number between {least} and {most}."));
+        result.AddError(FormattableString.Invariant($"{Typed(result, name)} is '{Token(result)}'; it must be a number between {least} and {most}."));
         return double.NaN;
     }
 
@@ -221,6 +220,9 @@ internal sealed class CommonOptions
         result.AddError($"--seed is '{Token(result)}'; it must be a whole number between 0 and {ulong.MaxValue}.");
         return 0;
     }
+
+    /// <summary>The option as it was typed, which may be an alias.</summary>
+    private static string Typed(ArgumentResult result, string name) => (result.Parent as OptionResult)?.IdentifierToken?.Value ?? name;
 
     private static string Token(ArgumentResult result) => result.Tokens.Count == 1 ? result.Tokens[0].Value : "";
 }

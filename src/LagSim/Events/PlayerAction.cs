@@ -91,6 +91,8 @@ public readonly struct PlayerAction
         _ => throw new InvalidOperationException("The default PlayerAction is no action."),
     };
 
-    /// <summary>The kind and the body, such as <c>Grab of body 0.0.3</c>; the kind alone for a spawn, whose body gets its identity later.</summary>
+    /// <summary>
+    /// The kind and the body, such as <c>Grab of body 0.0.3</c>; the kind alone for a spawn, whose body gets its identity later.
+    /// </summary>
     public override string ToString() => Kind is EventKind.None or EventKind.Spawn ? Kind.ToString() : $"{Kind} of body {body}";
 }

@@ -279,7 +279,8 @@ public abstract class DatagramPortSuite
     {
         IDatagramPort port = Open(new IPEndPoint(IPAddress.Loopback, 0));
         IPEndPoint endPoint = port.LocalAddress.ToEndPoint();
-        await Task.Run(port.Dispose, TestContext.Current.CancellationToken).WaitAsync(TimeSpan.FromMinutes(1), TestContext.Current.CancellationToken); // it may not hang
+        CancellationToken cancellation = TestContext.Current.CancellationToken;
+        await Task.Run(port.Dispose, cancellation).WaitAsync(TimeSpan.FromMinutes(1), cancellation); // it may not hang
         port.Dispose();
         Assert.Throws<ObjectDisposedException>(() => port.Send(new byte[1], PeerAddress.From(endPoint)));
         Assert.False(port.TryReceive(new byte[IDatagramPort.MaxDatagramBytes], out _, out _));

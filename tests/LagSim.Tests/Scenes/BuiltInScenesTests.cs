@@ -128,4 +128,13 @@ public sealed class BuiltInScenesTests
 
     private static TimelineEntry[] Impacts(Simulation world, BodyId body) =>
         [.. world.Timeline(body).Where(entry => entry.Key.Kind == EventKind.Impact)];
+
+    [Fact]
+    public void Describe_ABody_NamesThoseOfTheSceneAlone()
+    {
+        Scene scene = BuiltInScenes.Pair();
+        Assert.Equal($"body '{scene.Bodies[1].Name}' (0.0.1)", scene.Describe(BodyId.OfScene(1)));
+        Assert.Equal("body 0.0.99", scene.Describe(BodyId.OfScene(99)));
+        Assert.Equal("body 1.2.0", scene.Describe(new BodyId(1, 2, 0)));
+    }
 }

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Experiments.Sweep;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
@@ -82,18 +83,6 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         Assert.InRange(outcome.DeliveredBytesPerSecond, 0.95 * outcome.OfferedBytesPerSecond, 1.05 * outcome.OfferedBytesPerSecond);
     }
 
-    /// <summary>Eight balls that never meet: what is measured is the link, not the world.</summary>
-    private static Scene Apart()
-    {
-        SceneBuilder scene = new SceneBuilder("apart").WithGravity(default);
-        for (int n = 0; n < 8; n++)
-        {
-            scene.AddBody($"ball {n}", new BodySpec(0.5, 1, 1), new Vector3D(1000 * n, 0, 0));
-        }
-
-        return scene.Build();
-    }
-
     /// <summary>Bytes a second that came to a client of each of two sessions, both behind one link.</summary>
     private static (double First, double Second) Share(double queueMs, double firstLoad, double secondLoad, ulong seed)
     {
@@ -151,7 +140,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
             IDatagramPort port = network.CreatePort(number);
             HostOptions options = new() { ExpectedClients = 2, Cancellation = TestContext.Current.CancellationToken };
             Session session = host < 0
-                ? new HostSession(Apart(), port, clock, options, seed)
+                ? new HostSession(BuiltInScenes.Billiards(), port, clock, options, seed)
                 : new ClientSession(null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(host), seed + (ulong)number);
             steps.Add(session, port);
             return session;

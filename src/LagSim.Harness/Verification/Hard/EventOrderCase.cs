@@ -101,8 +101,13 @@ internal sealed class EventOrderCase : IHardCase
     }
 
     private HardRow Row(string size, World bruteForce, params World[] worlds) => new(
-        Name, size, worlds.Sum(w => (w.Events != bruteForce.Events ? 1 : 0) + (w.State != bruteForce.State ? 1 : 0)), "hashes_that_differ", 0,
-        "a hash of every event's key and outcome and one of all states at the end: a bit is right or wrong", "the run on one thread by brute force");
+        Name,
+        size,
+        worlds.Sum(w => (w.Events != bruteForce.Events ? 1 : 0) + (w.State != bruteForce.State ? 1 : 0)),
+        "hashes_that_differ",
+        0,
+        "a hash of every event's key and outcome and one of all states at the end: a bit is right or wrong",
+        "the run on one thread by brute force");
 
     private readonly record struct World(ulong Events, ulong State, long Count);
 }
