@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Net.Protection;
 using LagSim.Scenes;
 
 namespace LagSim.Net.Sessions;
@@ -41,6 +42,15 @@ public sealed record ClientOptions : SessionOptions
     /// number without proof if that is free, but only for its first <see cref="SessionOptions.RejoinTime"/>.
     /// </remarks>
     public PlayerPass Pass { get; init; }
+
+    /// <summary>
+    /// Which host the client wants, and its handshake: with it every datagram is encrypted and authenticated, and only a host with
+    /// protection is joined. Default null: the session is not protected, and anyone on the path can read, change and forge what is sent.
+    /// </summary>
+    /// <remarks>Each session needs one of its own. The package <c>LagSim.Net.Secure</c> has it: <c>SecureClient</c>.</remarks>
+    public IClientProtection? Protection { get; init; }
+
+    internal override bool IsProtected => Protection is not null;
 
     /// <summary>The accelerations that this program can supply to the host's scene; default none.</summary>
     /// <remarks>None may be null. The list is copied: later changes to it have no effect.</remarks>

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Time;
 
@@ -95,6 +96,15 @@ public sealed record HostOptions : SessionOptions
 
     /// <summary>The delay between all expected clients being ready and the start of the scene, 0 to 60 s; default 500 ms.</summary>
     public SimDuration StartLead { get; init; } = SimDuration.FromMilliseconds(500);
+
+    /// <summary>
+    /// The host's identity and handshake: with it every datagram is encrypted and authenticated, and clients can tell this host from any
+    /// other. Default null: the session is not protected, and anyone on the path can read, change and forge what is sent.
+    /// </summary>
+    /// <remarks>Sessions may share one. The package <c>LagSim.Net.Secure</c> has it: <c>SecureHost</c>.</remarks>
+    public IHostProtection? Protection { get; init; }
+
+    internal override bool IsProtected => Protection is not null;
 
     /// <summary>The limits on clients that are still joining.</summary>
     internal JoinLimits JoinLimits { get; init; } = new();

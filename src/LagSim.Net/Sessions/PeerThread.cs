@@ -372,6 +372,7 @@ public sealed class PeerThread : IDisposable
                 owner.Failures.Guard(() => port.Arrived -= thread.Wake);
                 if (ownsPort)
                 {
+                    owner.Failures.Guard(Session.WipeKeys);
                     owner.Failures.Guard(port.Dispose);
                 }
             }

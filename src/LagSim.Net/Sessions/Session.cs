@@ -117,6 +117,12 @@ public abstract class Session
         remove => parts.Owner.Failures.Failed -= value;
     }
 
+    /// <summary>
+    /// Whether every datagram is encrypted and authenticated: the options have a protection. If not, anyone on the path can read, change and
+    /// forge what is sent. From any thread.
+    /// </summary>
+    public bool IsProtected => parts.Options.IsProtected;
+
     /// <summary>The scene that all peers share; null for a client that has not received it. From any thread.</summary>
     public Scene? Scene => parts.World.Scene;
 
@@ -299,6 +305,9 @@ public abstract class Session
         parts.Owner.ThrowIfForeign();
         return loop.Step();
     }
+
+    /// <summary>Wipes the keys of all links, once the session has ended. Nothing can be sent over them any more.</summary>
+    internal void WipeKeys() => protocol.WipeKeys();
 
     /// <summary>Ends the session, or asks for a fresh snapshot, because its world cannot be simulated any further.</summary>
     private protected void EndWorld(SimulationException failure) => loop.EndWorld(failure);

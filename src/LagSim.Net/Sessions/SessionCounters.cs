@@ -27,6 +27,7 @@ public sealed class SessionCounters
         DatagramsReceived = other.DatagramsReceived;
         DatagramsMalformed = other.DatagramsMalformed;
         DatagramsIgnored = other.DatagramsIgnored;
+        DatagramsForged = other.DatagramsForged;
         DatagramsSent = other.DatagramsSent;
         EventsAccepted = other.EventsAccepted;
         EventsRefused = other.EventsRefused;
@@ -52,6 +53,12 @@ public sealed class SessionCounters
 
     /// <summary>Valid datagrams that do not belong here: from another session, a stranger, or an earlier time.</summary>
     public long DatagramsIgnored { get; internal set; }
+
+    /// <summary>
+    /// Datagrams to a protected session that nobody of the session sealed: forged, changed on the way, or not protected at all. One that
+    /// was sealed and comes again counts as <see cref="DatagramsIgnored"/>.
+    /// </summary>
+    public long DatagramsForged { get; internal set; }
 
     /// <summary>Datagrams sent.</summary>
     public long DatagramsSent { get; internal set; }

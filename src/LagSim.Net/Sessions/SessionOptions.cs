@@ -36,8 +36,10 @@ public abstract record SessionOptions
     /// is never sent.
     /// </summary>
     /// <remarks>
-    /// It keeps strangers out; it does not encrypt. Choose a long random key: an eavesdropper or a fake host obtains data against which it
-    /// can test guesses offline, and a host never proves to a client that it knows the key.
+    /// It keeps strangers out. In a session without protection it does not encrypt: choose a long random key, since an eavesdropper or a
+    /// fake host obtains data against which it can test guesses offline, and a host never proves to a client that it knows the key. In a
+    /// protected session it is mixed into the keys, so both prove that they know it, and an eavesdropper cannot test guesses; a fake host can
+    /// only if the client does not say which host it wants.
     /// </remarks>
     public string ConnectKey { get; init; } = "";
 
@@ -173,6 +175,9 @@ public abstract record SessionOptions
     /// ended.
     /// </remarks>
     public CancellationToken Cancellation { get; init; }
+
+    /// <summary>Whether datagrams are encrypted and authenticated.</summary>
+    internal abstract bool IsProtected { get; }
 
     /// <summary>The type's name only: keys are secret and must not end up in a log.</summary>
     public sealed override string ToString() => GetType().Name;

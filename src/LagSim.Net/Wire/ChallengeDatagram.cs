@@ -3,24 +3,28 @@ using System;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// The host's answer to a <see cref="ConnectRequestDatagram"/>, or to an update from a new address: the client must return this cookie to
-/// prove its address.
+/// The host's answer to a <see cref="ConnectRequestDatagram"/>: the client must return this cookie to prove its address. It shows the
+/// host's identity, too, which nothing proves yet.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct ChallengeDatagram
 {
     /// <summary>Creates an answer from its fields.</summary>
-    public ChallengeDatagram(ulong nonce, Token128 cookie)
+    public ChallengeDatagram(ulong nonce, Token128 cookie, in PublicIdentity identity = default)
     {
         Nonce = nonce;
         Cookie = cookie;
+        Identity = identity;
     }
 
-    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers, or the session id of the update.</summary>
+    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> that this answers.</summary>
     public ulong Nonce { get; }
 
     /// <summary>A token that only the host can make, and only for this address and nonce.</summary>
     public Token128 Cookie { get; }
+
+    /// <summary>The host's identity; none if it has no protection.</summary>
+    public PublicIdentity Identity { get; }
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.ChallengeBytes"/>.</returns>
@@ -31,6 +35,7 @@ internal readonly struct ChallengeDatagram
         writer.WriteHeader(DatagramType.Challenge);
         writer.WriteUInt64(Nonce);
         Cookie.Write(ref writer);
+        Identity.Write(ref writer);
         return writer.Position;
     }
 
@@ -41,7 +46,7 @@ internal readonly struct ChallengeDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out ChallengeDatagram challenge, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Challenge);
-        challenge = new ChallengeDatagram(reader.ReadUInt64(), Token128.Read(ref reader));
+        challenge = new ChallengeDatagram(reader.ReadUInt64(), Token128.Read(ref reader), PublicIdentity.Read(ref reader));
         return reader.Finish(out refusal);
     }
 }

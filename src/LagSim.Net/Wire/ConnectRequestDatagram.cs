@@ -11,6 +11,8 @@ namespace LagSim.Net.Wire;
 /// </remarks>
 internal readonly struct ConnectRequestDatagram
 {
+    private const int PaddingBytes = WireFormat.ConnectRequestBytes - WireFormat.HeaderBytes - sizeof(ulong);
+
     /// <summary>Creates a request with this nonce.</summary>
     public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;
 
@@ -27,8 +29,7 @@ internal readonly struct ConnectRequestDatagram
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.ConnectRequest);
         writer.WriteUInt64(Nonce);
-        writer.WriteUInt64(0); // padding, so that the answer is no longer than the request
-        writer.WriteUInt64(0);
+        writer.WriteBytes(stackalloc byte[PaddingBytes]); // so that the answer is no longer than the request
         return writer.Position;
     }
 
@@ -40,7 +41,13 @@ internal readonly struct ConnectRequestDatagram
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.ConnectRequest);
         request = new ConnectRequestDatagram(reader.ReadUInt64());
-        reader.Require((reader.ReadUInt64() | reader.ReadUInt64()) == 0);
+        ulong padding = 0;
+        for (int n = 0; n < PaddingBytes; n += sizeof(ulong))
+        {
+            padding |= reader.ReadUInt64();
+        }
+
+        reader.Require(padding == 0);
         return reader.Finish(out refusal);
     }
 
@@ -48,7 +55,7 @@ internal readonly struct ConnectRequestDatagram
     internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce)
     {
         nonce = 0;
-        if (datagram.Length < WireFormat.ConnectRequestBytes || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.ConnectRequest)
+        if (datagram.Length < WireFormat.ShortestConnectRequestBytes || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.ConnectRequest)
         {
             return false;
         }

@@ -21,7 +21,7 @@ internal enum DatagramType : byte
     /// <summary>A <see cref="LeaveDatagram"/>: ends a peer's part in the session.</summary>
     Leave = 5,
 
-    /// <summary>A <see cref="ChallengeDatagram"/>: asks for proof of an address, to join or after a change of address.</summary>
+    /// <summary>A <see cref="ChallengeDatagram"/>: asks for proof of an address, to join.</summary>
     Challenge = 6,
 
     /// <summary>A <see cref="JoinDatagram"/>: asks to be let in.</summary>
@@ -44,4 +44,22 @@ internal enum DatagramType : byte
 
     /// <summary>A <see cref="MoveDatagram"/>: announces a new address.</summary>
     Move = 13,
+
+    /// <summary>A <see cref="MoveChallengeDatagram"/>: asks for proof of a new address.</summary>
+    MoveChallenge = 14,
+
+    /// <summary>A <see cref="SecureJoinDatagram"/>: asks to be let in, encrypted.</summary>
+    SecureJoin = 15,
+
+    /// <summary>A <see cref="SecureAnswerDatagram"/>: lets a client in, encrypted.</summary>
+    SecureWelcome = 16,
+
+    /// <summary>A <see cref="SecureAnswerDatagram"/>: refuses a client, with the reason, encrypted.</summary>
+    SecureRefusal = 17,
+
+    /// <summary>A <see cref="ResetDatagram"/>: a host proves that it does not have a client any more.</summary>
+    Reset = 18,
+
+    /// <summary>A <see cref="SealedDatagram"/>: another datagram of a link, encrypted.</summary>
+    Sealed = 19,
 }

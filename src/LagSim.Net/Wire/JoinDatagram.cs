@@ -46,10 +46,26 @@ internal readonly struct JoinDatagram
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
     public int Encode(Span<byte> destination)
     {
+        int length = WritePrologue(destination, DatagramType.Join, Nonce, Cookie);
+        return length + EncodeClaims(destination.Slice(length));
+    }
+
+    /// <summary>Writes what comes before the claims, of this datagram and of a <see cref="SecureJoinDatagram"/>.</summary>
+    /// <returns>Its length, <see cref="WireFormat.JoinPrologueBytes"/>.</returns>
+    internal static int WritePrologue(Span<byte> destination, DatagramType type, ulong nonce, Token128 cookie)
+    {
         WireWriter writer = new(destination);
-        writer.WriteHeader(DatagramType.Join);
-        writer.WriteUInt64(Nonce);
-        Cookie.Write(ref writer);
+        writer.WriteHeader(type);
+        writer.WriteUInt64(nonce);
+        cookie.Write(ref writer);
+        return writer.Position;
+    }
+
+    /// <summary>Writes what the client claims: all but nonce and cookie.</summary>
+    /// <returns>Its length, <see cref="WireFormat.JoinClaimBytes"/>.</returns>
+    internal int EncodeClaims(Span<byte> destination)
+    {
+        WireWriter writer = new(destination);
         Proof.Write(ref writer);
         writer.WriteUInt64(SceneHash);
         writer.WriteUInt32(FoldVersion);
@@ -65,8 +81,20 @@ internal readonly struct JoinDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out JoinDatagram join, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Join);
+        return TryReadClaims(ref reader, reader.ReadUInt64(), Token128.Read(ref reader), out join, out refusal);
+    }
+
+    /// <summary>Reads what a client claims in a <see cref="SecureJoinDatagram"/> of that nonce and cookie; never throws.</summary>
+    internal static bool TryDecodeClaims(ReadOnlySpan<byte> claims, ulong nonce, Token128 cookie, out JoinDatagram join)
+    {
+        WireReader reader = new(claims);
+        return TryReadClaims(ref reader, nonce, cookie, out join, out _);
+    }
+
+    private static bool TryReadClaims(ref WireReader reader, ulong nonce, Token128 cookie, out JoinDatagram join, out WireRefusal refusal)
+    {
         join = new JoinDatagram(
-            reader.ReadUInt64(), Token128.Read(ref reader), Token128.Read(ref reader), reader.ReadUInt64(), reader.ReadUInt32(), reader.ReadByte(), Token128.Read(ref reader));
+            nonce, cookie, Token128.Read(ref reader), reader.ReadUInt64(), reader.ReadUInt32(), reader.ReadByte(), Token128.Read(ref reader));
         reader.Require(join.Player != 0 || join.PlayerProof == default);
         return reader.Finish(out refusal);
     }

@@ -22,7 +22,7 @@ internal readonly struct MoveDatagram
     /// <summary>The client; 0 if it has no number yet.</summary>
     public byte Peer { get; }
 
-    /// <summary>The cookie of the <see cref="ChallengeDatagram"/> that carried the session id.</summary>
+    /// <summary>The cookie of the <see cref="MoveChallengeDatagram"/>.</summary>
     public Token128 Cookie { get; }
 
     /// <summary>Writes the datagram.</summary>

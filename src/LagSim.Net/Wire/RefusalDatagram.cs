@@ -19,7 +19,10 @@ internal readonly struct RefusalDatagram
     /// <summary>The reason.</summary>
     public RefusalReason Reason { get; }
 
-    private bool IsWellFormed => Reason is >= RefusalReason.VersionDiffers and <= RefusalReason.Banned;
+    private bool IsWellFormed => IsOne(Reason);
+
+    /// <summary>Whether a number is that of a reason.</summary>
+    internal static bool IsOne(RefusalReason reason) => reason is >= RefusalReason.VersionDiffers and <= RefusalReason.ProtectedOnly;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>

@@ -26,4 +26,7 @@ internal enum RefusalReason : byte
 
     /// <summary>The host lets no client in from that machine: <see cref="Sessions.HostSession.Ban"/>.</summary>
     Banned = 8,
+
+    /// <summary>The host's sessions are protected, and the client's are not.</summary>
+    ProtectedOnly = 9,
 }

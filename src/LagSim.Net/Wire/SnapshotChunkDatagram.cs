@@ -7,7 +7,7 @@ namespace LagSim.Net.Wire;
 internal readonly ref struct SnapshotChunkDatagram
 {
     /// <summary>The length of every chunk but the last.</summary>
-    public const int MaxData = WireFormat.MaxBytes - WireFormat.EmptySnapshotChunkBytes;
+    public const int MaxData = WireFormat.MaxPlainBytes - WireFormat.EmptySnapshotChunkBytes;
 
     /// <summary>Creates a chunk from its fields.</summary>
     public SnapshotChunkDatagram(ulong sessionId, uint index, ReadOnlySpan<byte> data)

@@ -7,7 +7,7 @@ namespace LagSim.Net.Wire;
 internal sealed partial class UpdateDatagram
 {
     /// <summary>Writes the datagram.</summary>
-    /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxBytes"/> always do.</param>
+    /// <param name="destination">At least <see cref="EncodedLength"/> bytes; <see cref="WireFormat.MaxPlainBytes"/> always do.</param>
     /// <returns>Its length, <see cref="EncodedLength"/>.</returns>
     /// <exception cref="ArgumentException">The destination is too short, or a time is out of range.</exception>
     /// <exception cref="InvalidOperationException">

@@ -15,7 +15,7 @@ namespace LagSim.Net.Wire;
 internal sealed partial class UpdateDatagram
 {
     /// <summary>The most entries that a datagram can hold: that many numbers of the addressee's own events.</summary>
-    public const int MaxEntries = (WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes) / OwnEntryBytes;
+    public const int MaxEntries = (WireFormat.MaxPlainBytes - WireFormat.EmptyUpdateBytes) / OwnEntryBytes;
 
     /// <summary>The most hashes that a datagram can hold.</summary>
     public const int MaxHashes = 8;
@@ -179,7 +179,7 @@ internal sealed partial class UpdateDatagram
 
         int length = LengthOf(entry);
         bool fits = count < MaxEntries
-            && WireFormat.EmptyUpdateBytes + HashBytes + WireFormat.StartBytes + entryBytes + length <= WireFormat.MaxBytes;
+            && WireFormat.EmptyUpdateBytes + HashBytes + WireFormat.StartBytes + entryBytes + length <= WireFormat.MaxPlainBytes;
         if (fits)
         {
             entries[count++] = entry;

@@ -48,6 +48,17 @@ internal readonly struct WelcomeDatagram
     /// <exception cref="InvalidOperationException">A field is out of range.</exception>
     public int Encode(Span<byte> destination)
     {
+        WireWriter writer = new(destination);
+        writer.WriteHeader(DatagramType.Welcome);
+        writer.WriteUInt64(Nonce);
+        return writer.Position + EncodeTerms(destination.Slice(writer.Position));
+    }
+
+    /// <summary>Writes the terms: all but the nonce.</summary>
+    /// <returns>Its length, <see cref="WireFormat.WelcomeTermBytes"/>.</returns>
+    /// <exception cref="InvalidOperationException">A field is out of range.</exception>
+    internal int EncodeTerms(Span<byte> destination)
+    {
         if (!IsWellFormed)
         {
             throw new InvalidOperationException(
@@ -56,8 +67,6 @@ internal readonly struct WelcomeDatagram
         }
 
         WireWriter writer = new(destination);
-        writer.WriteHeader(DatagramType.Welcome);
-        writer.WriteUInt64(Nonce);
         writer.WriteUInt64(SessionId);
         writer.WriteInt64(History.Ticks);
         writer.WriteUInt32((uint)CopyLength);
@@ -73,14 +82,20 @@ internal readonly struct WelcomeDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out WelcomeDatagram welcome, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Welcome);
-        ulong nonce = reader.ReadUInt64();
+        welcome = ReadTerms(ref reader, reader.ReadUInt64());
+        return reader.Finish(out refusal);
+    }
+
+    /// <summary>Reads the terms of a welcome with that nonce; a reader that has refused gives none of use.</summary>
+    internal static WelcomeDatagram ReadTerms(ref WireReader reader, ulong nonce)
+    {
         ulong session = reader.ReadUInt64();
         SimDuration history = SimDuration.FromTicks(reader.ReadInt64());
         uint length = reader.ReadUInt32();
         reader.Require(length <= SessionSnapshot.MaxBytes);
-        welcome = new WelcomeDatagram(
+        WelcomeDatagram welcome = new(
             nonce, session, history, (int)Math.Min(length, SessionSnapshot.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
         reader.Require(welcome.IsWellFormed);
-        return reader.Finish(out refusal);
+        return welcome;
     }
 }

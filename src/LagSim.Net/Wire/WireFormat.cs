@@ -1,5 +1,6 @@
 using System;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Time;
 
 namespace LagSim.Net.Wire;
@@ -11,22 +12,57 @@ internal static class WireFormat
     public const ushort Magic = 0x4C53;
 
     /// <summary>The version of the layouts. Any change to a layout, a range or an enum's numbers needs another version.</summary>
-    public const byte Version = 8;
+    public const byte Version = 9;
 
     /// <summary>Magic, version and type.</summary>
     public const int HeaderBytes = 4;
 
     /// <summary>The length of a <see cref="ConnectRequestDatagram"/>.</summary>
-    public const int ConnectRequestBytes = 28;
+    public const int ConnectRequestBytes = 60;
+
+    /// <summary>The least length of a <see cref="ConnectRequestDatagram"/> in any version.</summary>
+    public const int ShortestConnectRequestBytes = 28;
 
     /// <summary>The length of a <see cref="ChallengeDatagram"/>: no longer than what it answers.</summary>
-    public const int ChallengeBytes = 28;
+    public const int ChallengeBytes = 60;
+
+    /// <summary>The length of a <see cref="MoveChallengeDatagram"/>: shorter than what it answers.</summary>
+    public const int MoveChallengeBytes = 28;
+
+    /// <summary>The length of what a <see cref="JoinDatagram"/> begins with: header, nonce and cookie.</summary>
+    public const int JoinPrologueBytes = 28;
+
+    /// <summary>The length of the rest of a <see cref="JoinDatagram"/>, and of the payload of a <see cref="SecureJoinDatagram"/>.</summary>
+    public const int JoinClaimBytes = 45;
 
     /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
-    public const int JoinBytes = 73;
+    public const int JoinBytes = JoinPrologueBytes + JoinClaimBytes;
+
+    /// <summary>The length of a <see cref="SecureJoinDatagram"/>.</summary>
+    public const int SecureJoinBytes = JoinPrologueBytes + IHostProtection.HandshakeOverhead + JoinClaimBytes;
+
+    /// <summary>The length of a <see cref="WelcomeDatagram"/> after its nonce.</summary>
+    public const int WelcomeTermBytes = 32;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
-    public const int WelcomeBytes = 44;
+    public const int WelcomeBytes = HeaderBytes + sizeof(ulong) + WelcomeTermBytes;
+
+    /// <summary>The length of the payload of a secure welcome: the terms, and the token of a <see cref="ResetDatagram"/>.</summary>
+    public const int SecureWelcomePayloadBytes = WelcomeTermBytes + IHostProtection.ResetTokenBytes;
+
+    /// <summary>The length of a secure welcome, a <see cref="SecureAnswerDatagram"/>.</summary>
+    public const int SecureWelcomeBytes =
+        HeaderBytes + sizeof(ulong) + IHostProtection.HandshakeOverhead + SecureWelcomePayloadBytes;
+
+    /// <summary>The length of the payload of a secure refusal: the reason.</summary>
+    public const int SecureRefusalPayloadBytes = 1;
+
+    /// <summary>The length of a secure refusal, a <see cref="SecureAnswerDatagram"/>.</summary>
+    public const int SecureRefusalBytes =
+        HeaderBytes + sizeof(ulong) + IHostProtection.HandshakeOverhead + SecureRefusalPayloadBytes;
+
+    /// <summary>The length of a <see cref="ResetDatagram"/>: shorter than any sealed datagram.</summary>
+    public const int ResetBytes = 29;
 
     /// <summary>The length of a <see cref="SeatDatagram"/>: shorter than any update.</summary>
     public const int SeatBytes = 33;
@@ -66,6 +102,12 @@ internal static class WireFormat
 
     /// <summary>The longest datagram.</summary>
     public const int MaxBytes = IDatagramPort.MaxDatagramBytes;
+
+    /// <summary>How much longer a datagram is when it is sealed; see <see cref="SealedDatagram"/>.</summary>
+    public const int SealBytes = 23;
+
+    /// <summary>The longest datagram that can be sealed, protected or not: what a link carries does not depend on that.</summary>
+    public const int MaxPlainBytes = MaxBytes - SealBytes;
 
     /// <summary>
     /// The most ticks (48 days) that an encoded time may be from its origin, so that no sum or difference of two of them that a receiver

@@ -41,7 +41,7 @@ internal ref struct WireReader
     /// </summary>
     public static WireReader Open(ReadOnlySpan<byte> datagram, DatagramType type)
     {
-        WireReader reader = new(datagram);
+        WireReader reader = new(datagram, type == DatagramType.Sealed ? WireFormat.MaxBytes : WireFormat.MaxPlainBytes);
         DatagramType found = reader.ReadHeader();
         reader.Require(found == type, WireRefusal.OtherType);
         return reader;
@@ -54,7 +54,7 @@ internal ref struct WireReader
         Require(ReadUInt16() == WireFormat.Magic, WireRefusal.NotLagSim);
         Require(ReadByte() == WireFormat.Version, WireRefusal.VersionDiffers);
         DatagramType type = (DatagramType)ReadByte();
-        Require(type is >= DatagramType.ConnectRequest and <= DatagramType.Move, WireRefusal.UnknownType);
+        Require(type is >= DatagramType.ConnectRequest and <= DatagramType.Sealed, WireRefusal.UnknownType);
         return type;
     }
 

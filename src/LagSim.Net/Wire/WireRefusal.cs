@@ -9,7 +9,7 @@ internal enum WireRefusal : byte
     /// <summary>It ends before its last field.</summary>
     TooShort = 1,
 
-    /// <summary>It is longer than <see cref="WireFormat.MaxBytes"/>.</summary>
+    /// <summary>It is longer than <see cref="WireFormat.MaxPlainBytes"/>; a sealed one, than <see cref="WireFormat.MaxBytes"/>.</summary>
     TooLong = 2,
 
     /// <summary>It does not begin with <see cref="WireFormat.Magic"/>.</summary>

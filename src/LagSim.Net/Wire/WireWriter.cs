@@ -84,7 +84,7 @@ internal ref struct WireWriter
     }
 
     /// <summary>Writes these bytes as they are.</summary>
-    internal void WriteBytes(ReadOnlySpan<byte> value) => value.CopyTo(Next(value.Length));
+    internal void WriteBytes(scoped ReadOnlySpan<byte> value) => value.CopyTo(Next(value.Length));
 
     /// <summary>Writes magic, version and type, with which every datagram begins.</summary>
     public void WriteHeader(DatagramType type)

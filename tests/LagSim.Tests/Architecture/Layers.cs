@@ -29,13 +29,14 @@ internal static class Layers
         ["LagSim/Hosting"],
 
         // Peers.
+        ["LagSim.Net/Protection"],
         ["LagSim.Net/Carriers", "LagSim.Net/Clocks", "LagSim.Net/Display", "LagSim.Net/Strategies", "LagSim.Net/Wire"],
         [SessionWords],
         ["LagSim.Net/Sessions/Links"],
         ["LagSim.Net/Sessions/Core"],
         ["LagSim.Net/Sessions/Hosts", "LagSim.Net/Sessions/Clients"],
         ["LagSim.Net/Sessions"],
-        ["LagSim.Net/Recordings", "LagSim.Net.LiteNetLib"],
+        ["LagSim.Net/Recordings", "LagSim.Net.LiteNetLib", "LagSim.Net.Secure"],
 
         // Tests for games.
         ["LagSim.Testing/Links", "LagSim.Testing/Text"],

@@ -20,14 +20,14 @@ public sealed class DatagramIntakeTests : IDatagramHandler
     [Fact]
     public void Take_EachKind_GoesWhereItBelongs()
     {
-        DatagramIntake intake = new(counters, this);
+        DatagramIntake intake = new(counters, this, isProtected: false);
         byte[] request = new byte[WireFormat.ConnectRequestBytes];
         new ConnectRequestDatagram(1).Encode(request);
         byte[] other = (byte[])request.Clone();
         other[2]++;
         UpdateLink link = new LinkFactory(SimDuration.FromMilliseconds(30)).To(PeerAddress.Virtual(1), 1, 0, SimTime.Zero);
         link.Compose(SimTime.FromSeconds(1));
-        ReadOnlySpan<byte> update = link.Seal(new OwnEvents(0), SimTime.FromSeconds(1), SimDuration.FromSeconds(1), isUrgent: false);
+        ReadOnlySpan<byte> update = link.Complete(new OwnEvents(0), SimTime.FromSeconds(1), SimDuration.FromSeconds(1), isUrgent: false);
         intake.Take(request, PeerAddress.Virtual(1));
         intake.Take(other, PeerAddress.Virtual(1));
         intake.Take(update, PeerAddress.Virtual(1));
@@ -39,7 +39,11 @@ public sealed class DatagramIntakeTests : IDatagramHandler
 
     void IDatagramHandler.OnUpdate(UpdateDatagram update, PeerAddress from) => taken.Add($"update {update.Number}");
 
-    void IDatagramHandler.OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from) => taken.Add(type.ToString());
+    LinkSeal? IDatagramHandler.SealOf(ulong sessionId) => null;
+
+    void IDatagramHandler.OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from, bool isSealed) => taken.Add(type.ToString());
+
+    void IDatagramHandler.OnStrayDatagram(ulong sessionId, PeerAddress from) => taken.Add("stray");
 
     void IDatagramHandler.OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from) => taken.Add("other version");
 }

@@ -50,7 +50,7 @@ public sealed class MovingTests
         group.Network.Lose((from, to, datagram) =>
         {
             session = from == 1 && datagram.Span[3] == (byte)DatagramType.Update ? BitConverter.ToUInt64(datagram.Span[4..12]) : session;
-            if (to == 1 && ChallengeDatagram.TryDecode(datagram.Span, out ChallengeDatagram challenge, out _))
+            if (to == 1 && MoveChallengeDatagram.TryDecode(datagram.Span, out MoveChallengeDatagram challenge, out _))
             {
                 its = challenge.Cookie;
             }
@@ -102,7 +102,7 @@ public sealed class MovingTests
         Assert.Equal(0, group.Host.Counters.EventsAccepted);
         byte[] buffer = new byte[WireFormat.MaxBytes];
         Assert.True(thief.TryReceive(buffer, out int length, out _));
-        Assert.True(ChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out _, out _));
+        Assert.True(MoveChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out _, out _));
         Assert.False(thief.TryReceive(buffer, out _, out _));
         Assert.True(group.Settle(1, 1));
         Assert.Equal(NatPort.Address(1, 2000), group.Host.Links.Single().Address);

@@ -108,6 +108,18 @@ internal sealed class SessionGroup
     internal ClientSession Join(int address, ulong nonce, ClientOptions? options = null) =>
         (ClientSession)Add(address, null, options ?? new ClientOptions(), nonce);
 
+    /// <summary>Kills the host, and starts one at its address that knows nothing of it.</summary>
+    internal HostSession RestartHost(HostOptions options)
+    {
+        ports[0].Dispose();
+        IDatagramPort port = Network.CreatePort(0);
+        HostSession session = new(Scene, port, new SkewedClock(Clock, 0, SimDuration.FromSeconds(1)), options, SessionId + 1);
+        ports[0] = port;
+        IsTapped = false; // its log is another one
+        steps.Replace(0, session, port);
+        return session;
+    }
+
     /// <summary>Takes the peer that came last out of the group, gone or not.</summary>
     internal void DropLast()
     {

@@ -56,7 +56,7 @@ public sealed class UpdateLinkTests
             Assert.True(link.IsDue(Start) || n == 0);
             link.Compose(Start);
             link.Fill(entries, Start);
-            link.Seal(entries, Start, SimDuration.FromSeconds(1), isUrgent: true);
+            link.Complete(entries, Start, SimDuration.FromSeconds(1), isUrgent: true);
         }
 
         Assert.Equal(Start + SimDuration.FromMilliseconds(1), link.Due);
@@ -85,7 +85,7 @@ public sealed class UpdateLinkTests
 
             uint number = link.Compose(now).Number;
             link.Fill(entries, now);
-            bytes[(int)(now - Start).ToSeconds()] += link.Seal(entries, now, SimDuration.FromSeconds(1), isUrgent: true).Length;
+            bytes[(int)(now - Start).ToSeconds()] += link.Complete(entries, now, SimDuration.FromSeconds(1), isUrgent: true).Length;
             bool isEarly = (now - Start).ToSeconds() < 0.2; // by then the round trip is known
             if (isEarly || isAnswered)
             {
@@ -141,7 +141,7 @@ public sealed class UpdateLinkTests
 
             UpdateDatagram update = link.Compose(now);
             link.Fill(entries, now);
-            int length = link.Seal(entries, now, SimDuration.FromSeconds(1), isUrgent: true).Length;
+            int length = link.Complete(entries, now, SimDuration.FromSeconds(1), isUrgent: true).Length;
             bytes[now >= silent ? (int)(now - silent).ToSeconds() : 0] += now >= silent ? length : 0;
             double since = (now - Start).ToSeconds();
             answers.Enqueue((now + SimDuration.FromMilliseconds(since < 2 ? 50 : 50 + Math.Min(400, (since - 2) * 400)), update.Number, link.Outgoing.Sent));
@@ -161,12 +161,12 @@ public sealed class UpdateLinkTests
         Assert.InRange(empty, 0, 12); // one a second, as an idle link sends
     }
 
-    private static UpdateLink Link() => new(1, 0, 1, PeerAddress.Virtual(1), 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], Start);
+    private static UpdateLink Link() => new(new LinkEnds(1, PeerAddress.Virtual(1)) { Peer = 1 }, 0, SimDuration.FromMilliseconds(30), new UpdateDatagram(), new byte[WireFormat.MaxBytes], Start);
 
     private static void Send(UpdateLink link, SimTime now)
     {
         link.Compose(now);
-        Assert.False(link.Seal(new Entries(), now, SimDuration.FromSeconds(1), isUrgent: false).IsEmpty);
+        Assert.False(link.Complete(new Entries(), now, SimDuration.FromSeconds(1), isUrgent: false).IsEmpty);
     }
 
     private sealed class Entries : IEntrySource

@@ -20,6 +20,24 @@ internal static class AnyDatagram
         return buffer.Slice(0, new SnapshotChunkDatagram(session, index, data).Encode(buffer)).ToArray();
     }
 
+    internal static byte[] SecureAnswerBytes(DatagramType type, ulong nonce, ReadOnlySpan<byte> message)
+    {
+        byte[] prologue = new byte[SecureAnswerDatagram.PrologueBytes];
+        SecureAnswerDatagram.WritePrologue(prologue, type, nonce);
+        return [.. prologue, .. message];
+    }
+
+    internal static byte[] SealedBytes(ulong session, ulong number, ReadOnlySpan<byte> body)
+    {
+        byte[] prologue = new byte[SealedDatagram.PrologueBytes];
+        WireWriter writer = new(prologue);
+        writer.WriteHeader(DatagramType.Sealed);
+        writer.WriteUInt64(session);
+        writer.WriteUInt32((uint)number);
+        writer.WriteUInt16((ushort)(number >> 32));
+        return [.. prologue, .. body];
+    }
+
     /// <summary>What decoding and encoding again makes of the bytes; null when they are refused.</summary>
     internal static byte[]? Again(ReadOnlySpan<byte> bytes, UpdateDatagram scratch, out WireRefusal refusal)
     {
@@ -52,6 +70,16 @@ internal static class AnyDatagram
                 return SeatDatagram.TryDecode(bytes, out SeatDatagram seat, out refusal) ? Bytes(seat.Encode) : null;
             case DatagramType.Move:
                 return MoveDatagram.TryDecode(bytes, out MoveDatagram move, out refusal) ? Bytes(move.Encode) : null;
+            case DatagramType.MoveChallenge:
+                return MoveChallengeDatagram.TryDecode(bytes, out MoveChallengeDatagram address, out refusal) ? Bytes(address.Encode) : null;
+            case DatagramType.Reset:
+                return ResetDatagram.TryDecode(bytes, out ResetDatagram reset, out refusal) ? Bytes(reset.Encode) : null;
+            case DatagramType.SecureJoin:
+                return SecureJoinDatagram.TryDecode(bytes, out SecureJoinDatagram secure, out refusal) ? [.. secure.Prologue, .. secure.Message] : null;
+            case DatagramType.SecureWelcome or DatagramType.SecureRefusal:
+                return SecureAnswerDatagram.TryDecode(bytes, type, out SecureAnswerDatagram said, out refusal) ? SecureAnswerBytes(type, said.Nonce, said.Message) : null;
+            case DatagramType.Sealed:
+                return SealedDatagram.TryDecode(bytes, out SealedDatagram closed, out refusal) ? SealedBytes(closed.SessionId, closed.Number, closed.Body) : null;
             case DatagramType.DesyncReport:
                 return DesyncReportDatagram.TryDecode(bytes, out DesyncReportDatagram report, out refusal) ? Bytes(report.Encode) : null;
             default:

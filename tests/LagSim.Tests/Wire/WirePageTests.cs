@@ -7,6 +7,7 @@ using System.Text.RegularExpressions;
 using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
+using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
@@ -33,7 +34,7 @@ public sealed class WirePageTests
             checkedOnes++;
         }
 
-        Assert.Equal(13 * 60, checkedOnes);
+        Assert.Equal(19 * 60, checkedOnes);
     }
 
     [Fact]
@@ -100,6 +101,12 @@ public sealed class WirePageTests
             [DatagramType.DesyncReport] = WireFormat.EmptyDesyncReportBytes,
             [DatagramType.Seat] = WireFormat.SeatBytes,
             [DatagramType.Move] = WireFormat.MoveBytes,
+            [DatagramType.MoveChallenge] = WireFormat.MoveChallengeBytes,
+            [DatagramType.SecureJoin] = WireFormat.SecureJoinBytes,
+            [DatagramType.SecureWelcome] = WireFormat.SecureWelcomeBytes,
+            [DatagramType.SecureRefusal] = WireFormat.SecureRefusalBytes,
+            [DatagramType.Reset] = WireFormat.ResetBytes,
+            [DatagramType.Sealed] = SealedDatagram.PrologueBytes + 1 + IDatagramCipher.TagBytes,
         };
         foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type != DatagramType.None))
         {
@@ -191,7 +198,7 @@ public sealed class WirePageTests
     {
         foreach (ConnectRequestDatagram d in Sample(WireGen.ConnectRequest, each))
         {
-            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.ConnectRequest, ("nonce", d.Nonce), ("padding", 0UL), ("more padding", 0UL)));
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.ConnectRequest, ("nonce", d.Nonce), ("padding", new byte[48])));
         }
 
         foreach (WelcomeDatagram d in Sample(WireGen.Welcome, each))
@@ -219,8 +226,24 @@ public sealed class WirePageTests
 
         foreach ((ulong nonce, byte[] cookie) in Sample(from n in WireGen.Bits64 from c in Gen.ArrayOf(WireGen.Byte, 16) select (n, c), each))
         {
-            yield return (AnyDatagram.Bytes(new ChallengeDatagram(nonce, new Token128(cookie)).Encode), page => Datagram(
-                page, DatagramType.Challenge, ("nonce", nonce), ("cookie", cookie)));
+            byte[] identity = [.. cookie, .. cookie];
+            WireReader reader = new(identity);
+            yield return (AnyDatagram.Bytes(new ChallengeDatagram(nonce, new Token128(cookie), PublicIdentity.Read(ref reader)).Encode), page => Datagram(
+                page, DatagramType.Challenge, ("nonce", nonce), ("cookie", cookie), ("identity", identity)));
+            yield return (AnyDatagram.Bytes(new MoveChallengeDatagram(nonce, new Token128(cookie)).Encode), page => Datagram(
+                page, DatagramType.MoveChallenge, ("session id", nonce), ("cookie", cookie)));
+            yield return (AnyDatagram.Bytes(new ResetDatagram(nonce, LeaveReason.NotJoined, new Token128(cookie)).Encode), page => Datagram(
+                page, DatagramType.Reset, ("session id", nonce), ("reason", (byte)LeaveReason.NotJoined), ("token", cookie)));
+            foreach (DatagramType answer in new[] { DatagramType.SecureWelcome, DatagramType.SecureRefusal })
+            {
+                yield return (AnyDatagram.SecureAnswerBytes(answer, nonce, cookie), page => Datagram(page, answer, ("nonce", nonce), ("message", cookie)));
+            }
+
+            byte[] prologue = AnyDatagram.Bytes(to => JoinDatagram.WritePrologue(to, DatagramType.SecureJoin, nonce, new Token128(cookie)));
+            yield return ([.. prologue, .. cookie], page => Datagram(
+                page, DatagramType.SecureJoin, ("nonce", nonce), ("cookie", cookie), ("message", cookie)));
+            yield return (AnyDatagram.SealedBytes(nonce, nonce >> 16, cookie), page => Datagram(
+                page, DatagramType.Sealed, ("session id", nonce), ("number", (uint)(nonce >> 16)), ("more number", (ushort)(nonce >> 48)), ("body", cookie)));
             yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce, (uint)nonce, 7, new Token128(cookie)).Encode), page => Datagram(
                 page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce),
                 ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie)));

@@ -33,15 +33,16 @@ internal sealed class ClientProtocol : ISessionProtocol
         suspend = new SuspendDetector(options.Timeout / 2);
         Connection = new HostConnection(host, parts.Links, parts.Self, parts.Sender, parts.Counters);
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
+        UnprovenAnswers unproven = new();
         requests = new JoinRequests(
-            attempts, Connection, Seat, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
+            attempts, Connection, Seat, unproven, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
         snapshot = new SnapshotClient(
             attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options.Accelerations);
         entry = new WorldEntry(attempts, Connection, parts.Start, parts.SharedTime, parts.Status, parts.Clock, options.Timeout);
         log = new LogFollower(
             Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
         updates = new ClientUpdates(Connection, attempts, parts.World, parts.KeepAlive, parts.Sender);
-        Loss = new HostLoss(attempts, Connection, parts.World, parts.Status, parts.Counters, parts.Clock, options);
+        Loss = new HostLoss(attempts, Connection, unproven, parts.World, parts.Status, parts.Counters, parts.Clock, options);
         Finder = new DivergenceFinder(
             Connection, parts.World, parts.Journal, parts.Self, parts.Sender, parts.Counters, parts.Clock, options.Timeout);
         parts.Commits.Compared += Finder.OnCompared;
@@ -66,6 +67,12 @@ internal sealed class ClientProtocol : ISessionProtocol
     internal DivergenceFinder Finder { get; }
 
     public void Farewell() => Connection.Farewell();
+
+    public void WipeKeys()
+    {
+        attempts.Finish();
+        Connection.Close();
+    }
 
     public bool TryRenew(SessionEnd by, string why) => Loss.TryRenew(by, why);
 
@@ -94,7 +101,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         }
     }
 
-    public void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
+    public void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from, bool isSealed)
     {
         SessionCounters counters = Parts.Counters;
         if (from != Connection.Host || Parts.Status.HasEnded)
@@ -112,8 +119,23 @@ internal sealed class ClientProtocol : ISessionProtocol
             case DatagramType.Welcome when counters.IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)):
                 requests.OnWelcome(welcome);
                 break;
+            case DatagramType.SecureWelcome when counters.IsWellFormed(
+                SecureAnswerDatagram.TryDecode(datagram, type, out SecureAnswerDatagram answer, out _)):
+                requests.OnSecureWelcome(answer);
+                break;
+            case DatagramType.SecureRefusal when counters.IsWellFormed(
+                SecureAnswerDatagram.TryDecode(datagram, type, out SecureAnswerDatagram answer, out _)):
+                requests.OnSecureRefusal(answer);
+                break;
+            case DatagramType.MoveChallenge when counters.IsWellFormed(
+                MoveChallengeDatagram.TryDecode(datagram, out MoveChallengeDatagram challenge, out _)):
+                requests.OnMoveChallenge(challenge);
+                break;
+            case DatagramType.Reset when counters.IsWellFormed(ResetDatagram.TryDecode(datagram, out ResetDatagram reset, out _)):
+                Loss.OnReset(reset);
+                break;
             case DatagramType.Refusal when counters.IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)):
-                requests.OnRefusal(refusal);
+                requests.OnRefusal(refusal, isSealed);
                 break;
             case DatagramType.SnapshotChunk when counters.IsWellFormed(SnapshotChunkDatagram.TryDecode(datagram, out SnapshotChunkDatagram chunk, out _)):
                 snapshot.OnSnapshotChunk(chunk, datagram.Length);
@@ -128,11 +150,16 @@ internal sealed class ClientProtocol : ISessionProtocol
             case DatagramType.Seat when counters.IsWellFormed(SeatDatagram.TryDecode(datagram, out SeatDatagram seat, out _)):
                 Seat.OnSeat(seat);
                 break;
-            case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery or DatagramType.Move:
+            case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery or DatagramType.Move
+                or DatagramType.SecureJoin:
                 counters.DatagramsIgnored++; // only a client sends these
                 break;
         }
     }
+
+    public LinkSeal? SealOf(ulong sessionId) => Connection.Link is UpdateLink link && link.SessionId == sessionId ? link.Seal : null;
+
+    public void OnStrayDatagram(ulong sessionId, PeerAddress from) => Parts.Counters.DatagramsIgnored++;
 
     public void OnUpdate(UpdateDatagram update, PeerAddress from)
     {

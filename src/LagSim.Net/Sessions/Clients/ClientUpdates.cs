@@ -31,6 +31,6 @@ internal sealed class ClientUpdates(
         bool isComingIn = attempt is not null && !(attempt.Seat is not null && world.Live is null);
         SimDuration pace = link.Trips.Mean / 8 > JoinAttempt.Pace ? link.Trips.Mean / 8 : JoinAttempt.Pace;
         SimDuration rest = isComingIn ? pace : keepAlive.RestAfterUpdate(link, false, now, keepAlive.KeepAlive);
-        sender.Send(link.Seal(unconfirmed, now, rest, isUrgent: link.Outgoing.Acknowledged < connection.LastUrgent), link);
+        sender.Send(link.Complete(unconfirmed, now, rest, isUrgent: link.Outgoing.Acknowledged < connection.LastUrgent), link);
     }
 }

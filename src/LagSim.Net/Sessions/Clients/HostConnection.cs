@@ -49,17 +49,25 @@ internal sealed class HostConnection
     internal bool IsStartTold { get; set; }
 
     /// <summary>Begins a new link from the host's welcome.</summary>
-    internal void Open(in WelcomeDatagram welcome, SimTime now)
+    /// <param name="welcome">The welcome.</param>
+    /// <param name="seal">What protects the link; null in a session without protection.</param>
+    /// <param name="now">The time by the local clock.</param>
+    internal void Open(in WelcomeDatagram welcome, LinkSeal? seal, SimTime now)
     {
         History = welcome.History;
         counters.EventsUnanswered += Unconfirmed.Count;
         Unconfirmed = new OwnEvents(0);
         Log = new ReceiveWindow(welcome.LogIndex);
-        Link = links.To(Host, welcome.SessionId, 0, now);
+        Close();
+        Link = links.To(Host, welcome.SessionId, 0, now, seal);
     }
 
-    /// <summary>Drops the link, whether established or still being set up.</summary>
-    internal void Close() => Link = null;
+    /// <summary>Drops the link, whether established or still being set up, and wipes its keys.</summary>
+    internal void Close()
+    {
+        Link?.Seal?.Dispose();
+        Link = null;
+    }
 
     /// <summary>Takes the number that the host gave over the link.</summary>
     internal void Sit(UpdateLink link, byte number, uint lastSequence)

@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// snapshot. Where rejoining is disabled or pointless, it ends the session.
 /// </summary>
 internal sealed class HostLoss(
-    JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, SessionCounters counters,
+    JoinAttempts attempts, HostConnection connection, UnprovenAnswers unproven, SharedWorld world, SessionStatus status, SessionCounters counters,
     IClock clock, ClientOptions options)
 {
     private const int MaxFailedAttempts = 3;
@@ -71,43 +71,30 @@ internal sealed class HostLoss(
 
     internal void OnLeave(in LeaveDatagram leave)
     {
-        if (connection.Link is not UpdateLink link || leave.SessionId != link.SessionId || leave.Peer != 0)
+        if (connection.Link is UpdateLink link && leave.SessionId == link.SessionId && leave.Peer == 0)
         {
-            counters.DatagramsIgnored++;
-            return;
-        }
-
-        string why = Sentence(leave.Reason);
-        SimTime now = clock.Now;
-        bool isOver = leave.Reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind);
-        if (isOver)
-        {
-            SessionEnd by = leave.Reason == LeaveReason.HostEnded ? SessionEnd.HostEnded
-                : leave.Reason == LeaveReason.Kicked ? SessionEnd.Kicked
-                : SessionEnd.Disconnected;
-            status.End(by, why);
-        }
-        else if (status.IsRejoining)
-        {
-            if (attempts.Current!.IsWelcome)
-            {
-                attempts.Restart(now);
-            }
-
-            connection.Close(); // the old link, or the one being set up, is over
-        }
-        else if (world.Live is not null)
-        {
-            Rejoin(leave.Reason == LeaveReason.FellBehind ? SessionEnd.LinkTooSlow : SessionEnd.Disconnected, why, isLinkGood: false);
-        }
-        else if (leave.Reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true
-            && now - attempts.Began <= LongestComing)
-        {
-            AskAgain(now); // newer clients pushed it out, or it stalled, or this is another host
+            Lose(leave.Reason);
         }
         else
         {
-            AskAgainOrEnd(now, SessionEnd.Disconnected, why);
+            counters.DatagramsIgnored++;
+        }
+    }
+
+    /// <summary>Handles a host that says outside the link that it does not have this peer, which its token proves.</summary>
+    internal void OnReset(in ResetDatagram reset)
+    {
+        if (connection.Link is not UpdateLink { Seal: LinkSeal seal } link || reset.SessionId != link.SessionId)
+        {
+            counters.DatagramsIgnored++;
+        }
+        else if (reset.Token != seal.ResetToken)
+        {
+            counters.DatagramsForged++;
+        }
+        else
+        {
+            Lose(reset.Reason);
         }
     }
 
@@ -170,6 +157,43 @@ internal sealed class HostLoss(
         }
     }
 
+    /// <summary>Handles a host that does not have this peer any more.</summary>
+    private void Lose(LeaveReason reason)
+    {
+        string why = Sentence(reason);
+        SimTime now = clock.Now;
+        bool isOver = reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind);
+        if (isOver)
+        {
+            SessionEnd by = reason == LeaveReason.HostEnded ? SessionEnd.HostEnded
+                : reason == LeaveReason.Kicked ? SessionEnd.Kicked
+                : SessionEnd.Disconnected;
+            status.End(by, why);
+        }
+        else if (status.IsRejoining)
+        {
+            if (attempts.Current!.IsWelcome)
+            {
+                attempts.Restart(now);
+            }
+
+            connection.Close(); // the old link, or the one being set up, is over
+        }
+        else if (world.Live is not null)
+        {
+            Rejoin(reason == LeaveReason.FellBehind ? SessionEnd.LinkTooSlow : SessionEnd.Disconnected, why, isLinkGood: false);
+        }
+        else if (reason is LeaveReason.NotJoined or LeaveReason.TimedOut && attempts.Current?.IsWelcome == true
+            && now - attempts.Began <= LongestComing)
+        {
+            AskAgain(now); // newer clients pushed it out, or it stalled, or this is another host
+        }
+        else
+        {
+            AskAgainOrEnd(now, SessionEnd.Disconnected, why);
+        }
+    }
+
     /// <summary>The periodic work while rejoining.</summary>
     private void TendRejoining(SimTime now)
     {
@@ -177,7 +201,8 @@ internal sealed class HostLoss(
         if (now - rejoining > options.RejoinTime && !isWelcome) // the download may take longer than that
         {
             status.End(rejoiningFor, FormattableString.Invariant(
-                $"{status.RejoiningBecause} This peer asked for {options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain."));
+                $"{status.RejoiningBecause} This peer asked for {options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain.")
+                + unproven.Sentence);
         }
         else if (isWelcome && connection.Link is UpdateLink link && now - link.Heard > options.Timeout)
         {
@@ -215,7 +240,7 @@ internal sealed class HostLoss(
     private string NoAnswer(SimTime now)
     {
         SimDuration named = options.Pass.Number > 0 && now - attempts.Since > options.RejoinTime ? LongestComing : options.Timeout;
-        return FormattableString.Invariant($"No answer from {connection.Host} within {named.ToSeconds():0.###} s.");
+        return FormattableString.Invariant($"No answer from {connection.Host} within {named.ToSeconds():0.###} s.") + unproven.Sentence;
     }
 
     private string Sentence(LeaveReason reason) => reason switch

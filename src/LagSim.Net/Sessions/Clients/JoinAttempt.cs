@@ -1,4 +1,6 @@
+using System;
 using LagSim.Net.Clocks;
+using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -8,7 +10,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// One attempt of a client to join, from its first connect request until it has a world: cookie, snapshot, clock and number.
 /// </summary>
 /// <remarks>It holds what is known so far; the client drives the steps.</remarks>
-internal sealed class JoinAttempt
+internal sealed class JoinAttempt : IDisposable
 {
     /// <summary>The interval between the first tries, and between exchanges while the clock is being set.</summary>
     internal static readonly SimDuration Pace = SimDuration.FromMilliseconds(20);
@@ -27,6 +29,7 @@ internal sealed class JoinAttempt
 
     private SimDuration pace = Pace;
     private int tries; // with this cookie
+    private byte[] join = [];
 
     /// <param name="nonce">An answer must carry it.</param>
     /// <param name="now">The time by the local clock.</param>
@@ -72,41 +75,51 @@ internal sealed class JoinAttempt
     /// <summary>The number that the host gave, and what comes with it; null before that.</summary>
     internal SeatDatagram? Seat { get; set; }
 
+    /// <summary>The handshake that the join with this cookie began; null before that, and in a session without protection.</summary>
+    internal IClientHandshake? Handshake { get; private set; }
+
+    /// <summary>The join with this cookie, to be sent unchanged until it is answered; empty before there is one.</summary>
+    internal ReadOnlySpan<byte> Join => join;
+
     private Token128? Cookie { get; set; }
 
     /// <summary>Whether snapshot and clock are ready, so that at most the number is missing.</summary>
     internal bool IsReady => Snapshot is not null && Clock.IsReady;
 
     /// <summary>
-    /// Returns the cookie if it may still be good, null if another is needed, and schedules the next try; the interval doubles each time,
-    /// up to <see cref="MaxPace"/>.
+    /// Whether to send the join, whose cookie may still be good; otherwise another cookie is needed. Schedules the next try; the interval
+    /// doubles each time, up to <see cref="MaxPace"/>.
     /// </summary>
-    internal Token128? Ask(SimTime now)
+    internal bool AsksToJoin(SimTime now)
     {
         Due = now + pace;
         pace = pace * 2 < MaxPace ? pace * 2 : MaxPace;
-        return Cookie is Token128 cookie && now - Challenged <= CookieAge && ++tries % RequestAfresh != 0 ? cookie : null;
+        return Cookie is not null && now - Challenged <= CookieAge && ++tries % RequestAfresh != 0;
     }
 
-    /// <summary>Takes a cookie; false if it has that one already.</summary>
-    internal bool Take(Token128 cookie, SimTime now)
-    {
-        if (Cookie == cookie && now - Challenged <= CookieAge)
-        {
-            return false;
-        }
+    /// <summary>Whether it has that cookie already, and may still use it.</summary>
+    internal bool Has(Token128 cookie, SimTime now) => Cookie == cookie && now - Challenged <= CookieAge;
 
+    /// <summary>Takes another cookie, and the join with it.</summary>
+    internal void Take(Token128 cookie, byte[] joinWithIt, IClientHandshake? handshake, SimTime now)
+    {
+        Handshake?.Dispose();
+        Handshake = handshake;
+        join = joinWithIt;
         Cookie = cookie;
         Challenged = now;
         tries = 0;
         Due = now;
         pace = Pace;
-        return true;
     }
+
+    /// <summary>Wipes the keys of the handshake, if it was not finished.</summary>
+    public void Dispose() => Handshake?.Dispose();
 
     internal void Take(in WelcomeDatagram welcome, SimTime now)
     {
         IsWelcome = true;
+        Handshake?.Dispose();
         Took = now - Challenged;
         LogStart = welcome.LogIndex;
         CopyHash = welcome.CopyHash;

@@ -39,10 +39,18 @@ internal sealed class JoinAttempts
     }
 
     /// <summary>Begins another attempt at a given time.</summary>
-    internal void Restart(SimTime from) => Current = new JoinAttempt(NextNonce(), from);
+    internal void Restart(SimTime from)
+    {
+        Current?.Dispose();
+        Current = new JoinAttempt(NextNonce(), from);
+    }
 
-    /// <summary>Called when this peer is in.</summary>
-    internal void Finish() => Current = null;
+    /// <summary>Called when this peer is in, or will not be.</summary>
+    internal void Finish()
+    {
+        Current?.Dispose();
+        Current = null;
+    }
 
     /// <summary>
     /// Returns another nonce, to tell answers to this attempt from answers to earlier ones. It is not secret: anyone who saw one can

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
@@ -8,9 +9,17 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>Asks a host to let this peer in: connect request, cookie, join, and then a welcome or a refusal.</summary>
 internal sealed class JoinRequests(
-    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, SharedWorld world, SessionStatus status,
+    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, UnprovenAnswers unproven, SharedWorld world, SessionStatus status,
     DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
+    /// <summary>
+    /// How many handshake messages are made or read a second, and at once: each costs an agreement or two. Only somebody on the path can
+    /// make it more than a few.
+    /// </summary>
+    private const int HandshakesPerSecond = 50;
+
+    private readonly RateLimit handshakes = new(HandshakesPerSecond, HandshakesPerSecond, clock.Now);
+
     /// <summary>Asks if it is time to.</summary>
     internal void Tend(SimTime now)
     {
@@ -19,15 +28,9 @@ internal sealed class JoinRequests(
             return;
         }
 
-        if (attempt.Ask(now) is Token128 cookie)
+        if (attempt.AsksToJoin(now))
         {
-            Span<byte> bytes = stackalloc byte[WireFormat.JoinBytes];
-            Token128 proof = JoinCookies.Prove(options.ConnectKey, attempt.Nonce, cookie);
-            PlayerPass former = seat.Pass ?? default;
-            Token128 playerProof = former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, cookie);
-            ulong sceneHash = world.Scene?.Hash ?? 0;
-            JoinDatagram join = new(attempt.Nonce, cookie, proof, sceneHash, (uint)Simulation.FoldVersion, former.Number, playerProof);
-            sender.Send(bytes.Slice(0, join.Encode(bytes)), connection.Host);
+            sender.Send(attempt.Join, connection.Host);
         }
         else
         {
@@ -38,44 +41,112 @@ internal sealed class JoinRequests(
 
     internal void OnChallenge(in ChallengeDatagram challenge)
     {
-        if (connection.Link is UpdateLink link && challenge.Nonce == link.SessionId)
-        {
-            // The host sees an address it does not know for this peer. The host is alive, though it sends nothing else until the address is
-            // confirmed.
-            link.NoteHeard(clock.Now);
-            Span<byte> bytes = stackalloc byte[WireFormat.MoveBytes];
-            sender.Send(bytes.Slice(0, new MoveDatagram(link.SessionId, link.Self, challenge.Cookie).Encode(bytes)), link);
-        }
-        else if (attempts.Current is not JoinAttempt attempt || attempt.IsWelcome || challenge.Nonce != attempt.Nonce)
+        SimTime now = clock.Now;
+        if (attempts.Current is not JoinAttempt attempt || attempt.IsWelcome || challenge.Nonce != attempt.Nonce)
         {
             counters.DatagramsIgnored++;
         }
-        else
+        else if (!attempt.Has(challenge.Cookie, now))
         {
-            attempt.Take(challenge.Cookie, clock.Now);
+            Join(attempt, challenge, now);
         }
+    }
+
+    /// <summary>Handles a challenge of this peer's address, which the host does not know for this peer.</summary>
+    internal void OnMoveChallenge(in MoveChallengeDatagram challenge)
+    {
+        if (connection.Link is not UpdateLink link || challenge.SessionId != link.SessionId)
+        {
+            counters.DatagramsIgnored++;
+            return;
+        }
+
+        // The host is alive, though it sends nothing else until the address is confirmed.
+        link.NoteHeard(clock.Now);
+        Span<byte> bytes = stackalloc byte[WireFormat.MoveBytes];
+        sender.Send(bytes.Slice(0, new MoveDatagram(link.SessionId, link.Self, challenge.Cookie).Encode(bytes)), link);
     }
 
     internal void OnWelcome(in WelcomeDatagram welcome)
     {
-        if (attempts.Current is not JoinAttempt attempt || welcome.Nonce != attempt.Nonce)
+        if (options.IsProtected || attempts.Current is not JoinAttempt attempt || welcome.Nonce != attempt.Nonce)
         {
             counters.DatagramsIgnored++;
         }
         else if (!attempt.IsWelcome)
         {
-            SimTime now = clock.Now;
-            attempt.Take(welcome, now);
-            connection.Open(welcome, now);
-            status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;
+            Enter(attempt, welcome, null);
         }
     }
 
-    internal void OnRefusal(in RefusalDatagram refusal) => OnRefusal(refusal.Nonce, refusal.Reason, Sentence(refusal.Reason));
+    internal void OnSecureWelcome(in SecureAnswerDatagram answer)
+    {
+        if (attempts.Current is not { IsWelcome: false, Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
+            || !handshakes.TrySpend(clock.Now))
+        {
+            counters.DatagramsIgnored++;
+            return;
+        }
+
+        Span<byte> payload = stackalloc byte[WireFormat.SecureWelcomePayloadBytes];
+        if (handshake.TryFinish(options.ConnectKey, answer.Message, payload) is not IDatagramCipher cipher)
+        {
+            counters.DatagramsForged++;
+            return;
+        }
+
+        WireReader reader = new(payload);
+        WelcomeDatagram welcome = WelcomeDatagram.ReadTerms(ref reader, answer.Nonce);
+        LinkSeal seal = new(cipher, Token128.Read(ref reader));
+        if (counters.IsWellFormed(reader.Finish(out _)))
+        {
+            Enter(attempt, welcome, seal);
+        }
+        else
+        {
+            seal.Dispose();
+        }
+    }
+
+    internal void OnSecureRefusal(in SecureAnswerDatagram answer)
+    {
+        if (attempts.Current is not { IsWelcome: false, Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
+            || !handshakes.TrySpend(clock.Now))
+        {
+            counters.DatagramsIgnored++;
+            return;
+        }
+
+        Span<byte> payload = stackalloc byte[WireFormat.SecureRefusalPayloadBytes];
+        if (!handshake.TryReadRefusal(answer.Message, payload))
+        {
+            counters.DatagramsForged++;
+        }
+        else if (counters.IsWellFormed(RefusalDatagram.IsOne((RefusalReason)payload[0])))
+        {
+            End((RefusalReason)payload[0], Sentence((RefusalReason)payload[0]));
+        }
+    }
+
+    /// <summary>Handles a refusal that is not part of a handshake.</summary>
+    /// <param name="refusal">The refusal: of the current attempt, or over the link of the session id that it has for a nonce.</param>
+    /// <param name="isSealed">Whether it came over the protected link.</param>
+    internal void OnRefusal(in RefusalDatagram refusal, bool isSealed)
+    {
+        bool isOfLink = connection.Link is UpdateLink link && refusal.Nonce == link.SessionId && isSealed == options.IsProtected;
+        if (isOfLink && attempts.Current is not null)
+        {
+            End(refusal.Reason, Sentence(refusal.Reason));
+        }
+        else
+        {
+            TakeUnproven(refusal.Nonce, refusal.Reason, Sentence(refusal.Reason));
+        }
+    }
 
     /// <summary>Handles a host that speaks another version of the protocol.</summary>
     internal void OnOtherVersion(ulong nonce, byte version) =>
-        OnRefusal(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
+        TakeUnproven(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
 
     private static string Sentence(RefusalReason reason) => reason switch
     {
@@ -89,17 +160,77 @@ internal sealed class JoinRequests(
         RefusalReason.Banned => "it lets nobody in from this address.",
         RefusalReason.TooManyFromOneAddress =>
             "as many as may join from one address have joined from this one (the host's MaxClientsPerAddress).",
+        RefusalReason.ProtectedOnly =>
+            "its session is protected. Join with ClientOptions.Protection, and the address with the fingerprint that the host prints.",
         _ => $"reason {(int)reason}.",
     };
 
-    private void OnRefusal(ulong nonce, RefusalReason? reason, string why)
+    /// <summary>Makes the join that brings a cookie back, and the handshake with the host that sent it.</summary>
+    private void Join(JoinAttempt attempt, in ChallengeDatagram challenge, SimTime now)
+    {
+        PlayerPass former = seat.Pass ?? default;
+        JoinDatagram join = new(
+            attempt.Nonce, challenge.Cookie, JoinCookies.Prove(options.ConnectKey, attempt.Nonce, challenge.Cookie),
+            world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number,
+            former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie));
+        if (options.Protection is not IClientProtection protection)
+        {
+            byte[] plain = new byte[WireFormat.JoinBytes];
+            join.Encode(plain);
+            attempt.Take(challenge.Cookie, plain, null, now);
+        }
+        else if (challenge.Identity.IsNone)
+        {
+            counters.DatagramsIgnored++;
+            unproven.NoteNoProtection();
+        }
+        else if (!handshakes.TrySpend(now))
+        {
+            counters.DatagramsIgnored++;
+        }
+        else
+        {
+            byte[] secure = new byte[WireFormat.SecureJoinBytes];
+            if (SecureJoinDatagram.Encode(secure, join, challenge.Identity, protection) is IClientHandshake handshake)
+            {
+                attempt.Take(challenge.Cookie, secure, handshake, now);
+            }
+            else
+            {
+                counters.DatagramsForged++;
+                unproven.NoteOtherHost();
+            }
+        }
+    }
+
+    private void Enter(JoinAttempt attempt, in WelcomeDatagram welcome, LinkSeal? seal)
+    {
+        SimTime now = clock.Now;
+        attempt.Take(welcome, now);
+        connection.Open(welcome, seal, now);
+        status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;
+    }
+
+    /// <summary>Handles a refusal in clear text: in a session without protection it counts, in a protected one it may be anybody's.</summary>
+    private void TakeUnproven(ulong nonce, RefusalReason? reason, string why)
     {
         if (attempts.Current is not JoinAttempt attempt || nonce != attempt.Nonce)
         {
             counters.DatagramsIgnored++;
-            return;
         }
+        else if (options.IsProtected)
+        {
+            counters.DatagramsForged++;
+            unproven.NoteRefusal(why);
+        }
+        else
+        {
+            End(reason, why);
+        }
+    }
 
+    private void End(RefusalReason? reason, string why)
+    {
         bool isKnown = status.IsRejoining || (options.Pass.Number > 0 && clock.Now - attempts.Began <= options.RejoinTime);
         if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
         {

@@ -1,14 +1,24 @@
 using System;
 using LagSim.Net.Carriers;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>Classifies incoming datagrams, counts the malformed ones, and passes the rest on.</summary>
-/// <remarks>Called by the reader of the port: the session itself, or a dispatcher that shares one port among many.</remarks>
-internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler handler)
+/// <summary>
+/// Classifies incoming datagrams, opens the sealed ones, counts those that are malformed or forged, and passes the rest on.
+/// </summary>
+/// <remarks>
+/// Called by the reader of the port: the session itself, or a dispatcher that shares one port among many. In a protected session nothing
+/// that belongs to a link gets past here unless the link's other end sealed it.
+/// </remarks>
+/// <param name="counters">Where they are counted.</param>
+/// <param name="handler">Handles the rest.</param>
+/// <param name="isProtected">Whether the session is.</param>
+internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler handler, bool isProtected)
 {
     private readonly UpdateDatagram received = new();
+    private readonly byte[] opened = new byte[WireFormat.MaxPlainBytes];
 
     internal void Take(ReadOnlySpan<byte> datagram, PeerAddress from)
     {
@@ -21,9 +31,59 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
                 handler.OnOtherVersion(datagram, from);
             }
         }
-        else if (type != DatagramType.Update)
+        else if (type == DatagramType.Sealed)
         {
-            handler.OnDatagram(type, datagram, from);
+            Open(datagram, from);
+        }
+        else if (isProtected && IsOfLink(type) && type != DatagramType.Refusal)
+        {
+            counters.DatagramsForged++;
+        }
+        else
+        {
+            Pass(type, datagram, from, isSealed: false);
+        }
+    }
+
+    /// <summary>Whether datagrams of a type are sent over a link; a refusal may be, and may come before there is one.</summary>
+    private static bool IsOfLink(DatagramType type) => type is DatagramType.Refusal or DatagramType.Update or DatagramType.Leave
+        or DatagramType.SnapshotRequest or DatagramType.SnapshotChunk or DatagramType.DesyncQuery or DatagramType.DesyncReport
+        or DatagramType.Seat or DatagramType.Move or DatagramType.MoveChallenge;
+
+    private void Open(ReadOnlySpan<byte> datagram, PeerAddress from)
+    {
+        if (!SealedDatagram.TryDecode(datagram, out SealedDatagram sealedDatagram, out _))
+        {
+            counters.DatagramsMalformed++;
+        }
+        else if (!isProtected)
+        {
+            counters.DatagramsIgnored++;
+        }
+        else if (handler.SealOf(sealedDatagram.SessionId) is not LinkSeal seal)
+        {
+            handler.OnStrayDatagram(sealedDatagram.SessionId, from);
+        }
+        else if (!seal.TryOpen(sealedDatagram, opened, out int length, out bool isRepeated))
+        {
+            counters.DatagramsIgnored += isRepeated ? 1 : 0;
+            counters.DatagramsForged += isRepeated ? 0 : 1;
+        }
+        else if (WireFormat.TryReadType(opened.AsSpan(0, length), out DatagramType type, out _) && IsOfLink(type))
+        {
+            Pass(type, opened.AsSpan(0, length), from, isSealed: true);
+        }
+        else
+        {
+            counters.DatagramsMalformed++;
+        }
+    }
+
+    private void Pass(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from, bool isSealed)
+    {
+        if (type != DatagramType.Update)
+        {
+            handler.OnDatagram(type, datagram, from, isSealed);
         }
         else if (received.TryDecode(datagram, out _))
         {

@@ -5,7 +5,9 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>Hands a session's datagrams to the port and counts them. Every datagram a session sends goes through here.</summary>
+/// <summary>
+/// Hands a session's datagrams to the port, sealed where their link is, and counts them. Every datagram a session sends goes through here.
+/// </summary>
 internal sealed class DatagramSender(IDatagramPort port, SessionCounters counters)
 {
     /// <summary>
@@ -14,16 +16,24 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
     /// </summary>
     internal const int Goodbyes = 3;
 
+    private readonly byte[] sealing = new byte[WireFormat.MaxBytes];
+
+    /// <summary>Sends a datagram that belongs to no link, as it is.</summary>
     internal void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
     {
         port.Send(datagram, to);
         counters.DatagramsSent++;
     }
 
-    internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link)
+    /// <summary>Sends a datagram over a link.</summary>
+    internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link) => Send(datagram, link, link.Other);
+
+    /// <summary>Sends a datagram of a link to an address that may not be the other end's.</summary>
+    internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link, PeerAddress to)
     {
-        Send(datagram, link.Other);
-        link.CountSent(datagram.Length);
+        ReadOnlySpan<byte> bytes = link.Seal is LinkSeal seal ? sealing.AsSpan(0, seal.Seal(datagram, sealing)) : datagram;
+        Send(bytes, to);
+        link.CountSent(bytes.Length);
     }
 
     /// <summary>Informs the other end of a link that it is over.</summary>
@@ -34,12 +44,5 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
     {
         Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
         Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, self, reason).Encode(bytes)), link);
-    }
-
-    /// <summary>Informs a sender without a link that it has none, using the session id from its own datagram.</summary>
-    internal void SayGoodbye(PeerAddress to, ulong itsSession, LeaveReason reason)
-    {
-        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-        Send(bytes.Slice(0, new LeaveDatagram(itsSession, 0, reason).Encode(bytes)), to);
     }
 }

@@ -33,6 +33,9 @@ internal interface ISessionProtocol : IDatagramHandler
     /// <summary>Says goodbye.</summary>
     void Farewell();
 
+    /// <summary>Wipes the keys of all links; nothing can be sent over them any more.</summary>
+    void WipeKeys();
+
     /// <summary>Asks for a fresh snapshot to replace an unusable world; false if none is available.</summary>
     bool TryRenew(SessionEnd by, string why);
 }

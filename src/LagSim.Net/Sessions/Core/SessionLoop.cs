@@ -21,7 +21,7 @@ internal sealed class SessionLoop
     {
         this.parts = parts;
         this.protocol = protocol;
-        intake = new DatagramIntake(parts.Counters, protocol);
+        intake = new DatagramIntake(parts.Counters, protocol, parts.Options.IsProtected);
         cancellation = parts.Options.Cancellation;
     }
 

@@ -1,6 +1,7 @@
 using System;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -9,13 +10,22 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>
 /// Makes a sender prove that it is at the address its datagrams give, before the host keeps any state for it or sends it more than it sent.
 /// </summary>
-internal sealed class AddressChallenge(JoinCookies cookies, DatagramSender sender, IClock clock)
+internal sealed class AddressChallenge(PublicIdentity identity, JoinCookies cookies, DatagramSender sender, IClock clock)
 {
-    /// <summary>Sends a cookie, which only a peer at that address receives.</summary>
+    /// <summary>Sends a cookie, which only a peer at that address receives, to one that wants to join.</summary>
     internal void Send(ulong nonce, PeerAddress to)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.ChallengeBytes];
-        sender.Send(bytes.Slice(0, new ChallengeDatagram(nonce, cookies.Make(to, nonce, clock.Now)).Encode(bytes)), to);
+        ChallengeDatagram challenge = new(nonce, cookies.Make(to, nonce, clock.Now), identity);
+        sender.Send(bytes.Slice(0, challenge.Encode(bytes)), to);
+    }
+
+    /// <summary>Sends a cookie to a client that wrote from another address than its own.</summary>
+    internal void Send(UpdateLink link, PeerAddress to)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.MoveChallengeBytes];
+        MoveChallengeDatagram challenge = new(link.SessionId, cookies.Make(to, link.SessionId, clock.Now));
+        sender.Send(bytes.Slice(0, challenge.Encode(bytes)), link, to);
     }
 
     /// <summary>Whether the cookie was sent to that address recently.</summary>

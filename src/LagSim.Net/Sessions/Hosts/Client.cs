@@ -11,11 +11,12 @@ internal sealed class Client
     // The committed states it reports, by the number of the update.
     private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32];
 
-    internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot snapshot)
+    internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot snapshot, byte[] welcome)
     {
         Claim = claim;
         Link = link;
         Snapshot = snapshot;
+        Welcome = welcome;
         DesyncQueries = new RateLimit(2, RecentEvents.Most / DesyncQueryDatagram.MaxEvents, link.Heard);
     }
 
@@ -26,6 +27,9 @@ internal sealed class Client
     internal JoinClaim Claim { get; }
 
     internal UpdateLink Link { get; }
+
+    /// <summary>The answer to its join, which is sent again whenever the join is.</summary>
+    internal byte[] Welcome { get; }
 
     /// <summary>How it follows the log, since it got its number or was heard again after a silence.</summary>
     internal CatchingUp CatchingUp { get; private set; } = new();

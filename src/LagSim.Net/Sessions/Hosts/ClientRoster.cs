@@ -49,13 +49,30 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     /// <summary>Returns the client with that number.</summary>
     internal Client? Seated(byte player) => clients.Find(j => j.Peer == player);
 
+    /// <summary>Forgets a client that has no number, and wipes its keys.</summary>
+    /// <returns>False if it was gone already.</returns>
+    internal bool Drop(Client client)
+    {
+        client.Link.Seal?.Dispose();
+        return clients.Remove(client);
+    }
+
+    /// <summary>Forgets all matching clients that have no number.</summary>
+    internal void DropAll(Predicate<Client> isIt)
+    {
+        foreach (Client client in clients.FindAll(isIt))
+        {
+            Drop(client);
+        }
+    }
+
     /// <summary>Removes a client.</summary>
     /// <param name="client">The client.</param>
     /// <param name="why">The reason. Its number is reserved for it unless it left or was kicked.</param>
     /// <returns>False if it was gone already.</returns>
     internal bool Disconnect(Client client, LeaveReason why)
     {
-        if (!clients.Remove(client))
+        if (!Drop(client))
         {
             return false;
         }
@@ -92,6 +109,9 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
 
         return all.Count;
     }
+
+    /// <summary>Wipes the keys of all links. Nothing can be sent over them any more.</summary>
+    internal void WipeKeys() => clients.ForEach(static client => client.Link.Seal?.Dispose());
 
     /// <summary>Notifies all clients that the session is over.</summary>
     internal void Farewell()

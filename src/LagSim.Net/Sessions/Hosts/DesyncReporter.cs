@@ -38,7 +38,7 @@ internal sealed class DesyncReporter(
 
     private void Answer(Client client, in DesyncQueryDatagram query)
     {
-        Span<byte> bytes = stackalloc byte[WireFormat.MaxBytes];
+        Span<byte> bytes = stackalloc byte[WireFormat.MaxPlainBytes];
         bool isWhole = journal.Recent.IsWholeAfter(query.After);
         List<LogEntry> events = journal.Recent.Between(query.After, query.UpTo);
         if (!isWhole || events.Count == 0)

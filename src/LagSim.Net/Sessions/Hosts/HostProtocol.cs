@@ -22,6 +22,7 @@ internal sealed class HostProtocol : ISessionProtocol
     private readonly ClientEvents events;
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
+    private readonly StrayReply stray;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
@@ -41,6 +42,7 @@ internal sealed class HostProtocol : ISessionProtocol
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
+        stray = new StrayReply(options.Protection, parts.Sender);
         actions = new HostActions(parts.Actions, Log);
         Removal = new BodyRemoval(parts.World, actions);
         Enforcer = new BudgetEnforcer(Budget, acts, Roster, Handshake.BanList, Removal, actions, parts.World, Watermark, parts.Status);
@@ -91,7 +93,7 @@ internal sealed class HostProtocol : ISessionProtocol
         }
     }
 
-    public void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from)
+    public void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from, bool isSealed)
     {
         SessionCounters counters = Parts.Counters;
         if (Parts.Status.HasEnded)
@@ -108,6 +110,9 @@ internal sealed class HostProtocol : ISessionProtocol
             case DatagramType.Join when counters.IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
                 Handshake.OnJoin(join, from);
                 break;
+            case DatagramType.SecureJoin when counters.IsWellFormed(SecureJoinDatagram.TryDecode(datagram, out SecureJoinDatagram secure, out _)):
+                Handshake.OnJoin(secure, from);
+                break;
             case DatagramType.SnapshotRequest when counters.IsWellFormed(SnapshotRequestDatagram.TryDecode(datagram, out SnapshotRequestDatagram request, out _)):
                 Handshake.OnSnapshotRequest(request, from);
                 break;
@@ -121,10 +126,19 @@ internal sealed class HostProtocol : ISessionProtocol
                 OnLeave(leave, from);
                 break;
             case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.SnapshotChunk
-                or DatagramType.DesyncReport or DatagramType.Seat:
+                or DatagramType.DesyncReport or DatagramType.Seat or DatagramType.MoveChallenge or DatagramType.SecureWelcome
+                or DatagramType.SecureRefusal or DatagramType.Reset:
                 counters.DatagramsIgnored++; // only a host sends these
                 break;
         }
+    }
+
+    public LinkSeal? SealOf(ulong sessionId) => Roster.Of(sessionId)?.Link.Seal;
+
+    public void OnStrayDatagram(ulong sessionId, PeerAddress from)
+    {
+        Parts.Counters.DatagramsIgnored++;
+        SendGone(sessionId, from);
     }
 
     public void OnUpdate(UpdateDatagram update, PeerAddress from)
@@ -134,7 +148,7 @@ internal sealed class HostProtocol : ISessionProtocol
         if (client is not null && client.Link.Other != from && !hasEnded)
         {
             Parts.Counters.DatagramsIgnored++; // the client sends it again, once it has proved its address
-            Handshake.Challenge(update.SessionId, from);
+            Handshake.Challenge(client.Link, from);
             return;
         }
 
@@ -143,9 +157,7 @@ internal sealed class HostProtocol : ISessionProtocol
             Parts.Counters.DatagramsIgnored++;
             if (hasEnded || client is null)
             {
-                // The sender missed the goodbye, or never was one of our clients. The reply carries its own session's number, in fewer
-                // bytes than it sent.
-                Parts.Sender.SayGoodbye(from, update.SessionId, hasEnded ? LeaveReason.HostEnded : places.WhyGone(update.SessionId));
+                SendGone(update.SessionId, from);
             }
 
             return;
@@ -153,6 +165,8 @@ internal sealed class HostProtocol : ISessionProtocol
 
         Take(update, client, Parts.Clock.Now);
     }
+
+    public void WipeKeys() => Roster.WipeKeys();
 
     public void Tend(SimTime now)
     {
@@ -197,6 +211,10 @@ internal sealed class HostProtocol : ISessionProtocol
 
         return due;
     }
+
+    /// <summary>Tells a sender that it missed the goodbye, or never was one of this host's clients.</summary>
+    private void SendGone(ulong sessionId, PeerAddress to) =>
+        stray.Send(to, sessionId, Parts.Status.HasEnded ? LeaveReason.HostEnded : places.WhyGone(sessionId));
 
     private void OnLeave(in LeaveDatagram leave, PeerAddress from)
     {

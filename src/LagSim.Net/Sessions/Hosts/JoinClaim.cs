@@ -13,6 +13,7 @@ internal sealed class JoinClaim
     internal JoinClaim(in JoinDatagram join, byte keyed, PlayerPlaces.Place? claimed, SimTime until)
     {
         Nonce = join.Nonce;
+        Cookie = join.Cookie;
         Wanted = join.Player;
         Keyed = keyed;
         Claimed = claimed;
@@ -21,6 +22,8 @@ internal sealed class JoinClaim
     }
 
     internal ulong Nonce { get; }
+
+    internal Token128 Cookie { get; }
 
     /// <summary>The number that it says it had; 0 for none.</summary>
     internal byte Wanted { get; }

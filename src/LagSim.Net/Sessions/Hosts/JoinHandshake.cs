@@ -1,5 +1,7 @@
+using System;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -16,6 +18,7 @@ internal sealed class JoinHandshake
     private readonly AddressChallenge challenge;
     private readonly Admission admission;
     private readonly SnapshotServer server;
+    private readonly DatagramSender sender;
     private readonly SessionCounters counters;
     private readonly IClock clock;
 
@@ -33,16 +36,17 @@ internal sealed class JoinHandshake
         WorkBudget budget, ClientTimeouts timeouts)
     {
         this.roster = roster;
+        sender = parts.Sender;
         counters = parts.Counters;
         clock = parts.Clock;
-        challenge = new AddressChallenge(cookies, parts.Sender, clock);
+        challenge = new AddressChallenge(PublicIdentity.Of(options.Protection), cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.MaxClientsPerAddress);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
-        server = new SnapshotServer(roster, new SnapshotRates(options.JoinLimits), challenge, parts.Sender, counters, clock);
+        server = new SnapshotServer(roster, new MachineRates(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst), challenge, parts.Sender, counters, clock);
         JoinRules rules = new(options, parts.World.Scene!.Hash, BanList, Seating);
         WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
         admission = new Admission(
-            sessionId, options.Window.History, cookies, challenge, rules, places, roster, room, Snapshots, timeouts, parts.Links,
+            sessionId, options, cookies, challenge, rules, places, roster, room, Snapshots, timeouts, parts.Links,
             parts.Sender, counters, clock);
     }
 
@@ -55,10 +59,15 @@ internal sealed class JoinHandshake
     /// <summary>Gives joining clients their numbers.</summary>
     internal Seating Seating { get; }
 
-    /// <summary>Makes a sender prove its address before it is answered.</summary>
+    /// <summary>Makes a sender that wants to join prove its address before it is answered.</summary>
     internal void Challenge(ulong nonce, PeerAddress from) => challenge.Send(nonce, from);
 
+    /// <summary>Makes a client prove the new address from which it wrote.</summary>
+    internal void Challenge(UpdateLink link, PeerAddress from) => challenge.Send(link, from);
+
     internal void OnJoin(in JoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
+
+    internal void OnJoin(in SecureJoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
 
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from) => server.OnSnapshotRequest(request, from);
 
@@ -81,14 +90,16 @@ internal sealed class JoinHandshake
     }
 
     /// <summary>Handles a client that speaks another version of the protocol.</summary>
-    internal void OnOtherVersion(ulong nonce, PeerAddress from) => admission.Refuse(nonce, RefusalReason.VersionDiffers, from);
+    internal void OnOtherVersion(ulong nonce, PeerAddress from) => admission.RefuseVersion(nonce, from);
 
     /// <summary>Gives a number to a client that has its snapshot and its clock; if there is none, refuses it and returns false.</summary>
     internal bool TrySeat(Client client, SimTime now)
     {
         if (Seating.TrySeat(client, now) is RefusalReason reason)
         {
-            admission.Refuse(client.Claim.Nonce, reason, client.Link.Other);
+            Span<byte> bytes = stackalloc byte[WireFormat.RefusalBytes];
+            sender.Send(bytes.Slice(0, new RefusalDatagram(client.Link.SessionId, reason).Encode(bytes)), client.Link);
+            roster.Drop(client);
             return false;
         }
 

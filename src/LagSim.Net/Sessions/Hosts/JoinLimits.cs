@@ -31,6 +31,15 @@ internal sealed class JoinLimits
     /// <summary>The rate at which one machine is sent chunks, for all its clients together: 2.3 MB/s.</summary>
     internal double ChunksPerSecond { get; set; } = 2000;
 
+    /// <summary>
+    /// The rate at which handshakes are read from one machine, each of which costs up to three agreements: 0.4 ms (docs/SECURITY.md). A
+    /// hundred machines that ask at full speed take a twentieth of a core.
+    /// </summary>
+    internal double HandshakesPerSecond { get; set; } = 1;
+
+    /// <summary>The burst of handshakes after a pause: as many as there are places.</summary>
+    internal int HandshakeBurst { get; set; } = SessionOptions.MaxClients;
+
     /// <summary>The burst of chunks after a pause: four windows.</summary>
     internal int ChunkBurst { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;
 }

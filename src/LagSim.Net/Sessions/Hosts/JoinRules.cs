@@ -23,6 +23,9 @@ internal sealed class JoinRules(HostOptions options, ulong sceneHash, BanList sh
         return 0;
     }
 
+    /// <summary>The key of a number that a key gave; the session's for 0.</summary>
+    internal string KeyOf(byte keyed) => keyed > 0 ? options.PlayerKeys[keyed] : options.ConnectKey;
+
     /// <summary>Returns why a client may not join; null if it may.</summary>
     /// <param name="join">The join.</param>
     /// <param name="keyed">The number that its key gives; 0 for none.</param>

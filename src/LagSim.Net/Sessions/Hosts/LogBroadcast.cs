@@ -97,6 +97,6 @@ internal sealed class LogBroadcast
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = world.Live is null ? SimTime.MinValue : last < lines.Count ? lines.WatermarkAfter(last) : watermark.Now;
         bool isUrgent = client.Acknowledged < Math.Min(log.LastUrgent, view.Last);
-        sender.Send(link.Seal(view, now, keepAlive.RestAfterUpdate(link, isToBegin, now, keepAlive.Overdue), isUrgent), link);
+        sender.Send(link.Complete(view, now, keepAlive.RestAfterUpdate(link, isToBegin, now, keepAlive.Overdue), isUrgent), link);
     }
 }

@@ -33,29 +33,28 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         // A client that proves to be an absent player has a number, but counts: otherwise a machine could collect passes, and then join
         // with all of them.
         byte own = claimed?.Number ?? 0;
-        int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && j.Link.Other != from && j.Link.Other.IsSameMachine(from));
+        int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && !IsRestarted(j, from) && j.Link.Other.IsSameMachine(from));
         return others >= maxOfOneMachine ? RefusalReason.TooManyFromOneAddress
-            : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && j.Link.Other == from)
+            : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && IsRestarted(j, from))
                 ? RefusalReason.Full
             : null;
     }
 
     /// <summary>Gives a number to a client that has its snapshot and its clock, and sends it.</summary>
-    /// <returns>Why there is none, in which case the client is dropped; null if it has one.</returns>
+    /// <returns>Why there is none; null if it has one.</returns>
     internal RefusalReason? TrySeat(Client client, SimTime now)
     {
         PeerAddress address = client.Link.Other;
         JoinClaim claim = client.Claim;
         PlayerPlaces.Place? claimed = claim.Former;
         PlayerPlaces.Place? place = claim.Keyed > 0 ? places[claim.Keyed] : claimed;
-        if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && j.Link.Other == address) is Client gone)
+        if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && IsRestarted(j, address)) is Client gone)
         {
             roster.Disconnect(gone, LeaveReason.TimedOut); // restarted, or gone and its port reused: it may still come back
         }
 
         if (WhyNone(claim.Keyed, claimed, address, now) is RefusalReason reason)
         {
-            roster.All.Remove(client);
             return reason;
         }
 
@@ -76,6 +75,12 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         Came?.Invoke(client.Link.Traffic);
         return null;
     }
+
+    /// <summary>
+    /// Whether a client that is in has restarted, if one joins from its address. Only without protection: somebody on the path can join from
+    /// anyone's address, and a protected link is known by its keys.
+    /// </summary>
+    private static bool IsRestarted(Client client, PeerAddress from) => client.Link.Seal is null && client.Link.Other == from;
 
     /// <summary>Sends a client its number.</summary>
     internal void Tell(Client client)

@@ -6,9 +6,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Sends joining clients the snapshot chunks that they request, at a pace for each machine.</summary>
+/// <summary>Sends joining clients the snapshot chunks that they request, at a rate for each machine.</summary>
 internal sealed class SnapshotServer(
-    ClientRoster roster, SnapshotRates paces, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
+    ClientRoster roster, MachineRates rates, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
     IClock clock)
 {
     /// <summary>How often every chunk of a snapshot may be requested on average before no more are sent.</summary>
@@ -23,7 +23,7 @@ internal sealed class SnapshotServer(
             if (client is not null && client.Link.Other != from)
             {
                 // Chunks are many times as long as a request, so the sender must prove its address first.
-                challenge.Send(request.SessionId, from);
+                challenge.Send(client.Link, from);
             }
 
             return;
@@ -36,10 +36,10 @@ internal sealed class SnapshotServer(
         SendChunks(client, client.Snapshot.Bytes, request, now);
     }
 
-    /// <summary>Sends the requested chunks, as far as the pace allows; the client requests missing ones again.</summary>
+    /// <summary>Sends the requested chunks, as far as the rate allows; the client requests missing ones again.</summary>
     private void SendChunks(Client client, ReadOnlySpan<byte> snapshot, in SnapshotRequestDatagram request, SimTime now)
     {
-        Span<byte> bytes = stackalloc byte[WireFormat.MaxBytes];
+        Span<byte> bytes = stackalloc byte[WireFormat.MaxPlainBytes];
         long most = MaxRepeats * ((snapshot.Length / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks);
         for (int n = 0; n < SnapshotRequestDatagram.MaxChunks; n++)
         {
@@ -49,7 +49,7 @@ internal sealed class SnapshotServer(
                 continue;
             }
 
-            if (client.ChunksGiven >= most || !paces.TrySpend(client.Link.Other, now))
+            if (client.ChunksGiven >= most || !rates.TrySpend(client.Link.Other, now))
             {
                 return;
             }

@@ -37,7 +37,7 @@ internal sealed class WaitingRoom(ClientRoster roster, JoinSnapshots snapshots, 
 
         void LeaveOut(Client client)
         {
-            roster.All.Remove(client);
+            roster.Drop(client);
             coming.Remove(client);
         }
 

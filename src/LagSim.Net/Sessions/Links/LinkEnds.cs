@@ -1,16 +1,16 @@
 using LagSim.Net.Carriers;
+using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Links;
 
-/// <summary>The two ends of a link: its session id, the two peers' numbers, and the other's address.</summary>
+/// <summary>The two ends of a link: its session id, the two peers' numbers, the other's address, and what protects it.</summary>
 internal sealed class LinkEnds
 {
-    internal LinkEnds(ulong sessionId, byte self, byte peer, PeerAddress other)
+    internal LinkEnds(ulong sessionId, PeerAddress other, LinkSeal? seal = null)
     {
         SessionId = sessionId;
-        Self = self;
-        Peer = peer;
         Other = other;
+        Seal = seal;
     }
 
     /// <summary>The session id that every datagram of the link carries.</summary>
@@ -24,4 +24,10 @@ internal sealed class LinkEnds
 
     /// <summary>The other's address.</summary>
     internal PeerAddress Other { get; set; }
+
+    /// <summary>Seals the link's datagrams; null in a session without protection.</summary>
+    internal LinkSeal? Seal { get; }
+
+    /// <summary>How much longer a datagram is on this link than without protection.</summary>
+    internal int SealBytes => Seal is null ? 0 : WireFormat.SealBytes;
 }

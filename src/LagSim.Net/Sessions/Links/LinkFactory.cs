@@ -21,6 +21,7 @@ internal sealed class LinkFactory
     /// <param name="sessionId">The session id that every datagram of the link carries.</param>
     /// <param name="acknowledged">The last of this peer's entries that the other has without a gap.</param>
     /// <param name="now">The time by the local clock.</param>
-    internal UpdateLink To(PeerAddress other, ulong sessionId, uint acknowledged, SimTime now) =>
-        new(sessionId, 0, 0, other, acknowledged, resendInterval, outgoing, buffer, now, Parts);
+    /// <param name="seal">Seals its datagrams; null in a session without protection.</param>
+    internal UpdateLink To(PeerAddress other, ulong sessionId, uint acknowledged, SimTime now, LinkSeal? seal = null) =>
+        new(new LinkEnds(sessionId, other, seal), acknowledged, resendInterval, outgoing, buffer, now, Parts);
 }

@@ -39,7 +39,7 @@ internal sealed class LinkFlight
 
     /// <summary>Records that an update was sent.</summary>
     /// <param name="update">The update.</param>
-    /// <param name="length">Its length, in bytes.</param>
+    /// <param name="length">Its length on this link, in bytes.</param>
     /// <param name="now">The time by the local clock.</param>
     internal void NoteSent(UpdateDatagram update, int length, SimTime now)
     {

@@ -22,7 +22,7 @@ internal class LinkReceipts
     internal SimTime NewestCame { get; private set; } = SimTime.MinValue;
 
     /// <summary>The number of the newest update; 0 before there is one.</summary>
-    internal uint Newest => seen.Newest;
+    internal uint Newest => (uint)seen.Newest;
 
     /// <summary>Which of the 32 before it arrived.</summary>
     internal uint BitsBeforeNewest => seen.BitsBefore(seen.Newest);

@@ -15,10 +15,14 @@ internal sealed class SeenNumbers
     private readonly ulong[] seen = new ulong[Span / WordBits];
 
     /// <summary>The highest number that has arrived; 0 before there is one.</summary>
-    internal uint Newest { get; private set; }
+    internal ulong Newest { get; private set; }
+
+    /// <summary>Whether a number, 1 or more, has not arrived before and is not too old to know.</summary>
+    internal bool IsNew(ulong number) =>
+        number > Newest || (number > 0 && Newest - number < Span && (seen[Word(number)] & Bit(number)) == 0);
 
     /// <summary>Records a number, 1 or more; false if it has arrived before, or is too old to know.</summary>
-    internal bool Add(uint number)
+    internal bool Add(ulong number)
     {
         if (number > Newest)
         {
@@ -28,7 +32,7 @@ internal sealed class SeenNumbers
             }
             else
             {
-                for (uint n = Newest + 1; n < number; n++)
+                for (ulong n = Newest + 1; n < number; n++)
                 {
                     seen[Word(n)] &= ~Bit(n);
                 }
@@ -39,7 +43,7 @@ internal sealed class SeenNumbers
             return true;
         }
 
-        if (number == 0 || Newest - number >= Span || (seen[Word(number)] & Bit(number)) != 0)
+        if (!IsNew(number))
         {
             return false;
         }
@@ -49,7 +53,7 @@ internal sealed class SeenNumbers
     }
 
     /// <summary>Which of the 32 numbers before one that is not above <see cref="Newest"/> have arrived: bit n for number - 1 - n.</summary>
-    internal uint BitsBefore(uint number)
+    internal uint BitsBefore(ulong number)
     {
         uint bits = 0;
         for (uint n = 1; n <= 32 && n < number; n++)
@@ -60,7 +64,7 @@ internal sealed class SeenNumbers
         return bits;
     }
 
-    private static int Word(uint number) => (int)(number % Span / WordBits);
+    private static int Word(ulong number) => (int)(number % Span / WordBits);
 
-    private static ulong Bit(uint number) => 1UL << (int)(number % WordBits);
+    private static ulong Bit(ulong number) => 1UL << (int)(number % WordBits);
 }

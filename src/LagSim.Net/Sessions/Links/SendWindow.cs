@@ -21,7 +21,7 @@ internal class SendWindow
     internal const int MaxDatagramsAtOnce = 4;
 
     /// <summary>The most bytes that the entries of one update take.</summary>
-    private const int Room = WireFormat.MaxBytes - WireFormat.EmptyUpdateBytes - WireFormat.MaxHashBytes - WireFormat.StartBytes;
+    private const int Room = WireFormat.MaxPlainBytes - WireFormat.EmptyUpdateBytes - WireFormat.MaxHashBytes - WireFormat.StartBytes;
 
     private readonly List<(uint First, uint Last)> lost = new(); // ascending, disjoint, above what is acknowledged
     private uint sent;

@@ -17,8 +17,8 @@ internal sealed class UpdateLink
     /// <summary>How long an acknowledgement that is not urgent may wait for a datagram that goes out anyway.</summary>
     internal static readonly SimDuration MaxAckDelay = SimDuration.FromMilliseconds(100);
 
-    /// <summary>The bytes of an update besides its entries: header, state hash, UDP and IP.</summary>
-    private const int OwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
+    /// <summary>The bytes of an update besides its entries, without protection: header, state hash, UDP and IP.</summary>
+    private const int PlainOwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
 
     /// <summary>
     /// The pacing gain: a window of datagrams is spread over four fifths of a round trip, so that it does not overflow a short queue at
@@ -39,10 +39,7 @@ internal sealed class UpdateLink
     private bool isProbe; // the next update is sent whatever the window
     private bool isHeldBack; // something has to be sent and may not yet
 
-    /// <param name="sessionId">The session id that every datagram of this link carries.</param>
-    /// <param name="self">This peer's number.</param>
-    /// <param name="peer">The other's number.</param>
-    /// <param name="other">The other's address.</param>
+    /// <param name="ends">The two ends of the link.</param>
     /// <param name="acknowledged">The last of this peer's entries that the other has without a gap.</param>
     /// <param name="interval">How long unacknowledged entries wait before they are repeated, where there is room.</param>
     /// <param name="outgoing">The update to compose in, one at a time; shared by all links of a session.</param>
@@ -50,12 +47,12 @@ internal sealed class UpdateLink
     /// <param name="now">The time by the local clock.</param>
     /// <param name="parts">The factory of its parts; null for the usual ones.</param>
     internal UpdateLink(
-        ulong sessionId, byte self, byte peer, PeerAddress other, uint acknowledged, SimDuration interval, UpdateDatagram outgoing,
-        byte[] buffer, SimTime now, LinkParts? parts = null)
+        LinkEnds ends, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
+        LinkParts? parts = null)
     {
         this.interval = interval;
         parts ??= new LinkParts();
-        ends = new LinkEnds(sessionId, self, peer, other);
+        this.ends = ends;
         composer = new UpdateComposer(outgoing, buffer);
         hearing = parts.Hearing(now);
         pacer = new SendPacer(now);
@@ -88,6 +85,9 @@ internal sealed class UpdateLink
         set => ends.Other = value;
     }
 
+    /// <summary>Seals the link's datagrams; null in a session without protection.</summary>
+    internal LinkSeal? Seal => ends.Seal;
+
     /// <summary>Chooses which of this peer's entries are sent next.</summary>
     internal SendWindow Outgoing => flight.Window;
 
@@ -101,6 +101,9 @@ internal sealed class UpdateLink
 
     /// <summary>When the next update is due, by the local clock.</summary>
     internal SimTime Due => pacer.Due;
+
+    /// <summary>The bytes of an update besides its entries.</summary>
+    private int OwnBytes => PlainOwnBytes + ends.SealBytes;
 
     /// <summary>
     /// How long a new entry waits at most for more, where it may not hurry: no longer than an answer takes, and no longer than its delay in
@@ -177,8 +180,10 @@ internal sealed class UpdateLink
         isHeldBack |= !flight.Congestion.HasRoom;
     }
 
-    internal void CountReceived(int bytes) => traffic.CountReceived(bytes);
+    /// <summary>Counts a datagram that arrived, by its length without a seal.</summary>
+    internal void CountReceived(int bytes) => traffic.CountReceived(bytes + ends.SealBytes);
 
+    /// <summary>Counts a datagram that was sent, by its length on the link.</summary>
     internal void CountSent(int bytes) => traffic.CountSent(bytes);
 
     /// <summary>Whether an update is due; what has been unanswered for too long counts as lost from now on.</summary>
@@ -200,7 +205,7 @@ internal sealed class UpdateLink
 
     /// <summary>
     /// Begins an update with everything filled in that this type knows; the rest is the caller's. Then call <see cref="Fill"/>, and send it
-    /// with <see cref="Seal"/>.
+    /// with <see cref="Complete"/>.
     /// </summary>
     internal UpdateDatagram Compose(SimTime now) => composer.Next(SessionId, Self, hearing, now);
 
@@ -230,11 +235,11 @@ internal sealed class UpdateLink
     /// <param name="now">When it is sent.</param>
     /// <param name="rest">The pause when nothing is wrong.</param>
     /// <param name="isUrgent">Whether something unacknowledged is not superseded by anything later.</param>
-    internal ReadOnlySpan<byte> Seal(IEntrySource source, SimTime now, SimDuration rest, bool isUrgent)
+    internal ReadOnlySpan<byte> Complete(IEntrySource source, SimTime now, SimDuration rest, bool isUrgent)
     {
         UpdateDatagram update = composer.Update;
         ReadOnlySpan<byte> bytes = composer.Encode();
-        flight.NoteSent(update, bytes.Length, now);
+        flight.NoteSent(update, bytes.Length + ends.SealBytes, now);
         bool hasNeeded = Outgoing.HasNeeded(source);
         isHeldBack = hasNeeded && !flight.Congestion.HasRoom;
         if (!hasNeeded)
@@ -242,7 +247,7 @@ internal sealed class UpdateLink
             unsent.Clear();
         }
 
-        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length) : SendPacer.MinDistance);
+        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length + ends.SealBytes) : SendPacer.MinDistance);
         if (hasNeeded && !isHeldBack)
         {
             pacer.GoOn(now);

@@ -7,7 +7,7 @@ using Xunit;
 namespace LagSim.Tests.Sessions;
 
 /// <summary>The pace at which pieces of copies are given is a machine's, whatever port or address of its network it asks from.</summary>
-public sealed class SnapshotRatesTests
+public sealed class MachineRatesTests
 {
     [Theory]
     [InlineData("10.0.0.1", "10.0.0.1", true)]
@@ -17,7 +17,7 @@ public sealed class SnapshotRatesTests
     [InlineData("::ffff:10.0.0.1", "10.0.0.1", true)]
     public void TrySpend_IsSharedByWhatIsOneMachine(string one, string other, bool isShared)
     {
-        SnapshotRates paces = new(new JoinLimits { ChunksPerSecond = 100, ChunkBurst = 10 });
+        MachineRates paces = new(perSecond: 100, burst: 10);
         PeerAddress first = Address(one, 1000), second = Address(other, 2000);
         Assert.Equal((isShared, isShared), (first.IsSameMachine(second), first.Machine == second.Machine));
         SimTime now = SimTime.FromSeconds(1);
@@ -34,7 +34,7 @@ public sealed class SnapshotRatesTests
     [Fact]
     public void Machines_ThatHaveTheirWholePaceAgain_AreForgotten()
     {
-        SnapshotRates paces = new(new JoinLimits());
+        MachineRates paces = new(perSecond: 2000, burst: 256);
         SimTime now = SimTime.FromSeconds(1);
         for (int n = 0; n < 10_000; n++)
         {

@@ -1,0 +1,32 @@
+using System;
+
+namespace LagSim.Net.Protection;
+
+/// <summary>A client's handshake message that a host has read.</summary>
+internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey) : IHostHandshake
+{
+    /// <inheritdoc/>
+    public IDatagramCipher Accept(string connectKey, ReadOnlySpan<byte> payload, Span<byte> message)
+    {
+        Span<byte> key = stackalloc byte[PreSharedKey.Bytes];
+        PreSharedKey.Write(connectKey, key);
+        Answer(key, payload, message);
+        System.Security.Cryptography.CryptographicOperations.ZeroMemory(key);
+        return NoiseCipher.OfHost(state);
+    }
+
+    /// <inheritdoc/>
+    public void Refuse(ReadOnlySpan<byte> payload, Span<byte> message) => Answer(PreSharedKey.OfRefusal, payload, message);
+
+    /// <summary>Wipes the keys.</summary>
+    public void Dispose() => state.Dispose();
+
+    private void Answer(ReadOnlySpan<byte> preSharedKey, ReadOnlySpan<byte> payload, Span<byte> message)
+    {
+        using Curve25519KeyPair own = Curve25519KeyPair.Draw();
+        if (!NoiseHandshake.TryWriteSecond(state, own, clientKey, preSharedKey, payload, message))
+        {
+            throw new InvalidOperationException("The client's key is none; its message should not have been read.");
+        }
+    }
+}

@@ -1,0 +1,60 @@
+using System;
+
+namespace LagSim.Net.Protection;
+
+/// <summary>Protects a client's session: every datagram is encrypted and authenticated, and the host is the one that is meant.</summary>
+/// <remarks>
+/// Give it to <see cref="Sessions.ClientOptions.Protection"/>, one to each session. A host without protection is not joined. Safe to read
+/// from any thread.
+/// </remarks>
+/// <example>
+/// <code>
+/// HostAddress address = HostAddress.Parse("lagsim://192.168.0.7:5000#6f1c8a0b2d3e4f5061728394a5b6c7d8");
+/// using PeerThread client = PeerThread.Join(
+///     new IPEndPoint(IPAddress.Parse(address.Host), address.Port), new ClientOptions { Protection = new SecureClient(address.Fingerprint) });
+/// </code>
+/// </example>
+public sealed class SecureClient : IClientProtection
+{
+    private volatile object? trusted; // a boxed fingerprint, so that other threads read it whole
+
+    /// <summary>Joins only the host with this fingerprint.</summary>
+    public SecureClient(HostFingerprint fingerprint) => trusted = fingerprint;
+
+    private SecureClient()
+    {
+    }
+
+    /// <summary>
+    /// The fingerprint of the host that this client joins; null while it joins whichever host answers first, and none has.
+    /// </summary>
+    public HostFingerprint? Host => (HostFingerprint?)trusted;
+
+    /// <summary>
+    /// Joins whichever host answers first, and from then on only that one. Somebody on the path can be that host: show
+    /// <see cref="Host"/> to the player, and keep it for the next time.
+    /// </summary>
+    public static SecureClient TrustOnFirstUse() => new();
+
+    /// <inheritdoc/>
+    public IClientHandshake? Begin(
+        ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> payload, Span<byte> message)
+    {
+        HostFingerprint shown = HostFingerprint.OfPublicKey(identity);
+        if (Host is HostFingerprint wanted && wanted != shown)
+        {
+            return null;
+        }
+
+        NoiseSymmetricState state = NoiseHandshake.Begin(prologue, identity);
+        Curve25519KeyPair own = Curve25519KeyPair.Draw();
+        if (!NoiseHandshake.TryWriteFirst(state, own, identity, payload, message))
+        {
+            state.Dispose();
+            own.Dispose();
+            return null; // that public key is none
+        }
+
+        return new ClientHandshake(state, own, () => trusted ??= shown);
+    }
+}

@@ -1,0 +1,25 @@
+using System;
+
+namespace LagSim.Net.Protection;
+
+/// <summary>A handshake that a client has begun, and that the host's answer ends.</summary>
+/// <remarks>For one thread. A message that cannot be read changes nothing. Disposing it wipes its keys.</remarks>
+public interface IClientHandshake : IDisposable
+{
+    /// <summary>Reads the answer that lets the client in. It proves the host, and that the host knows the connect key.</summary>
+    /// <param name="connectKey">The key that both must know.</param>
+    /// <param name="message">The host's message.</param>
+    /// <param name="payload">
+    /// Receives what the host said, in <see cref="IHostProtection.HandshakeOverhead"/> bytes less than the message has.
+    /// </param>
+    /// <returns>The cipher of the link to the host; null if the message is not an answer of this host to this handshake.</returns>
+    IDatagramCipher? TryFinish(string connectKey, ReadOnlySpan<byte> message, Span<byte> payload);
+
+    /// <summary>Reads the answer that does not let the client in.</summary>
+    /// <param name="message">The host's message.</param>
+    /// <param name="payload">
+    /// Receives what the host said, in <see cref="IHostProtection.HandshakeOverhead"/> bytes less than the message has.
+    /// </param>
+    /// <returns>False if the message is not a refusal of this host.</returns>
+    bool TryReadRefusal(ReadOnlySpan<byte> message, Span<byte> payload);
+}

@@ -1,0 +1,41 @@
+using System;
+
+namespace LagSim.Net.Protection;
+
+/// <summary>
+/// A host's identity, and its side of the handshake by which a joining client and a host agree on keys. The package
+/// <c>LagSim.Net.Secure</c> has one.
+/// </summary>
+/// <remarks>Safe on any thread: sessions may share it. Give it to a host by <see cref="Sessions.HostOptions.Protection"/>.</remarks>
+public interface IHostProtection
+{
+    /// <summary>The length of the identity that a host shows, in bytes.</summary>
+    public const int IdentityBytes = 32;
+
+    /// <summary>How much longer a handshake message is than its payload, in bytes.</summary>
+    public const int HandshakeOverhead = 48;
+
+    /// <summary>The length of a reset token, in bytes.</summary>
+    public const int ResetTokenBytes = 16;
+
+    /// <summary>Writes the identity that this host shows to everyone: a public key.</summary>
+    /// <param name="destination">Receives <see cref="IdentityBytes"/> bytes.</param>
+    void WriteIdentity(Span<byte> destination);
+
+    /// <summary>Reads a client's handshake message. Cost: one Diffie-Hellman agreement.</summary>
+    /// <param name="prologue">What both sides know of the handshake so far; if theirs differ, the message cannot be read.</param>
+    /// <param name="message">The message.</param>
+    /// <param name="payload">
+    /// Receives what the client said, in <see cref="HandshakeOverhead"/> bytes less than the message has. Nobody but this host can read
+    /// it, and it is not known yet who wrote it.
+    /// </param>
+    /// <returns>The handshake, to be answered or disposed; null if the message is not one for this host. Never throws.</returns>
+    IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload);
+
+    /// <summary>
+    /// Writes the token by which this host, even after a restart, proves to the client of that session id that it does not know it.
+    /// </summary>
+    /// <param name="sessionId">The session id.</param>
+    /// <param name="token">Receives <see cref="ResetTokenBytes"/> bytes: always the same for one session id and identity.</param>
+    void WriteResetToken(ulong sessionId, Span<byte> token);
+}

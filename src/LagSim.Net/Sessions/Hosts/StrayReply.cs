@@ -1,0 +1,35 @@
+using System;
+using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>
+/// Tells a sender that the host has no link with its session id, using that id from its own datagram, in fewer bytes than it sent.
+/// </summary>
+/// <param name="protection">Proves the host to the sender; null in a session without protection.</param>
+/// <param name="sender">Sends the reply.</param>
+internal sealed class StrayReply(IHostProtection? protection, DatagramSender sender)
+{
+    internal void Send(PeerAddress to, ulong sessionId, LeaveReason reason)
+    {
+        Span<byte> bytes = stackalloc byte[WireFormat.ResetBytes];
+        if (protection is null)
+        {
+            sender.Send(bytes.Slice(0, new LeaveDatagram(sessionId, 0, reason).Encode(bytes)), to);
+            return;
+        }
+
+        sender.Send(bytes.Slice(0, new ResetDatagram(sessionId, reason, Token(protection, sessionId)).Encode(bytes)), to);
+    }
+
+    /// <summary>What proves to the client with that session id that the host does not have it any more.</summary>
+    internal static Token128 Token(IHostProtection protection, ulong sessionId)
+    {
+        Span<byte> token = stackalloc byte[IHostProtection.ResetTokenBytes];
+        protection.WriteResetToken(sessionId, token);
+        return new Token128(token);
+    }
+}

@@ -1,0 +1,58 @@
+using System;
+using LagSim.Net.Protection;
+using LagSim.Net.Wire;
+
+namespace LagSim.Net.Sessions.Links;
+
+/// <summary>
+/// Seals the datagrams of one link, and opens those of its other end: encrypted, authenticated, numbered, and each accepted once.
+/// </summary>
+/// <remarks>
+/// A number is never used twice with one cipher: it counts up, and every join has a cipher of its own. For one thread.
+/// </remarks>
+internal sealed class LinkSeal : IDisposable
+{
+    private readonly IDatagramCipher cipher;
+    private readonly SeenNumbers opened = new();
+    private ulong sent;
+
+    /// <param name="cipher">The cipher of the link.</param>
+    /// <param name="resetToken">What a host shows to prove that it does not have the link any more; for a client's end.</param>
+    internal LinkSeal(IDatagramCipher cipher, Token128 resetToken = default)
+    {
+        this.cipher = cipher;
+        ResetToken = resetToken;
+    }
+
+    /// <summary>What a host shows to prove that it does not have the link any more.</summary>
+    internal Token128 ResetToken { get; }
+
+    /// <summary>Wipes the keys.</summary>
+    public void Dispose() => cipher.Dispose();
+
+    /// <summary>Seals a datagram.</summary>
+    /// <returns>The length, <see cref="WireFormat.SealBytes"/> more than before.</returns>
+    /// <exception cref="InvalidOperationException">The numbers are used up, after 89 years at 100,000 datagrams a second.</exception>
+    internal int Seal(ReadOnlySpan<byte> datagram, Span<byte> destination)
+    {
+        if (sent == SealedDatagram.MaxNumber)
+        {
+            throw new InvalidOperationException($"The link has sealed {sent} datagrams, the most there are numbers for.");
+        }
+
+        return SealedDatagram.Encode(datagram, ++sent, cipher, destination);
+    }
+
+    /// <summary>Opens a datagram.</summary>
+    /// <param name="datagram">The sealed datagram.</param>
+    /// <param name="destination">Receives what it seals.</param>
+    /// <param name="length">The length of that.</param>
+    /// <param name="isRepeated">Whether it is refused because its number came before, or is too old to know.</param>
+    /// <returns>False if the other end did not seal it, or if it came before.</returns>
+    internal bool TryOpen(in SealedDatagram datagram, Span<byte> destination, out int length, out bool isRepeated)
+    {
+        length = 0;
+        isRepeated = !opened.IsNew(datagram.Number);
+        return !isRepeated && datagram.TryOpen(cipher, destination, out length) && opened.Add(datagram.Number);
+    }
+}

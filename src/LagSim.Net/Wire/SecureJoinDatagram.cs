@@ -1,0 +1,66 @@
+using System;
+using LagSim.Net.Protection;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>
+/// A challenged client's request to be let in by a protected host: a handshake message whose payload is what a <see cref="JoinDatagram"/>
+/// claims. Repeated unchanged until it is answered.
+/// </summary>
+/// <remarks>Its bytes are those of the datagram it was read from; valid as long as those are.</remarks>
+internal readonly ref struct SecureJoinDatagram
+{
+    private SecureJoinDatagram(ulong nonce, Token128 cookie, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message)
+    {
+        Nonce = nonce;
+        Cookie = cookie;
+        Prologue = prologue;
+        Message = message;
+    }
+
+    /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> of this attempt.</summary>
+    public ulong Nonce { get; }
+
+    /// <summary>The cookie from the host.</summary>
+    public Token128 Cookie { get; }
+
+    /// <summary>The bytes before the message, which the handshake covers.</summary>
+    public ReadOnlySpan<byte> Prologue { get; }
+
+    /// <summary>The handshake message.</summary>
+    public ReadOnlySpan<byte> Message { get; }
+
+    /// <summary>Writes the datagram, whose message the handshake writes.</summary>
+    /// <param name="destination">At least <see cref="WireFormat.SecureJoinBytes"/>.</param>
+    /// <param name="join">What the client claims.</param>
+    /// <param name="identity">The identity that the host shows.</param>
+    /// <param name="protection">The client's side of the handshake.</param>
+    /// <returns>The handshake; null if the client does not want the host with that identity.</returns>
+    internal static IClientHandshake? Encode(
+        Span<byte> destination, in JoinDatagram join, in PublicIdentity identity, IClientProtection protection)
+    {
+        Span<byte> prologue = destination.Slice(0, JoinDatagram.WritePrologue(destination, DatagramType.SecureJoin, join.Nonce, join.Cookie));
+        Span<byte> shown = stackalloc byte[IHostProtection.IdentityBytes];
+        WireWriter writer = new(shown);
+        identity.Write(ref writer);
+        Span<byte> claims = stackalloc byte[WireFormat.JoinClaimBytes];
+        join.EncodeClaims(claims);
+        return protection.Begin(
+            shown, prologue, claims, destination.Slice(prologue.Length, IHostProtection.HandshakeOverhead + claims.Length));
+    }
+
+    /// <summary>Reads a datagram; never throws.</summary>
+    /// <param name="datagram">The whole datagram.</param>
+    /// <param name="join">The decoded datagram; meaningless on refusal.</param>
+    /// <param name="refusal">The reason of a refusal, or <see cref="WireRefusal.None"/>.</param>
+    public static bool TryDecode(ReadOnlySpan<byte> datagram, out SecureJoinDatagram join, out WireRefusal refusal)
+    {
+        WireReader reader = WireReader.Open(datagram, DatagramType.SecureJoin);
+        ulong nonce = reader.ReadUInt64();
+        Token128 cookie = Token128.Read(ref reader);
+        ReadOnlySpan<byte> message = reader.ReadBytes(IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes);
+        bool isOne = reader.Finish(out refusal);
+        join = isOne ? new SecureJoinDatagram(nonce, cookie, datagram.Slice(0, WireFormat.JoinPrologueBytes), message) : default;
+        return isOne;
+    }
+}
