@@ -1,10 +1,12 @@
 using System;
 using System.CommandLine;
+using System.Linq;
 using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -37,10 +39,14 @@ internal static class HostCommand
             "--budget",
             "What each player's actions may cost before it is disconnected, as a multiple of the default, a tenth of a core; 0: no limit",
             1, 0, 1000);
+        Option<string?> identity = CommonOptions.File(
+            "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing. Keep it secret:"
+                + " who has it can play this host. By default the host has a new identity each time.");
+        Option<bool> unprotected = ProtectionOptions.Unprotected();
         Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, clients, history, perAddress, budget, admin,
+            scene, port, address, clients, history, perAddress, budget, identity, unprotected, admin,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -54,8 +60,10 @@ internal static class HostCommand
                 action.ActionIn(loaded);
             }
 
+            using HostIdentity? self = Identity(parsed.GetValue(unprotected), parsed.GetValue(identity));
             HostOptions options = HostOptions.From(request.Options) with
             {
+                Protection = self is null ? null : new SecureHost(self),
                 PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget)),
                 ExpectedClients = parsed.GetValue(clients),
                 Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
@@ -72,8 +80,20 @@ internal static class HostCommand
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
                 ListeningOn = new IPEndPoint(local, carrier.LocalAddress.ToEndPoint().Port).ToString(),
+                Addresses = self is null ? [] : [.. ReachableAddresses.Of(local)
+                    .Select(reachable => new HostAddress(reachable.ToString(), carrier.LocalAddress.ToEndPoint().Port, self.Fingerprint).ToString())],
             };
             printer.Line($"listening on {printer.ListeningOn}");
+            foreach (string reachable in printer.Addresses)
+            {
+                printer.Line(reachable);
+            }
+
+            if (self is null)
+            {
+                ProtectionOptions.Warn(console);
+            }
+
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             if (parsed.GetValue(admin))
             {
@@ -85,6 +105,13 @@ internal static class HostCommand
         });
         return command;
     }
+
+    /// <exception cref="UsageException">The options contradict each other.</exception>
+    private static HostIdentity? Identity(bool isUnprotected, string? file) =>
+        isUnprotected && file is not null ? throw new UsageException("--unprotected contradicts --identity; leave out one of them.")
+        : isUnprotected ? null
+        : file is null ? HostIdentity.Draw()
+        : IdentityFile.ReadOrDraw(file);
 
     private static HostSession Open(Scene scene, UdpPort carrier, HostOptions options)
     {

@@ -5,6 +5,7 @@ using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
@@ -16,10 +17,12 @@ internal static class JoinCommand
     {
         CommonOptions common = new();
         SessionArguments shared = new();
-        Argument<string> host = new("ADDRESS:PORT")
+        Argument<string> host = new("ADDRESS")
         {
-            Description = "Where the host is: 192.168.0.7:5000, [::1]:5000, or some.name:5000; if a name has addresses of both kinds, IPv4 is used.",
+            Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as 192.168.0.7:5000, [::1]:5000 or"
+                + " some.name:5000, the host that answers first is trusted, and its fingerprint printed. If a name has addresses of both kinds, IPv4 is used.",
         };
+        Option<bool> unprotected = ProtectionOptions.Unprotected();
         Option<string?> pass = CommonOptions.File(
             "--pass", "Come back as the same player after a restart: the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
         Command command = new(
@@ -28,7 +31,7 @@ internal static class JoinCommand
                 + " if the session ends earlier, or if a --do was refused or not done. The line below each T line gives the host's clock minus this one's, the"
                 + " most by which that may be wrong, and half a round trip.")
         {
-            host, pass,
+            host, pass, unprotected,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -41,10 +44,18 @@ internal static class JoinCommand
             {
                 ThrowIfSame(passFile, request.RecordFile);
                 options = options with { Pass = PassFile.Read(passFile) };
-                PassFile.ThrowIfNotWritable(passFile); // report this before joining
+                SecretFile.ThrowIfNotWritable("--pass", passFile, "a pass"); // report this before joining
             }
 
-            IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "join", console.Stop);
+            HostFingerprint? fingerprint = ProtectionOptions.ReadFingerprint(parsed.GetValue(host)!, out string place);
+            SecureClient? protection = Protection(parsed.GetValue(unprotected), fingerprint);
+            options = options with { Protection = protection };
+            IPEndPoint there = EndPointText.Resolve(place, "join", console.Stop);
+            if (protection is null)
+            {
+                ProtectionOptions.Warn(console);
+            }
+
             request = request with { Options = options, Host = there };
             using UdpPort carrier = new(UdpDestination.Facing(there.Address));
             ClientSession session = new(
@@ -65,12 +76,32 @@ internal static class JoinCommand
                 };
             }
 
+            if (protection is not null && fingerprint is null)
+            {
+                session.PassGiven += TellTrustOnce;
+            }
+
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile);
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             return runner.Run();
+
+            void TellTrustOnce(PlayerPass given)
+            {
+                session.PassGiven -= TellTrustOnce;
+                HostAddress trusted = new(there.Address.ToString(), there.Port, protection!.Host!.Value);
+                console.Error.WriteLine($"Trusting the host that answered first. If it is the right one, join it as {trusted} from now on.");
+            }
         });
         return command;
     }
+
+    /// <exception cref="UsageException">The options contradict each other.</exception>
+    private static SecureClient? Protection(bool isUnprotected, HostFingerprint? fingerprint) =>
+        isUnprotected && fingerprint is not null
+            ? throw new UsageException("--unprotected contradicts an address with a fingerprint; write ADDRESS:PORT alone.")
+        : isUnprotected ? null
+        : fingerprint is HostFingerprint wanted ? new SecureClient(wanted)
+        : SecureClient.TrustOnFirstUse();
 
     /// <summary>Refuses a recording that would overwrite the pass.</summary>
     private static void ThrowIfSame(string passFile, string? recordFile)
@@ -85,7 +116,7 @@ internal static class JoinCommand
     {
         try
         {
-            PassFile.Write(file, given);
+            SecretFile.Write(file, given.ToString());
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {

@@ -44,6 +44,9 @@ internal sealed class SessionPrinter
     /// <summary>The address at which a host can be reached; null for a client.</summary>
     internal string? ListeningOn { get; init; }
 
+    /// <summary>The addresses with fingerprint that clients join; none for a client, and for a session without protection.</summary>
+    internal IReadOnlyList<string> Addresses { get; init; } = [];
+
     internal LinkTable Links { get; } = new();
 
     /// <summary>Prints a line and flushes it.</summary>
@@ -126,7 +129,7 @@ internal sealed class SessionPrinter
     private static IEnumerable<(string Name, long Count)> Counts(SessionCounters counters, UdpPort port) =>
     [
         ("datagrams_sent", counters.DatagramsSent), ("datagrams_received", counters.DatagramsReceived), ("datagrams_malformed", counters.DatagramsMalformed),
-        ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
+        ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_forged", counters.DatagramsForged), ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
         ("receive_failures", port.ReceiveFailures), ("events_forged", counters.EventsForged), ("events_deferred", counters.EventsDeferred),
         ("events_lost", counters.EventsLost), ("events_unanswered", counters.EventsUnanswered), ("renewals", counters.Renewals),
     ];
@@ -187,6 +190,14 @@ internal sealed class SessionPrinter
         SessionCounters counters = session.Counters;
         document.WriteNumber("peer", session.Peer);
         document.WriteString("listening_on", ListeningOn);
+        document.WriteBoolean("protected", session.IsProtected);
+        document.WriteStartArray("addresses");
+        foreach (string address in Addresses)
+        {
+            document.WriteStringValue(address);
+        }
+
+        document.WriteEndArray();
         JsonDocumentWriter.Number(document, "for_s", forSeconds);
         document.WriteString("ended_by", Words(session.EndedBy));
         document.WriteString("end_reason", session.EndReason);

@@ -75,10 +75,7 @@ public sealed class PeerThread : IDisposable
     /// returned task completes, and whether or not it is awaited. The host's verdict on a client's event comes later, by
     /// <see cref="Session.Logged"/>.
     /// </summary>
-    /// <remarks>
-    /// What the end of the thread left unanswered is not reported here. Without a handler, refusals go to
-    /// <see cref="System.Diagnostics.Trace"/>.
-    /// </remarks>
+    /// <remarks>Not for what the end of the thread left unanswered. Without a handler, to <see cref="System.Diagnostics.Trace"/>.</remarks>
     public event Action<PlayerAction, Exception>? Refused
     {
         add => refused.Add(value);
@@ -290,6 +287,7 @@ public sealed class PeerThread : IDisposable
             TSession session = make();
             peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.Once);
             setUp?.Invoke(session);
+            session.WarnIfUnprotected();
             peer.Start();
             return peer;
         }

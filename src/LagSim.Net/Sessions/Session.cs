@@ -306,6 +306,17 @@ public abstract class Session
         return loop.Step();
     }
 
+    /// <summary>Says in <see cref="System.Diagnostics.Trace"/> that a session is not protected.</summary>
+    internal void WarnIfUnprotected()
+    {
+        if (!IsProtected)
+        {
+            HandlerFailures.Write(
+                "This session is not protected: anyone on the path can read it, act in any player's name, and be its host. Give its options a"
+                    + " protection, such as that of the package LagSim.Net.Secure.");
+        }
+    }
+
     /// <summary>Wipes the keys of all links, once the session has ended. Nothing can be sent over them any more.</summary>
     internal void WipeKeys() => protocol.WipeKeys();
 

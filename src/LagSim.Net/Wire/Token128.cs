@@ -1,10 +1,11 @@
 using System;
 using System.Buffers.Binary;
+using System.Security.Cryptography;
 
 namespace LagSim.Net.Wire;
 
 /// <summary>Sixteen bytes that only the holder of a secret can make.</summary>
-/// <remarks>Immutable, safe on any thread. Comparison takes constant time.</remarks>
+/// <remarks>Immutable, safe on any thread. Comparison takes constant time, by the system's function.</remarks>
 internal readonly struct Token128 : IEquatable<Token128>
 {
     /// <summary>The length in bytes.</summary>
@@ -39,7 +40,14 @@ internal readonly struct Token128 : IEquatable<Token128>
     internal ulong Second => high;
 
     /// <inheritdoc/>
-    public bool Equals(Token128 other) => ((low ^ other.low) | (high ^ other.high)) == 0;
+    public bool Equals(Token128 other)
+    {
+        Span<byte> mine = stackalloc byte[Bytes];
+        Span<byte> its = stackalloc byte[Bytes];
+        CopyTo(mine);
+        other.CopyTo(its);
+        return CryptographicOperations.FixedTimeEquals(mine, its);
+    }
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is Token128 other && Equals(other);
@@ -52,6 +60,12 @@ internal readonly struct Token128 : IEquatable<Token128>
 
     /// <summary>Different bytes.</summary>
     public static bool operator !=(Token128 a, Token128 b) => !a.Equals(b);
+
+    internal void CopyTo(Span<byte> destination)
+    {
+        BinaryPrimitives.WriteUInt64LittleEndian(destination, low);
+        BinaryPrimitives.WriteUInt64LittleEndian(destination.Slice(sizeof(ulong)), high);
+    }
 
     internal static Token128 Read(ref WireReader reader) => new(reader.ReadUInt64(), reader.ReadUInt64());
 

@@ -2,6 +2,7 @@ using System.Reflection;
 using LagSim.Cli.Output;
 using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Testing;
 
@@ -18,5 +19,6 @@ internal static class SourceAssemblies
         typeof(NumberText).Assembly,
         typeof(ExitCode).Assembly,
         typeof(LiteNetLibPort).Assembly,
+        typeof(SecureHost).Assembly,
     ];
 }

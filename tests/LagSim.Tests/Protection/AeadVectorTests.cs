@@ -26,7 +26,8 @@ public sealed class AeadVectorTests
         Assert.True(cipher.TryOpen(0x0807060504030201, Convert.FromHexString("f33388860000000000004e91"), closed, plain));
         Assert.StartsWith("Internet-Drafts are draft documents valid", System.Text.Encoding.UTF8.GetString(plain), StringComparison.Ordinal);
         byte[] again = new byte[closed.Length];
-        cipher.Seal(0x0807060504030201, Convert.FromHexString("f33388860000000000004e91"), plain, again);
+        using Aead sealing = Make(maker, Convert.FromHexString("1c9240a5eb55d38af333888604f6b5f0473917c1402b80099dca5cbc207075c0"));
+        sealing.Seal(0x0807060504030201, Convert.FromHexString("f33388860000000000004e91"), plain, again);
         Assert.Equal(closed, again);
     }
 

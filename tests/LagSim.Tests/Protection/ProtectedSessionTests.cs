@@ -35,7 +35,7 @@ public sealed class ProtectedSessionTests : IDisposable
         }
 
         Assert.True(group.Settle(done));
-        group.Run(2);
+        group.Run(5);
         Assert.Null(group.Difference());
         Assert.All(group.Sessions, s => Assert.True(s.IsProtected && s.Counters.StatesDiffered == 0 && s.Counters.DatagramsForged == 0));
         Assert.All(group.Sessions, s => Assert.True(s.Counters.StatesAgreed > 0 || s == group.Host));

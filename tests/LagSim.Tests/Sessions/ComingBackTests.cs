@@ -201,7 +201,7 @@ public sealed class ComingBackTests
         hasMoved = true;
         Assert.True(group.RunUntil(() => late.State == SessionState.Running, 5), $"{late.State} {late.EndReason}");
         Assert.True(isShown);
-        Assert.Contains(toNewAddress, d => d.Type == DatagramType.Challenge);
+        Assert.Contains(toNewAddress, d => d.Type == DatagramType.MoveChallenge);
         Assert.True(toNewAddress.Sum(d => d.Length) <= 3 * asked, $"{toNewAddress.Sum(d => d.Length)} bytes for {asked}");
         Assert.DoesNotContain(toNewAddress, d => d.Type == DatagramType.SnapshotChunk && d.Length > 3 * WireFormat.SnapshotRequestBytes);
     }

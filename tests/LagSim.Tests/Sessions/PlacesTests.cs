@@ -245,7 +245,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
             Assert.Equal((SessionState.Running, 0L), (player.State, player.Counters.Renewals));
         }
 
-        Assert.True(worst[0] > 0.9);
+        Assert.True(worst[0] > 0.8); // a third are of another version, and answered with 41 bytes for 88
         string list = string.Join(", ", Kinds.Zip(worst, (kind, most) => $"{kind} {most:F2}"));
         output.WriteLine($"bytes out for bytes in before the address is confirmed, at most: {list}");
 

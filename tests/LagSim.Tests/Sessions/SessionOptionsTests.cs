@@ -21,9 +21,9 @@ namespace LagSim.Tests.Sessions;
 public sealed class SessionOptionsTests
 {
     private static readonly string[] OfHosts =
-        ["ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "StartLead"];
+        ["ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "StartLead"];
 
-    private static readonly string[] OfClients = ["Accelerations", "Pass"];
+    private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection"];
 
     private static readonly SimDuration Long = SimDuration.FromSeconds(10_000);
 

@@ -154,8 +154,8 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, WireFormat.Version - 1, 1);
         AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 14);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 13);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 20);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 19);
     }
 
     [Fact]
@@ -186,7 +186,7 @@ public class ValueRangeTests
         byte[] join = AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3).Encode);
         join[^1] = 1; // a proof of no player
         AssertRefused(join);
-        foreach (byte reason in new byte[] { 0, 9, 255 })
+        foreach (byte reason in new byte[] { 0, 10, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;
@@ -247,11 +247,11 @@ public class ValueRangeTests
             sequence++;
         }
 
-        Assert.Equal(48, removals.Entries.Length);
+        Assert.Equal(47, removals.Entries.Length);
         Assert.Equal(7, spawns.Entries.Length);
         Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);
         Assert.Equal(spawns.EncodedLength, AnyDatagram.Bytes(spawns.Encode).Length);
-        Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxBytes);
+        Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxPlainBytes);
     }
 
     private static byte[] WithOneSpawn()

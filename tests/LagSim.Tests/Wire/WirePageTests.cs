@@ -226,7 +226,7 @@ public sealed class WirePageTests
 
         foreach ((ulong nonce, byte[] cookie) in Sample(from n in WireGen.Bits64 from c in Gen.ArrayOf(WireGen.Byte, 16) select (n, c), each))
         {
-            byte[] identity = [.. cookie, .. cookie];
+            byte[] identity = [.. cookie.Reverse(), .. cookie];
             WireReader reader = new(identity);
             yield return (AnyDatagram.Bytes(new ChallengeDatagram(nonce, new Token128(cookie), PublicIdentity.Read(ref reader)).Encode), page => Datagram(
                 page, DatagramType.Challenge, ("nonce", nonce), ("cookie", cookie), ("identity", identity)));
@@ -240,8 +240,8 @@ public sealed class WirePageTests
             }
 
             byte[] prologue = AnyDatagram.Bytes(to => JoinDatagram.WritePrologue(to, DatagramType.SecureJoin, nonce, new Token128(cookie)));
-            yield return ([.. prologue, .. cookie], page => Datagram(
-                page, DatagramType.SecureJoin, ("nonce", nonce), ("cookie", cookie), ("message", cookie)));
+            yield return ([.. prologue, .. identity], page => Datagram(
+                page, DatagramType.SecureJoin, ("nonce", nonce), ("cookie", cookie), ("message", identity)));
             yield return (AnyDatagram.SealedBytes(nonce, nonce >> 16, cookie), page => Datagram(
                 page, DatagramType.Sealed, ("session id", nonce), ("number", (uint)(nonce >> 16)), ("more number", (ushort)(nonce >> 48)), ("body", cookie)));
             yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce, (uint)nonce, 7, new Token128(cookie)).Encode), page => Datagram(

@@ -154,7 +154,7 @@ public sealed class StallProcessRun : IDisposable
     private StallProcess StartHost(int expected, double seconds)
     {
         StallProcess host = Run(
-            "host", "--scene", "billiards", "--joiners", Text(expected), "--budget", "0", "--port", port, "--for-s", Text(Math.Max(1, Math.Ceiling(seconds))), "--json");
+            "host", "--scene", "billiards", "--joiners", Text(expected), "--budget", "0", "--port", port, "--identity", IdentityPath, "--for-s", Text(Math.Max(1, Math.Ceiling(seconds))), "--json");
         hosts.Add(host);
         return host;
     }
@@ -317,6 +317,8 @@ public sealed class StallProcessRun : IDisposable
     }
 
     private string PassOf(int n) => Path.Combine(folder, Text(n + 1) + ".pass");
+
+    private string IdentityPath => Path.Combine(folder, "host.identity");
 
     private static string Last(StallProcess process) => process.Lines.LastOrDefault() ?? "it said nothing.";
 

@@ -29,7 +29,8 @@ internal sealed class ClientUpdates(
         update.Start = attempt is null && connection.IsStartTold ? world.Live!.Simulation.Start : SimTime.MinValue;
         link.Fill(unconfirmed, now);
         bool isComingIn = attempt is not null && !(attempt.Seat is not null && world.Live is null);
-        SimDuration pace = link.Trips.Mean / 8 > JoinAttempt.Pace ? link.Trips.Mean / 8 : JoinAttempt.Pace;
+        SimDuration wanted = link.Trips.HasQueue ? link.Trips.Mean : link.Trips.Mean / 8;
+        SimDuration pace = wanted > JoinAttempt.Pace ? wanted : JoinAttempt.Pace;
         SimDuration rest = isComingIn ? pace : keepAlive.RestAfterUpdate(link, false, now, keepAlive.KeepAlive);
         sender.Send(link.Complete(unconfirmed, now, rest, isUrgent: link.Outgoing.Acknowledged < connection.LastUrgent), link);
     }

@@ -1,6 +1,5 @@
 using System;
 using LagSim.Net.Clocks;
-using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -18,9 +17,6 @@ internal sealed class JoinAttempt : IDisposable
     /// <summary>The longest interval between tries. It is short, since links lose several datagrams in a row, however far apart.</summary>
     private static readonly SimDuration MaxPace = SimDuration.FromMilliseconds(100);
 
-    /// <summary>The age at which an unsuccessful cookie is stale, and another is requested.</summary>
-    private static readonly SimDuration CookieAge = SimDuration.FromSeconds(20);
-
     /// <summary>
     /// How often a try is sent without the cookie: every fifth time. A cookie is good for one address, and this peer's may have changed
     /// unnoticed.
@@ -29,7 +25,6 @@ internal sealed class JoinAttempt : IDisposable
 
     private SimDuration pace = Pace;
     private int tries; // with this cookie
-    private byte[] join = [];
 
     /// <param name="nonce">An answer must carry it.</param>
     /// <param name="now">The time by the local clock.</param>
@@ -47,9 +42,6 @@ internal sealed class JoinAttempt : IDisposable
 
     /// <summary>When to ask again, until there is a welcome.</summary>
     internal SimTime Due { get; private set; }
-
-    /// <summary>When the cookie arrived.</summary>
-    internal SimTime Challenged { get; private set; }
 
     /// <summary>The time from the cookie to the welcome: a round trip at least, and more if something was lost.</summary>
     internal SimDuration Took { get; private set; }
@@ -75,13 +67,8 @@ internal sealed class JoinAttempt : IDisposable
     /// <summary>The number that the host gave, and what comes with it; null before that.</summary>
     internal SeatDatagram? Seat { get; set; }
 
-    /// <summary>The handshake that the join with this cookie began; null before that, and in a session without protection.</summary>
-    internal IClientHandshake? Handshake { get; private set; }
-
-    /// <summary>The join with this cookie, to be sent unchanged until it is answered; empty before there is one.</summary>
-    internal ReadOnlySpan<byte> Join => join;
-
-    private Token128? Cookie { get; set; }
+    /// <summary>The join with the newest cookie; null before there is one.</summary>
+    internal PreparedJoin? Join { get; private set; }
 
     /// <summary>Whether snapshot and clock are ready, so that at most the number is missing.</summary>
     internal bool IsReady => Snapshot is not null && Clock.IsReady;
@@ -94,33 +81,30 @@ internal sealed class JoinAttempt : IDisposable
     {
         Due = now + pace;
         pace = pace * 2 < MaxPace ? pace * 2 : MaxPace;
-        return Cookie is not null && now - Challenged <= CookieAge && ++tries % RequestAfresh != 0;
+        return Join?.IsFresh(now) == true && ++tries % RequestAfresh != 0;
     }
 
-    /// <summary>Whether it has that cookie already, and may still use it.</summary>
-    internal bool Has(Token128 cookie, SimTime now) => Cookie == cookie && now - Challenged <= CookieAge;
+    /// <summary>Whether it has a join with that cookie already, and may still send it.</summary>
+    internal bool Has(Token128 cookie, SimTime now) => Join is PreparedJoin join && join.Cookie == cookie && join.IsFresh(now);
 
-    /// <summary>Takes another cookie, and the join with it.</summary>
-    internal void Take(Token128 cookie, byte[] joinWithIt, IClientHandshake? handshake, SimTime now)
+    /// <summary>Takes a join with another cookie.</summary>
+    internal void Take(PreparedJoin join, SimTime now)
     {
-        Handshake?.Dispose();
-        Handshake = handshake;
-        join = joinWithIt;
-        Cookie = cookie;
-        Challenged = now;
+        Join?.Dispose();
+        Join = join;
         tries = 0;
         Due = now;
         pace = Pace;
     }
 
     /// <summary>Wipes the keys of the handshake, if it was not finished.</summary>
-    public void Dispose() => Handshake?.Dispose();
+    public void Dispose() => Join?.Dispose();
 
     internal void Take(in WelcomeDatagram welcome, SimTime now)
     {
         IsWelcome = true;
-        Handshake?.Dispose();
-        Took = now - Challenged;
+        Join?.Dispose();
+        Took = Join is null ? SimDuration.Zero : now - Join.Made;
         LogStart = welcome.LogIndex;
         CopyHash = welcome.CopyHash;
         Download = new SnapshotDownload(welcome.CopyLength, now);

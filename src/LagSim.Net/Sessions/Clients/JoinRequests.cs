@@ -30,7 +30,7 @@ internal sealed class JoinRequests(
 
         if (attempt.AsksToJoin(now))
         {
-            sender.Send(attempt.Join, connection.Host);
+            sender.Send(attempt.Join!.Bytes, connection.Host);
         }
         else
         {
@@ -81,7 +81,7 @@ internal sealed class JoinRequests(
 
     internal void OnSecureWelcome(in SecureAnswerDatagram answer)
     {
-        if (attempts.Current is not { IsWelcome: false, Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
+        if (attempts.Current is not { IsWelcome: false, Join.Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
             || !handshakes.TrySpend(clock.Now))
         {
             counters.DatagramsIgnored++;
@@ -110,7 +110,7 @@ internal sealed class JoinRequests(
 
     internal void OnSecureRefusal(in SecureAnswerDatagram answer)
     {
-        if (attempts.Current is not { IsWelcome: false, Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
+        if (attempts.Current is not { IsWelcome: false, Join.Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
             || !handshakes.TrySpend(clock.Now))
         {
             counters.DatagramsIgnored++;
@@ -177,7 +177,7 @@ internal sealed class JoinRequests(
         {
             byte[] plain = new byte[WireFormat.JoinBytes];
             join.Encode(plain);
-            attempt.Take(challenge.Cookie, plain, null, now);
+            attempt.Take(new PreparedJoin(challenge.Cookie, plain, null, now), now);
         }
         else if (challenge.Identity.IsNone)
         {
@@ -193,7 +193,7 @@ internal sealed class JoinRequests(
             byte[] secure = new byte[WireFormat.SecureJoinBytes];
             if (SecureJoinDatagram.Encode(secure, join, challenge.Identity, protection) is IClientHandshake handshake)
             {
-                attempt.Take(challenge.Cookie, secure, handshake, now);
+                attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);
             }
             else
             {

@@ -17,12 +17,10 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class HostProtocol : ISessionProtocol
 {
     private readonly HostOptions options;
-    private readonly PlayerPlaces places;
     private readonly ClientTimeouts timeouts;
     private readonly ClientEvents events;
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
-    private readonly StrayReply stray;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
@@ -30,7 +28,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Parts = parts;
         this.options = options;
         SimTime now = parts.Clock.Now;
-        places = new PlayerPlaces(options, now);
+        PlayerPlaces places = new(options, now);
         Roster = new ClientRoster(places, parts.Sender, parts.Clock);
         Watermark = new Watermark(parts.SharedTime, parts.World, options.Window.History);
         Log = new AuthoritativeLog(parts.World, Watermark, parts.Journal, parts.Counters, parts.Clock);
@@ -42,7 +40,6 @@ internal sealed class HostProtocol : ISessionProtocol
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
-        stray = new StrayReply(options.Protection, parts.Sender);
         actions = new HostActions(parts.Actions, Log);
         Removal = new BodyRemoval(parts.World, actions);
         Enforcer = new BudgetEnforcer(Budget, acts, Roster, Handshake.BanList, Removal, actions, parts.World, Watermark, parts.Status);
@@ -138,7 +135,7 @@ internal sealed class HostProtocol : ISessionProtocol
     public void OnStrayDatagram(ulong sessionId, PeerAddress from)
     {
         Parts.Counters.DatagramsIgnored++;
-        SendGone(sessionId, from);
+        Handshake.OnStray(sessionId, from);
     }
 
     public void OnUpdate(UpdateDatagram update, PeerAddress from)
@@ -157,7 +154,7 @@ internal sealed class HostProtocol : ISessionProtocol
             Parts.Counters.DatagramsIgnored++;
             if (hasEnded || client is null)
             {
-                SendGone(update.SessionId, from);
+                Handshake.OnStray(update.SessionId, from);
             }
 
             return;
@@ -211,10 +208,6 @@ internal sealed class HostProtocol : ISessionProtocol
 
         return due;
     }
-
-    /// <summary>Tells a sender that it missed the goodbye, or never was one of this host's clients.</summary>
-    private void SendGone(ulong sessionId, PeerAddress to) =>
-        stray.Send(to, sessionId, Parts.Status.HasEnded ? LeaveReason.HostEnded : places.WhyGone(sessionId));
 
     private void OnLeave(in LeaveDatagram leave, PeerAddress from)
     {

@@ -16,7 +16,8 @@ internal sealed class JoinHandshake
     private readonly ClientRoster roster;
     private readonly JoinCookies cookies = new();
     private readonly AddressChallenge challenge;
-    private readonly Admission admission;
+    private readonly JoinIntake intake;
+    private readonly StrayReply stray;
     private readonly SnapshotServer server;
     private readonly DatagramSender sender;
     private readonly SessionCounters counters;
@@ -45,9 +46,10 @@ internal sealed class JoinHandshake
         server = new SnapshotServer(roster, new MachineRates(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst), challenge, parts.Sender, counters, clock);
         JoinRules rules = new(options, parts.World.Scene!.Hash, BanList, Seating);
         WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
-        admission = new Admission(
-            sessionId, options, cookies, challenge, rules, places, roster, room, Snapshots, timeouts, parts.Links,
-            parts.Sender, counters, clock);
+        Admission admission = new(
+            sessionId, options, cookies, rules, places, roster, room, Snapshots, timeouts, parts.Links, counters);
+        intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
+        stray = new StrayReply(places, parts.Status, options.Protection, sender);
     }
 
     /// <summary>The machines from which no client is let in.</summary>
@@ -65,11 +67,14 @@ internal sealed class JoinHandshake
     /// <summary>Makes a client prove the new address from which it wrote.</summary>
     internal void Challenge(UpdateLink link, PeerAddress from) => challenge.Send(link, from);
 
-    internal void OnJoin(in JoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
+    internal void OnJoin(in JoinDatagram join, PeerAddress from) => intake.OnJoin(join, from);
 
-    internal void OnJoin(in SecureJoinDatagram join, PeerAddress from) => admission.OnJoin(join, from);
+    internal void OnJoin(in SecureJoinDatagram join, PeerAddress from) => intake.OnJoin(join, from);
 
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from) => server.OnSnapshotRequest(request, from);
+
+    /// <summary>Tells a sender that the host has no link with its session id.</summary>
+    internal void OnStray(ulong sessionId, PeerAddress from) => stray.Send(from, sessionId);
 
     /// <summary>Handles a client that proves a new address.</summary>
     internal void OnMove(in MoveDatagram move, PeerAddress from)
@@ -90,7 +95,7 @@ internal sealed class JoinHandshake
     }
 
     /// <summary>Handles a client that speaks another version of the protocol.</summary>
-    internal void OnOtherVersion(ulong nonce, PeerAddress from) => admission.RefuseVersion(nonce, from);
+    internal void OnOtherVersion(ulong nonce, PeerAddress from) => intake.RefuseVersion(nonce, from);
 
     /// <summary>Gives a number to a client that has its snapshot and its clock; if there is none, refuses it and returns false.</summary>
     internal bool TrySeat(Client client, SimTime now)

@@ -7,14 +7,18 @@ using LagSim.Net.Wire;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Tells a sender that the host has no link with its session id, using that id from its own datagram, in fewer bytes than it sent.
+/// Tells a sender that it missed the goodbye or never was a client of this host, with the session id of its own datagram, in fewer bytes
+/// than it sent.
 /// </summary>
+/// <param name="places">Why clients are gone.</param>
+/// <param name="status">Whether the session has ended.</param>
 /// <param name="protection">Proves the host to the sender; null in a session without protection.</param>
 /// <param name="sender">Sends the reply.</param>
-internal sealed class StrayReply(IHostProtection? protection, DatagramSender sender)
+internal sealed class StrayReply(PlayerPlaces places, SessionStatus status, IHostProtection? protection, DatagramSender sender)
 {
-    internal void Send(PeerAddress to, ulong sessionId, LeaveReason reason)
+    internal void Send(PeerAddress to, ulong sessionId)
     {
+        LeaveReason reason = status.HasEnded ? LeaveReason.HostEnded : places.WhyGone(sessionId);
         Span<byte> bytes = stackalloc byte[WireFormat.ResetBytes];
         if (protection is null)
         {

@@ -1,0 +1,115 @@
+using System;
+using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>
+/// Takes joins whose cookie is good: repeats the answer to one that comes again, and has a new one decided on. In a protected session it
+/// reads the handshake first, a few a second from each machine.
+/// </summary>
+internal sealed class JoinIntake(
+    HostOptions options, AddressChallenge challenge, ClientRoster roster, Admission admission, DatagramSender sender,
+    SessionCounters counters, IClock clock)
+{
+    private readonly IHostProtection? protection = options.Protection;
+    private readonly MachineRates handshakes = new(options.JoinLimits.HandshakesPerSecond, options.JoinLimits.HandshakeBurst);
+
+    /// <summary>Takes a join in clear text.</summary>
+    internal void OnJoin(in JoinDatagram join, PeerAddress from)
+    {
+        if (!IsNew(join.Nonce, join.Cookie, from))
+        {
+            return;
+        }
+
+        using JoinReply reply = new(join.Nonce, from, null, null, sender);
+        if (protection is null)
+        {
+            Decide(join, from, reply);
+        }
+        else
+        {
+            counters.DatagramsIgnored++;
+            reply.Refuse(RefusalReason.ProtectedOnly);
+        }
+    }
+
+    /// <summary>Takes an encrypted join.</summary>
+    internal void OnJoin(in SecureJoinDatagram join, PeerAddress from)
+    {
+        if (protection is null)
+        {
+            counters.DatagramsIgnored++; // the client saw no identity of this host, so it is not one of LagSim's
+        }
+        else if (IsNew(join.Nonce, join.Cookie, from))
+        {
+            Read(join, from, protection);
+        }
+    }
+
+    /// <summary>Tells a client that it speaks another version of the protocol.</summary>
+    internal void RefuseVersion(ulong nonce, PeerAddress to)
+    {
+        using JoinReply reply = new(nonce, to, null, null, sender);
+        reply.Refuse(RefusalReason.VersionDiffers);
+    }
+
+    /// <summary>Whether a join is to be decided on. If not, its address is not proved, or it was answered before and is again.</summary>
+    private bool IsNew(ulong nonce, Token128 cookie, PeerAddress from)
+    {
+        if (!challenge.IsMet(from, nonce, cookie))
+        {
+            counters.DatagramsIgnored++; // no answer: the address may be forged
+            return false;
+        }
+
+        Client? known = roster.All.Find(j => j.Link.Other == from && j.Claim.Nonce == nonce && j.Claim.Cookie == cookie);
+        if (known?.Snapshot is not null)
+        {
+            SendWelcome(known);
+        }
+
+        return known is null;
+    }
+
+    private void Read(in SecureJoinDatagram join, PeerAddress from, IHostProtection by)
+    {
+        if (!handshakes.TrySpend(from, clock.Now))
+        {
+            counters.DatagramsIgnored++; // it asks again
+            return;
+        }
+
+        Span<byte> claims = stackalloc byte[WireFormat.JoinClaimBytes];
+        IHostHandshake? handshake = by.TryRead(join.Prologue, join.Message, claims);
+        if (handshake is null)
+        {
+            counters.DatagramsForged++;
+            return;
+        }
+
+        using JoinReply reply = new(join.Nonce, from, by, handshake, sender);
+        if (counters.IsWellFormed(JoinDatagram.TryDecodeClaims(claims, join.Nonce, join.Cookie, out JoinDatagram claimed)))
+        {
+            Decide(claimed, from, reply);
+        }
+    }
+
+    private void Decide(in JoinDatagram join, PeerAddress from, JoinReply reply)
+    {
+        if (admission.Admit(join, from, reply, clock.Now) is Client admitted)
+        {
+            SendWelcome(admitted);
+        }
+    }
+
+    private void SendWelcome(Client client)
+    {
+        sender.Send(client.Welcome, client.Link.Other);
+        client.Link.CountSent(client.Welcome.Length);
+    }
+}
