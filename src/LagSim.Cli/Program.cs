@@ -50,6 +50,7 @@ internal static class Program
         ExplainCommand.Create(console),
         HostCommand.Create(console),
         JoinCommand.Create(console),
+        TokenCommand.Create(console),
         RelayCommand.Create(console),
         DiffCommand.Create(console),
         ReplayCommand.Create(console),

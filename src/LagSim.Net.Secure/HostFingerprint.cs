@@ -15,7 +15,7 @@ public readonly struct HostFingerprint : IEquatable<HostFingerprint>
     /// <summary>The length of <see cref="ToString"/>, in characters.</summary>
     public const int TextLength = 2 * Bytes;
 
-    private const int Bytes = 16;
+    internal const int Bytes = 16;
 
     private readonly ulong high;
     private readonly ulong low;
@@ -44,6 +44,12 @@ public readonly struct HostFingerprint : IEquatable<HostFingerprint>
         bool isOne = text is not null && HexText.TryRead(text.AsSpan(), bytes);
         fingerprint = isOne ? new HostFingerprint(bytes) : default;
         return isOne;
+    }
+
+    internal void Write(Span<byte> destination)
+    {
+        BinaryPrimitives.WriteUInt64BigEndian(destination, high);
+        BinaryPrimitives.WriteUInt64BigEndian(destination.Slice(sizeof(ulong)), low);
     }
 
     /// <inheritdoc/>

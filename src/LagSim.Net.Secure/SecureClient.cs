@@ -30,6 +30,9 @@ public sealed class SecureClient : IClientProtection
     /// </summary>
     public HostFingerprint? Host => (HostFingerprint?)trusted;
 
+    /// <inheritdoc/>
+    public bool KnowsHost => trusted is not null;
+
     /// <summary>
     /// Joins whichever host answers first, and from then on only that one. Somebody on the path can be that host: show
     /// <see cref="Host"/> to the player, and keep it for the next time.

@@ -18,17 +18,47 @@ namespace LagSim.Net.Protection;
 public sealed class SecureHost : IHostProtection
 {
     private readonly byte[] resetKey = new byte[Sha256.Bytes];
+    private readonly UsedTokens used = new();
+    private readonly TokenKey? tokens;
+    private readonly Func<DateTimeOffset> clock;
 
     /// <summary>Protects the sessions of a host with this identity.</summary>
+    /// <param name="identity">The identity.</param>
+    /// <param name="tokens">The key of the backend whose connect tokens clients need; null to let in clients without a token.</param>
     /// <exception cref="ArgumentNullException">The identity is null.</exception>
-    public SecureHost(HostIdentity identity)
+    public SecureHost(HostIdentity identity, TokenKey? tokens = null)
+        : this(identity, tokens, static () => DateTimeOffset.UtcNow)
     {
+    }
+
+    internal SecureHost(HostIdentity identity, TokenKey? tokens, Func<DateTimeOffset> clock)
+    {
+        this.tokens = tokens;
+        this.clock = clock;
         Identity = identity ?? throw new ArgumentNullException(nameof(identity));
         Sha256.Hmac(identity.Keys.PrivateKey.ToArray(), "LagSim reset"u8, default, resetKey);
     }
 
     /// <summary>The host's identity.</summary>
     public HostIdentity Identity { get; }
+
+    /// <inheritdoc/>
+    public bool RequiresToken => tokens is not null;
+
+    /// <inheritdoc/>
+    public TokenReading ReadToken(ReadOnlySpan<byte> token)
+    {
+        TokenReading reading = tokens is null
+            ? new TokenReading(TokenFault.OtherIssuer)
+            : ConnectToken.Read(token, Identity.Fingerprint, tokens, clock());
+        return reading.Fault == TokenFault.None && ConnectToken.TryReadId(token, out (ulong, ulong) id, out _) && used.Contains(id)
+            ? new TokenReading(TokenFault.Used)
+            : reading;
+    }
+
+    /// <inheritdoc/>
+    public bool TryUseToken(ReadOnlySpan<byte> token) =>
+        ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) && used.Add(id, until, clock().ToUnixTimeSeconds());
 
     /// <inheritdoc/>
     public void WriteIdentity(Span<byte> destination) => Identity.Keys.PublicKey.CopyTo(destination);

@@ -42,11 +42,16 @@ internal static class HostCommand
         Option<string?> identity = CommonOptions.File(
             "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing. Keep it secret:"
                 + " who has it can play this host. By default the host has a new identity each time.");
+        Option<string?> tokens = new("--tokens")
+        {
+            Description = "Let in only who has a connect token of the issuer with this public key, the 64 digits that lagsim token prints.",
+            HelpName = "KEY",
+        };
         Option<bool> unprotected = ProtectionOptions.Unprotected();
         Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, clients, history, perAddress, budget, identity, unprotected, admin,
+            scene, port, address, clients, history, perAddress, budget, identity, tokens, unprotected, admin,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -60,10 +65,10 @@ internal static class HostCommand
                 action.ActionIn(loaded);
             }
 
-            using HostIdentity? self = Identity(parsed.GetValue(unprotected), parsed.GetValue(identity));
+            using HostIdentity? self = Identity(parsed.GetValue(unprotected), parsed.GetValue(identity), parsed.GetValue(tokens));
             HostOptions options = HostOptions.From(request.Options) with
             {
-                Protection = self is null ? null : new SecureHost(self),
+                Protection = self is null ? null : new SecureHost(self, Key(parsed.GetValue(tokens))),
                 PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget)),
                 ExpectedClients = parsed.GetValue(clients),
                 Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
@@ -107,11 +112,18 @@ internal static class HostCommand
     }
 
     /// <exception cref="UsageException">The options contradict each other.</exception>
-    private static HostIdentity? Identity(bool isUnprotected, string? file) =>
+    private static HostIdentity? Identity(bool isUnprotected, string? file, string? tokens) =>
+        isUnprotected && tokens is not null ? throw new UsageException("--unprotected contradicts --tokens; leave out one of them.") :
         isUnprotected && file is not null ? throw new UsageException("--unprotected contradicts --identity; leave out one of them.")
         : isUnprotected ? null
         : file is null ? HostIdentity.Draw()
         : IdentityFile.ReadOrDraw(file);
+
+    /// <exception cref="UsageException">The text is no key.</exception>
+    private static TokenKey? Key(string? text) =>
+        text is null ? null
+        : TokenKey.TryParse(text, out TokenKey? key) ? key
+        : throw new UsageException($"--tokens is '{text}'; it must be the public key of an issuer, 64 hexadecimal digits in lower case.");
 
     private static HostSession Open(Scene scene, UdpPort carrier, HostOptions options)
     {

@@ -22,6 +22,11 @@ internal static class JoinCommand
             Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as 192.168.0.7:5000, [::1]:5000 or"
                 + " some.name:5000, the host that answers first is trusted, and its fingerprint printed. If a name has addresses of both kinds, IPv4 is used.",
         };
+        Option<string?> token = new("--token")
+        {
+            Description = "The connect token that the host needs, as lagsim token prints it; - reads it from standard input.",
+            HelpName = "TOKEN",
+        };
         Option<bool> unprotected = ProtectionOptions.Unprotected();
         Option<string?> pass = CommonOptions.File(
             "--pass", "Come back as the same player after a restart: the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
@@ -31,7 +36,7 @@ internal static class JoinCommand
                 + " if the session ends earlier, or if a --do was refused or not done. The line below each T line gives the host's clock minus this one's, the"
                 + " most by which that may be wrong, and half a round trip.")
         {
-            host, pass, unprotected,
+            host, pass, token, unprotected,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -49,7 +54,7 @@ internal static class JoinCommand
 
             HostFingerprint? fingerprint = ProtectionOptions.ReadFingerprint(parsed.GetValue(host)!, out string place);
             SecureClient? protection = Protection(parsed.GetValue(unprotected), fingerprint);
-            options = options with { Protection = protection };
+            options = options with { Protection = protection, Token = Token(parsed.GetValue(token), fingerprint, console.Input) };
             IPEndPoint there = EndPointText.Resolve(place, "join", console.Stop);
             if (protection is null)
             {
@@ -102,6 +107,26 @@ internal static class JoinCommand
         : isUnprotected ? null
         : fingerprint is HostFingerprint wanted ? new SecureClient(wanted)
         : SecureClient.TrustOnFirstUse();
+
+    /// <exception cref="UsageException">It is no token, or there is no fingerprint with it.</exception>
+    private static byte[] Token(string? text, HostFingerprint? fingerprint, TextReader input)
+    {
+        if (text is null)
+        {
+            return [];
+        }
+
+        if (fingerprint is null)
+        {
+            throw new UsageException("--token needs an address with a fingerprint: whoever answers first could take the token.");
+        }
+
+        text = text == "-" ? input.ReadLine() ?? "" : text;
+        byte[] token = new byte[text.Length];
+        return Convert.TryFromBase64String(text, token, out int length) && length is > 0 and <= IHostProtection.MaxTokenBytes
+            ? token[..length]
+            : throw new UsageException($"--token has {text.Length} characters that are no connect token: up to {IHostProtection.MaxTokenBytes} bytes in base64.");
+    }
 
     /// <summary>Refuses a recording that would overwrite the pass.</summary>
     private static void ThrowIfSame(string passFile, string? recordFile)

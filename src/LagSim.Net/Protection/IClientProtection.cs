@@ -6,6 +6,9 @@ namespace LagSim.Net.Protection;
 /// <remarks>For one session. Give it to a client by <see cref="Sessions.ClientOptions.Protection"/>.</remarks>
 public interface IClientProtection
 {
+    /// <summary>Whether it knows which host it wants. Only then may a connect token be told.</summary>
+    bool KnowsHost { get; }
+
     /// <summary>Begins a handshake with the host that shows this identity. Cost: one Diffie-Hellman agreement.</summary>
     /// <param name="identity">The identity, of <see cref="IHostProtection.IdentityBytes"/> bytes; it is not proved yet.</param>
     /// <param name="prologue">What both sides know of the handshake so far.</param>

@@ -18,6 +18,12 @@ public interface IHostProtection
     /// <summary>The length of a reset token, in bytes.</summary>
     public const int ResetTokenBytes = 16;
 
+    /// <summary>The longest connect token, in bytes.</summary>
+    public const int MaxTokenBytes = 256;
+
+    /// <summary>Whether clients need a connect token: one with a valid one, or with the pass of a player that came in with one, is let in.</summary>
+    bool RequiresToken { get; }
+
     /// <summary>Writes the identity that this host shows to everyone: a public key.</summary>
     /// <param name="destination">Receives <see cref="IdentityBytes"/> bytes.</param>
     void WriteIdentity(Span<byte> destination);
@@ -31,6 +37,15 @@ public interface IHostProtection
     /// </param>
     /// <returns>The handshake, to be answered or disposed; null if the message is not one for this host. Never throws.</returns>
     IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload);
+
+    /// <summary>Reads a connect token. Cost: one signature checked.</summary>
+    /// <param name="token">The token, up to <see cref="MaxTokenBytes"/> bytes.</param>
+    /// <returns>What it says, or what is wrong with it. Never throws.</returns>
+    TokenReading ReadToken(ReadOnlySpan<byte> token);
+
+    /// <summary>Marks a token that was read as used: from then on it is <see cref="TokenFault.Used"/>.</summary>
+    /// <returns>False if it was used before.</returns>
+    bool TryUseToken(ReadOnlySpan<byte> token);
 
     /// <summary>
     /// Writes the token by which this host, even after a restart, proves to the client of that session id that it does not know it.

@@ -52,6 +52,16 @@ public sealed record ClientOptions : SessionOptions
 
     internal override bool IsProtected => Protection is not null;
 
+    /// <summary>
+    /// The connect token that a backend issued to this player, for hosts that let in nobody else; default none. It needs a
+    /// <see cref="Protection"/> that knows which host it wants: a token must not be told to whoever answers first.
+    /// </summary>
+    /// <remarks>
+    /// It admits once, within its time. A client that loses its host comes back with the pass it has got; after a restart of the host it needs
+    /// another token. Up to 256 bytes.
+    /// </remarks>
+    public ReadOnlyMemory<byte> Token { get; init; }
+
     /// <summary>The accelerations that this program can supply to the host's scene; default none.</summary>
     /// <remarks>None may be null. The list is copied: later changes to it have no effect.</remarks>
     public IReadOnlyList<IAcceleration>? Accelerations
@@ -71,6 +81,19 @@ public sealed record ClientOptions : SessionOptions
     internal override void Check()
     {
         base.Check();
+        if (Token.Length > IHostProtection.MaxTokenBytes)
+        {
+            throw new ArgumentException(
+                $"The connect token has {Token.Length} bytes; one has at most {IHostProtection.MaxTokenBytes}.", nameof(Token));
+        }
+
+        if (Token.Length > 0 && Protection?.KnowsHost != true)
+        {
+            throw new ArgumentException(
+                "A connect token is only for a client whose protection knows which host it wants; whoever answers first could take it.",
+                nameof(Token));
+        }
+
         for (int n = 0; n < accelerations?.Count; n++)
         {
             if (accelerations[n] is null)

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Scenes;
@@ -126,6 +127,19 @@ public sealed class HostSession : Session
 
     /// <summary>The number of clients still joining.</summary>
     internal int ComingCount => host.Roster.All.Count - host.Roster.SeatedCount;
+
+    /// <summary>
+    /// What the connect token of a player says of it: name, identity, rights. Null for one without a token, and for a number that nobody has.
+    /// </summary>
+    /// <remarks>On the session's thread.</remarks>
+    /// <param name="player">The player's number.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    public PlayerAdmission? AdmissionOf(byte player)
+    {
+        host.Parts.Owner.ThrowIfForeign();
+        ThrowIfNoPlayer(player);
+        return host.Roster.AdmissionOf(player);
+    }
 
     /// <summary>
     /// Sends an update to every client on the next step instead of at the keep-alive, so that they learn sooner what is committed.

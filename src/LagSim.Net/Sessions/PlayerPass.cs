@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions;
 /// <para>A client gets one with its number (<see cref="ClientSession.Pass"/>), and uses it by itself when it has lost its host. A program
 /// that wants to come back after a restart saves it as text and sets it as <see cref="ClientOptions.Pass"/>. It is valid only with the host
 /// that gave it, until that host ends or gives the number to another client. Anyone who has it can take the player's place, so keep it like
-/// a password. It travels unencrypted once, when it is given.</para>
+/// a password. Without protection it travels in clear text once, when it is given.</para>
 /// <para>Immutable, safe on any thread. <c>default</c> is no pass.</para>
 /// </remarks>
 public readonly struct PlayerPass : IEquatable<PlayerPass>

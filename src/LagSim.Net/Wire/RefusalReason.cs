@@ -29,4 +29,25 @@ internal enum RefusalReason : byte
 
     /// <summary>The host's sessions are protected, and the client's are not.</summary>
     ProtectedOnly = 9,
+
+    /// <summary>The host lets in only who has a connect token.</summary>
+    TokenMissing = 10,
+
+    /// <summary>The connect token is none, or was changed.</summary>
+    TokenDamaged = 11,
+
+    /// <summary>Another backend issued the connect token.</summary>
+    TokenOfOtherIssuer = 12,
+
+    /// <summary>The connect token is for another host.</summary>
+    TokenOfOtherHost = 13,
+
+    /// <summary>The time of the connect token is over.</summary>
+    TokenExpired = 14,
+
+    /// <summary>The time of the connect token has not begun.</summary>
+    TokenNotYetValid = 15,
+
+    /// <summary>A player came in with the connect token before.</summary>
+    TokenUsed = 16,
 }

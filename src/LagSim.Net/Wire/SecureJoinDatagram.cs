@@ -5,7 +5,7 @@ namespace LagSim.Net.Wire;
 
 /// <summary>
 /// A challenged client's request to be let in by a protected host: a handshake message whose payload is what a <see cref="JoinDatagram"/>
-/// claims. Repeated unchanged until it is answered.
+/// claims, and a connect token. Repeated unchanged until it is answered.
 /// </summary>
 /// <remarks>Its bytes are those of the datagram it was read from; valid as long as those are.</remarks>
 internal readonly ref struct SecureJoinDatagram
@@ -31,20 +31,23 @@ internal readonly ref struct SecureJoinDatagram
     public ReadOnlySpan<byte> Message { get; }
 
     /// <summary>Writes the datagram, whose message the handshake writes.</summary>
-    /// <param name="destination">At least <see cref="WireFormat.SecureJoinBytes"/>.</param>
+    /// <param name="destination">
+    /// At least <see cref="WireFormat.SecureJoinBytes"/>, and as many more as the token has.
+    /// </param>
     /// <param name="join">What the client claims.</param>
+    /// <param name="token">Its connect token; empty for none.</param>
     /// <param name="identity">The identity that the host shows.</param>
     /// <param name="protection">The client's side of the handshake.</param>
     /// <returns>The handshake; null if the client does not want the host with that identity.</returns>
     internal static IClientHandshake? Encode(
-        Span<byte> destination, in JoinDatagram join, in PublicIdentity identity, IClientProtection protection)
+        Span<byte> destination, in JoinDatagram join, ReadOnlySpan<byte> token, in PublicIdentity identity, IClientProtection protection)
     {
         Span<byte> prologue = destination.Slice(0, JoinDatagram.WritePrologue(destination, DatagramType.SecureJoin, join.Nonce, join.Cookie));
         Span<byte> shown = stackalloc byte[IHostProtection.IdentityBytes];
         WireWriter writer = new(shown);
         identity.Write(ref writer);
-        Span<byte> claims = stackalloc byte[WireFormat.JoinClaimBytes];
-        join.EncodeClaims(claims);
+        Span<byte> claims = stackalloc byte[WireFormat.JoinClaimBytes + token.Length];
+        token.CopyTo(claims.Slice(join.EncodeClaims(claims)));
         return protection.Begin(
             shown, prologue, claims, destination.Slice(prologue.Length, IHostProtection.HandshakeOverhead + claims.Length));
     }
@@ -58,7 +61,11 @@ internal readonly ref struct SecureJoinDatagram
         WireReader reader = WireReader.Open(datagram, DatagramType.SecureJoin);
         ulong nonce = reader.ReadUInt64();
         Token128 cookie = Token128.Read(ref reader);
-        ReadOnlySpan<byte> message = reader.ReadBytes(IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes);
+        int length = reader.Remaining;
+        reader.Require(length >= IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes, WireRefusal.TooShort);
+        reader.Require(
+            length <= IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes + IHostProtection.MaxTokenBytes, WireRefusal.TrailingBytes);
+        ReadOnlySpan<byte> message = reader.ReadBytes(length);
         bool isOne = reader.Finish(out refusal);
         join = isOne ? new SecureJoinDatagram(nonce, cookie, datagram.Slice(0, WireFormat.JoinPrologueBytes), message) : default;
         return isOne;

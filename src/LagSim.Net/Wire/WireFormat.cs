@@ -38,7 +38,7 @@ internal static class WireFormat
     /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
     public const int JoinBytes = JoinPrologueBytes + JoinClaimBytes;
 
-    /// <summary>The length of a <see cref="SecureJoinDatagram"/>.</summary>
+    /// <summary>The length of a <see cref="SecureJoinDatagram"/> without a connect token.</summary>
     public const int SecureJoinBytes = JoinPrologueBytes + IHostProtection.HandshakeOverhead + JoinClaimBytes;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/> after its nonce.</summary>
@@ -54,8 +54,8 @@ internal static class WireFormat
     public const int SecureWelcomeBytes =
         HeaderBytes + sizeof(ulong) + IHostProtection.HandshakeOverhead + SecureWelcomePayloadBytes;
 
-    /// <summary>The length of the payload of a secure refusal: the reason.</summary>
-    public const int SecureRefusalPayloadBytes = 1;
+    /// <summary>The length of the payload of a secure refusal: the reason, and how far a token is off its time.</summary>
+    public const int SecureRefusalPayloadBytes = 1 + sizeof(uint);
 
     /// <summary>The length of a secure refusal, a <see cref="SecureAnswerDatagram"/>.</summary>
     public const int SecureRefusalBytes =

@@ -151,7 +151,7 @@ public sealed class PathAttackTests : IDisposable
         AssertGoesOn(group, isProtected: true);
     }
 
-    /// <summary>The host's own datagrams come back to it as if a client had sent them.</summary>
+    /// <summary>The host's own datagrams come back to it as if a client had sent them; where they can be changed, with a number it has not had.</summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
@@ -161,7 +161,13 @@ public sealed class PathAttackTests : IDisposable
         for (int n = 0; n < 10; n++)
         {
             group.Run(2.5);
-            attacker.Send(1, 0, LastOf(0));
+            byte[] reflected = [.. LastOf(0)];
+            if (!isProtected)
+            {
+                BitConverter.TryWriteBytes(reflected.AsSpan(PathAttacker.NumberAt), (uint)(900 + n));
+            }
+
+            attacker.Send(1, 0, reflected);
         }
 
         group.Run(0.1);

@@ -29,7 +29,7 @@ public sealed class EventValidatorTests
         world = new SharedWorld(BuiltInScenes.Billiards(), options, clock, sharedTime, new SessionCounters());
         SimDuration history = options.Window.History;
         Watermark watermark = new(sharedTime, world, history);
-        validator = new EventValidator(world, sharedTime, watermark, new WorkBudget(world, sharedTime, null), history);
+        validator = new EventValidator(new PlayerPlaces(options, clock.Now), world, sharedTime, watermark, new WorkBudget(world, sharedTime, null), history);
     }
 
     [Fact]

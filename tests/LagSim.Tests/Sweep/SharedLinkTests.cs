@@ -53,6 +53,7 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
     {
         (double a, double b) = Share(500, 1, 0.01, 1);
         output.WriteLine(FormattableString.Invariant($"{a:0} and {b:0} bytes a second"));
+        for (ulong k = 2; k < 13; k++) { (double c, double d) = Share(500, 1, 0.01, k); output.WriteLine($"SEED {k} {c:0} {d:0}"); }
         Assert.True(a > 2 * b);
     }
 

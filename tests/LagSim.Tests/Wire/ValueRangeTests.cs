@@ -186,7 +186,7 @@ public class ValueRangeTests
         byte[] join = AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3).Encode);
         join[^1] = 1; // a proof of no player
         AssertRefused(join);
-        foreach (byte reason in new byte[] { 0, 10, 255 })
+        foreach (byte reason in new byte[] { 0, 17, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;

@@ -122,9 +122,15 @@ internal sealed class JoinRequests(
         {
             counters.DatagramsForged++;
         }
-        else if (counters.IsWellFormed(RefusalDatagram.IsOne((RefusalReason)payload[0])))
+        else
         {
-            End((RefusalReason)payload[0], Sentence((RefusalReason)payload[0]));
+            WireReader reader = new(payload);
+            RefusalReason reason = (RefusalReason)reader.ReadByte();
+            uint secondsOff = reader.ReadUInt32();
+            if (counters.IsWellFormed(RefusalDatagram.IsOne(reason)))
+            {
+                End(reason, Sentence(reason, secondsOff));
+            }
         }
     }
 
@@ -148,7 +154,7 @@ internal sealed class JoinRequests(
     internal void OnOtherVersion(ulong nonce, byte version) =>
         TakeUnproven(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
 
-    private static string Sentence(RefusalReason reason) => reason switch
+    private static string Sentence(RefusalReason reason, uint secondsOff = 0) => reason switch
     {
         RefusalReason.VersionDiffers => "it speaks another version of the protocol.",
         RefusalReason.SceneDiffers => "its scene is another one.",
@@ -162,6 +168,15 @@ internal sealed class JoinRequests(
             "as many as may join from one address have joined from this one (the host's MaxClientsPerAddress).",
         RefusalReason.ProtectedOnly =>
             "its session is protected. Join with ClientOptions.Protection, and the address with the fingerprint that the host prints.",
+        RefusalReason.TokenMissing => "it lets in only who has a connect token. Ask the game's backend for one.",
+        RefusalReason.TokenDamaged => "the connect token is none, or was changed on its way. Ask for another.",
+        RefusalReason.TokenOfOtherIssuer => "the connect token is of another backend than this host's.",
+        RefusalReason.TokenOfOtherHost => "the connect token is for another host. Ask for one for this host.",
+        RefusalReason.TokenExpired => $"the connect token's time was over {secondsOff} s ago, by the host's clock. Ask for another; if that is refused"
+            + " too, the clocks of host and backend differ.",
+        RefusalReason.TokenNotYetValid => $"the connect token's time begins in {secondsOff} s, by the host's clock: the clocks of host and backend"
+            + " differ.",
+        RefusalReason.TokenUsed => "a player came in with the connect token before. Ask for another.",
         _ => $"reason {(int)reason}.",
     };
 
@@ -190,8 +205,8 @@ internal sealed class JoinRequests(
         }
         else
         {
-            byte[] secure = new byte[WireFormat.SecureJoinBytes];
-            if (SecureJoinDatagram.Encode(secure, join, challenge.Identity, protection) is IClientHandshake handshake)
+            byte[] secure = new byte[WireFormat.SecureJoinBytes + options.Token.Length];
+            if (SecureJoinDatagram.Encode(secure, join, options.Token.Span, challenge.Identity, protection) is IClientHandshake handshake)
             {
                 attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);
             }

@@ -1,3 +1,4 @@
+using System;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
@@ -9,25 +10,25 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Decides on joins: lets a client in with a link and a snapshot to download, or refuses it with the reason.</summary>
 internal sealed class Admission(
-    ulong sessionId, HostOptions options, JoinCookies cookies, JoinRules rules, PlayerPlaces places, ClientRoster roster,
+    ulong sessionId, HostOptions options, JoinCookies cookies, JoinIdentification identification, JoinRules rules, ClientRoster roster,
     WaitingRoom room, JoinSnapshots snapshots, ClientTimeouts timeouts, LinkFactory links, SessionCounters counters)
 {
     private ulong joins;
 
     /// <summary>Admits a client that has proved its address.</summary>
     /// <param name="join">What it claims.</param>
+    /// <param name="token">Its connect token; empty for none.</param>
     /// <param name="from">Its address.</param>
     /// <param name="reply">Makes the answer, and refuses it.</param>
     /// <param name="now">The time by the local clock.</param>
     /// <returns>The client; null if it may not join and was refused, or if it has to ask again.</returns>
-    internal Client? Admit(in JoinDatagram join, PeerAddress from, JoinReply reply, SimTime now)
+    internal Client? Admit(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply, SimTime now)
     {
-        byte keyed = rules.NumberByKey(join);
-        PlayerPlaces.Place? claimed = places.Claimed(join, keyed);
-        if (rules.WhyNot(join, keyed, claimed, from, now) is RefusalReason reason)
+        JoinIdentity who = identification.Of(join, token);
+        if (rules.WhyNot(join, who, from, now) is RefusalReason reason)
         {
             counters.DatagramsIgnored++;
-            reply.Refuse(reason);
+            reply.Refuse(reason, reason == who.Fault ? who.SecondsOff : 0);
             return null;
         }
 
@@ -57,9 +58,9 @@ internal sealed class Admission(
         room.MakeRoom(from, made);
         ulong session = cookies.SessionId(sessionId, joins++);
         WelcomeDatagram terms = new(join.Nonce, session, options.Window.History, made.Bytes.Length, made.Hash, made.LogIndex);
-        byte[] welcome = reply.Welcome(terms, rules.KeyOf(keyed), out LinkSeal? seal);
+        byte[] welcome = reply.Welcome(terms, who.Key!, out LinkSeal? seal);
         UpdateLink link = links.To(from, session, made.LogIndex, now, seal);
-        Client admitted = new(new JoinClaim(join, keyed, claimed, now + timeouts.TimeoutWithCopy(made)), link, made, welcome);
+        Client admitted = new(new JoinClaim(join, who, token, now + timeouts.TimeoutWithCopy(made)), link, made, welcome);
         roster.All.Add(admitted);
         return admitted;
     }

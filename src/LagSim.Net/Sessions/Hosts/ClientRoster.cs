@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -48,6 +49,9 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
 
     /// <summary>Returns the client with that number.</summary>
     internal Client? Seated(byte player) => clients.Find(j => j.Peer == player);
+
+    /// <summary>What a backend says of the player with that number; null without a connect token.</summary>
+    internal PlayerAdmission? AdmissionOf(byte player) => places[player].Admission;
 
     /// <summary>Forgets a client that has no number, and wipes its keys.</summary>
     /// <returns>False if it was gone already.</returns>

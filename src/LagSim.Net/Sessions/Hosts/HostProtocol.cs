@@ -38,7 +38,7 @@ internal sealed class HostProtocol : ISessionProtocol
         timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestDownload, now);
         Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts);
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
-        EventValidator validator = new(parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
+        EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
         Removal = new BodyRemoval(parts.World, actions);

@@ -1,23 +1,25 @@
+using System;
+using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The identity of a welcomed client: its join, the number that its key gives, and the player that it proved to be.</summary>
+/// <summary>The identity of a welcomed client: its join, and who it proved to be.</summary>
 internal sealed class JoinClaim
 {
     /// <param name="join">The join.</param>
-    /// <param name="keyed">The number that its key gives; 0 for none.</param>
-    /// <param name="claimed">The place of the player that it proved to be; null for none.</param>
+    /// <param name="who">Who it proved to be.</param>
+    /// <param name="token">Its connect token; empty for none.</param>
     /// <param name="until">When it is given up if it has no number by then.</param>
-    internal JoinClaim(in JoinDatagram join, byte keyed, PlayerPlaces.Place? claimed, SimTime until)
+    internal JoinClaim(in JoinDatagram join, JoinIdentity who, ReadOnlySpan<byte> token, SimTime until)
     {
         Nonce = join.Nonce;
         Cookie = join.Cookie;
         Wanted = join.Player;
-        Keyed = keyed;
-        Claimed = claimed;
-        ClaimedPass = claimed?.Pass;
+        Who = who;
+        ClaimedPass = who.Claimed?.Pass;
+        Token = token.ToArray();
         Until = until;
     }
 
@@ -28,16 +30,22 @@ internal sealed class JoinClaim
     /// <summary>The number that it says it had; 0 for none.</summary>
     internal byte Wanted { get; }
 
-    /// <summary>The number that its key gives it; 0 for none.</summary>
-    internal byte Keyed { get; }
+    /// <summary>The connect token that it came with; empty for none.</summary>
+    internal byte[] Token { get; }
+
+    /// <summary>What its token says of it; null without one.</summary>
+    internal PlayerAdmission? Admission => Who.Admission;
 
     /// <summary>The place of the player that it was before, unless another has taken it since; null for none.</summary>
-    internal PlayerPlaces.Place? Former => Claimed is not null && Claimed.Pass == ClaimedPass ? Claimed : null;
+    internal PlayerPlaces.Place? Former => Who.Claimed is not null && Who.Claimed.Pass == ClaimedPass ? Who.Claimed : null;
+
+    /// <summary>Who it is by now: as it proved, unless another player has its former place.</summary>
+    internal JoinIdentity Identity => Who with { Claimed = Former };
 
     /// <summary>When it is given up if it has no number by then.</summary>
     internal SimTime Until { get; }
 
-    private PlayerPlaces.Place? Claimed { get; }
+    private JoinIdentity Who { get; }
 
     private Token128? ClaimedPass { get; }
 }

@@ -41,13 +41,13 @@ internal sealed class JoinHandshake
         counters = parts.Counters;
         clock = parts.Clock;
         challenge = new AddressChallenge(PublicIdentity.Of(options.Protection), cookies, parts.Sender, clock);
-        Seating = new Seating(roster, places, budget, parts.Sender, options.MaxClientsPerAddress);
+        Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
         server = new SnapshotServer(roster, new MachineRates(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst), challenge, parts.Sender, counters, clock);
-        JoinRules rules = new(options, parts.World.Scene!.Hash, BanList, Seating);
+        JoinRules rules = new(parts.World.Scene!.Hash, BanList, Seating);
         WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
         Admission admission = new(
-            sessionId, options, cookies, rules, places, roster, room, Snapshots, timeouts, parts.Links, counters);
+            sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links, counters);
         intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
         stray = new StrayReply(places, parts.Status, options.Protection, sender);
     }

@@ -29,7 +29,7 @@ internal sealed class JoinIntake(
         using JoinReply reply = new(join.Nonce, from, null, null, sender);
         if (protection is null)
         {
-            Decide(join, from, reply);
+            Decide(join, default, from, reply);
         }
         else
         {
@@ -84,7 +84,7 @@ internal sealed class JoinIntake(
             return;
         }
 
-        Span<byte> claims = stackalloc byte[WireFormat.JoinClaimBytes];
+        Span<byte> claims = stackalloc byte[join.Message.Length - IHostProtection.HandshakeOverhead];
         IHostHandshake? handshake = by.TryRead(join.Prologue, join.Message, claims);
         if (handshake is null)
         {
@@ -93,15 +93,15 @@ internal sealed class JoinIntake(
         }
 
         using JoinReply reply = new(join.Nonce, from, by, handshake, sender);
-        if (counters.IsWellFormed(JoinDatagram.TryDecodeClaims(claims, join.Nonce, join.Cookie, out JoinDatagram claimed)))
+        if (counters.IsWellFormed(JoinDatagram.TryDecodeClaims(claims.Slice(0, WireFormat.JoinClaimBytes), join.Nonce, join.Cookie, out JoinDatagram claimed)))
         {
-            Decide(claimed, from, reply);
+            Decide(claimed, claims.Slice(WireFormat.JoinClaimBytes), from, reply);
         }
     }
 
-    private void Decide(in JoinDatagram join, PeerAddress from, JoinReply reply)
+    private void Decide(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply)
     {
-        if (admission.Admit(join, from, reply, clock.Now) is Client admitted)
+        if (admission.Admit(join, token, from, reply, clock.Now) is Client admitted)
         {
             SendWelcome(admitted);
         }

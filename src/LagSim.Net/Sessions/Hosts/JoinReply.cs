@@ -43,7 +43,9 @@ internal sealed class JoinReply(
     }
 
     /// <summary>Sends the client the reason why it is not let in.</summary>
-    internal void Refuse(RefusalReason reason)
+    /// <param name="reason">The reason.</param>
+    /// <param name="secondsOff">How far its connect token is off its time, in seconds; not told in clear text.</param>
+    internal void Refuse(RefusalReason reason, uint secondsOff = 0)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.SecureRefusalBytes];
         int length;
@@ -54,7 +56,9 @@ internal sealed class JoinReply(
         else
         {
             Span<byte> payload = stackalloc byte[WireFormat.SecureRefusalPayloadBytes];
-            payload[0] = (byte)reason;
+            WireWriter writer = new(payload);
+            writer.WriteByte((byte)reason);
+            writer.WriteUInt32(secondsOff);
             length = SecureAnswerDatagram.WritePrologue(bytes, DatagramType.SecureRefusal, nonce);
             handshake.Refuse(payload, bytes.Slice(length));
             length = WireFormat.SecureRefusalBytes;

@@ -2,6 +2,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Security.Cryptography;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
@@ -30,14 +31,17 @@ internal sealed class PlayerPlaces
     internal Place this[byte number] => places[number];
 
     /// <summary>
-    /// Returns the place that a join claims, if it proves that its client was that player; otherwise null. A pass travels in clear text, so
-    /// it never opens a number that has a key.
+    /// Returns the place that a join claims, if it proves that its client was that player; otherwise null. Without protection a pass
+    /// travels in clear text, so it never opens a number that has a key.
     /// </summary>
     /// <param name="join">The join.</param>
     /// <param name="keyed">The player whose key it presents; 0 for none.</param>
     internal Place? Claimed(in JoinDatagram join, byte keyed) =>
         join.Player is > 0 and <= SessionOptions.MaxClients && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
             && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
+
+    /// <summary>Returns the place of the player that a backend knows by that identity; null if it has none.</summary>
+    internal Place? OfPlayer(string playerId) => System.Array.Find(places, place => place?.Admission?.PlayerId == playerId);
 
     /// <summary>
     /// Returns the lowest number that is neither taken nor reserved, otherwise the one reserved longest; 0 if all are taken. Never a number
@@ -112,6 +116,9 @@ internal sealed class PlayerPlaces
         /// <summary>When its player fell silent; null if no player had it, or the player left.</summary>
         internal SimTime? LeftAt { get; private set; }
 
+        /// <summary>What a backend says of its player; null without a connect token.</summary>
+        internal PlayerAdmission? Admission { get; private set; }
+
         /// <summary>The secret of its player; null if it has none.</summary>
         internal Token128? Pass { get; private set; }
 
@@ -122,9 +129,13 @@ internal sealed class PlayerPlaces
         internal bool IsKept(SimTime now, SimDuration time) => !IsTaken && Pass is not null && LeftAt is SimTime left && now - left <= time;
 
         /// <summary>Gives the number to the player that has its pass, or to a new player, which gets a new pass.</summary>
-        internal void Take(bool isSamePlayer, PeerAddress machine)
+        /// <param name="isSamePlayer">Whether it is the player that had it.</param>
+        /// <param name="machine">Where the player is.</param>
+        /// <param name="admission">What its connect token says of it; null without one.</param>
+        internal void Take(bool isSamePlayer, PeerAddress machine, PlayerAdmission? admission = null)
         {
             IsTaken = true;
+            Admission = admission;
             Machine = machine;
             LeftAt = null;
             if (!isSamePlayer || Pass is null)
@@ -145,6 +156,7 @@ internal sealed class PlayerPlaces
             IsTaken = false;
             LeftAt = isKept ? now : null;
             Pass = isKept ? Pass : null;
+            Admission = isKept ? Admission : null;
         }
     }
 }

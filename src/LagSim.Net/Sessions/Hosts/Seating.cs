@@ -1,6 +1,7 @@
 using System;
 using System.Linq;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -12,29 +13,29 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="places">The numbers.</param>
 /// <param name="budget">Where a number with a new holder gets another account.</param>
 /// <param name="sender">Sends them their numbers.</param>
+/// <param name="protection">Takes each connect token once; null in a session without protection.</param>
 /// <param name="maxOfOneMachine">The most clients that may be in from one machine.</param>
-internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, int maxOfOneMachine)
+internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, IHostProtection? protection, int maxOfOneMachine)
 {
     /// <summary>Raised for each client that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
 
     /// <summary>Returns why a client can get no number now; null if it can.</summary>
-    /// <param name="keyed">The number that its key gives; 0 for none.</param>
-    /// <param name="claimed">The place of the player that it proved to be; null for none.</param>
+    /// <param name="who">Who it proved to be.</param>
     /// <param name="from">Its address.</param>
     /// <param name="now">The time by the local clock.</param>
-    internal RefusalReason? WhyNone(byte keyed, PlayerPlaces.Place? claimed, PeerAddress from, SimTime now)
+    internal RefusalReason? WhyNone(JoinIdentity who, PeerAddress from, SimTime now)
     {
-        if (keyed > 0)
+        if (who.Keyed > 0)
         {
             return null; // it has one
         }
 
         // A client that proves to be an absent player has a number, but counts: otherwise a machine could collect passes, and then join
-        // with all of them.
-        byte own = claimed?.Number ?? 0;
+        // with all of them. Players whom a backend admits have one place each, wherever they are.
+        byte own = who.Claimed?.Number ?? 0;
         int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && !IsRestarted(j, from) && j.Link.Other.IsSameMachine(from));
-        return others >= maxOfOneMachine ? RefusalReason.TooManyFromOneAddress
+        return others >= maxOfOneMachine && who.Admission is null ? RefusalReason.TooManyFromOneAddress
             : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && IsRestarted(j, from))
                 ? RefusalReason.Full
             : null;
@@ -46,19 +47,30 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
     {
         PeerAddress address = client.Link.Other;
         JoinClaim claim = client.Claim;
-        PlayerPlaces.Place? claimed = claim.Former;
-        PlayerPlaces.Place? place = claim.Keyed > 0 ? places[claim.Keyed] : claimed;
+        JoinIdentity who = claim.Identity;
+        PlayerPlaces.Place? claimed = who.Claimed;
+        PlayerPlaces.Place? place = who.Keyed > 0 ? places[who.Keyed] : claimed;
         if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && IsRestarted(j, address)) is Client gone)
         {
             roster.Disconnect(gone, LeaveReason.TimedOut); // restarted, or gone and its port reused: it may still come back
         }
 
-        if (WhyNone(claim.Keyed, claimed, address, now) is RefusalReason reason)
+        if (WhyNone(who, address, now) is RefusalReason reason)
         {
             return reason;
         }
 
+        if (claim.Token.Length > 0 && who.Admission is not null && protection?.TryUseToken(claim.Token) == false)
+        {
+            return RefusalReason.TokenUsed;
+        }
+
         place ??= places[places.Free(now, claim.Wanted, address.Machine)];
+        if (claimed is not null && claimed != place && roster.Seated(claimed.Number) is Client elsewhere)
+        {
+            roster.Dismiss(elsewhere, LeaveReason.Replaced); // the same player, whose token gives it another number now
+        }
+
         if (roster.Seated(place.Number) is Client before)
         {
             roster.Dismiss(before, LeaveReason.Replaced); // its player joined from elsewhere
@@ -70,7 +82,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
             budget.BeginAccount(place.Number);
         }
 
-        place.Take(isSamePlayer: claimed == place, address.Machine);
+        place.Take(isSamePlayer: claimed == place, address.Machine, who.Admission);
         Tell(client);
         Came?.Invoke(client.Link.Traffic);
         return null;

@@ -1,0 +1,14 @@
+using LagSim.Net.Protection;
+using LagSim.Net.Wire;
+
+namespace LagSim.Net.Sessions.Hosts;
+
+/// <summary>Who a joining client has proved to be: by a key, by a player's pass, by a connect token.</summary>
+/// <param name="Key">The key that it proved to know, the session's or a player's; null if it is none of this host's.</param>
+/// <param name="Keyed">The number that its key or token gives; 0 for none.</param>
+/// <param name="Claimed">The place of the player that it proved to be; null for none.</param>
+/// <param name="Admission">What its token says of it; null without one.</param>
+/// <param name="Fault">What is wrong with its token; null for nothing.</param>
+/// <param name="SecondsOff">How far the token is off its time, in seconds.</param>
+internal sealed record JoinIdentity(
+    string? Key, byte Keyed, PlayerPlaces.Place? Claimed, PlayerAdmission? Admission = null, RefusalReason? Fault = null, uint SecondsOff = 0);

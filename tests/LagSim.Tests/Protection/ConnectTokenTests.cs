@@ -1,0 +1,225 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Net.Protection;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Testing.Links;
+using LagSim.Tests.Sessions;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Protection;
+
+/// <summary>Sessions whose players a backend admits: who has a good token is in once, who has not is told what to do.</summary>
+public sealed class ConnectTokenTests : IDisposable
+{
+    private static readonly DateTimeOffset Noon = new(2026, 11, 27, 12, 0, 0, TimeSpan.Zero);
+    private static readonly PlayerAdmission Ada = new("account 4711", "Ada");
+
+    private readonly HostIdentity identity = HostIdentity.Draw();
+    private readonly TokenIssuer issuer = TokenIssuer.Draw();
+    private DateTimeOffset hostClock = Noon;
+
+    public void Dispose()
+    {
+        identity.Dispose();
+        issuer.Dispose();
+    }
+
+    [Fact]
+    public void Join_WithAToken_IsInAsThatPlayer()
+    {
+        SessionGroup group = Hosting();
+        ClientSession ada = Join(group, 1, issuer.Issue(new PlayerAdmission("account 4711", "Ada Lovelace", number: 3), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3), ada.EndReason);
+        Assert.Equal(3, ada.Peer);
+        PlayerAdmission known = group.Host.AdmissionOf(3)!;
+        Assert.Equal(("account 4711", "Ada Lovelace", PlayerRights.All), (known.PlayerId, known.Name, known.Rights));
+        Assert.Null(group.Host.AdmissionOf(1));
+    }
+
+    [Theory]
+    [InlineData("none", "lets in only who has a connect token")]
+    [InlineData("changed", "was changed on its way")]
+    [InlineData("noise", "is none, or was changed")]
+    [InlineData("of another key", "of another backend")]
+    [InlineData("for another host", "for another host")]
+    [InlineData("expired", "over 3 s ago, by the host's clock")]
+    [InlineData("clock an hour fast", "over 3540 s ago, by the host's clock")]
+    [InlineData("clock an hour slow", "begins in 3590 s, by the host's clock")]
+    [InlineData("used", "came in with the connect token before")]
+    public void Join_WithAnythingElse_IsRefusedWithWhatToDo(string what, string why)
+    {
+        SessionGroup group = Hosting();
+        using TokenIssuer other = TokenIssuer.Draw();
+        using HostIdentity otherHost = HostIdentity.Draw();
+        byte[] token = (what == "of another key" ? other : issuer).Issue(
+            Ada, what == "for another host" ? otherHost.Fingerprint : identity.Fingerprint, now: Noon);
+        switch (what)
+        {
+            case "none":
+                token = [];
+                break;
+            case "changed":
+                token[^70] ^= 1;
+                break;
+            case "noise":
+                Random.Shared.NextBytes(token);
+                break;
+            case "expired":
+                hostClock = Noon.AddSeconds(63);
+                break;
+            case "clock an hour fast":
+                hostClock = Noon.AddHours(1);
+                break;
+            case "clock an hour slow":
+                hostClock = Noon.AddHours(-1);
+                break;
+            case "used":
+                ClientSession first = Join(group, 1, token);
+                Assert.True(group.RunUntil(() => first.State == SessionState.Running, 3));
+                break;
+        }
+
+        ClientSession client = Join(group, 2, token);
+        Assert.True(group.RunUntil(() => client.State is SessionState.Ended or SessionState.Running, 3));
+        Assert.Equal((SessionState.Ended, SessionEnd.Refused), (client.State, client.EndedBy));
+        Assert.Contains(why, client.EndReason, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Join_SameTokenTwiceAtOnce_LetsOneIn()
+    {
+        SessionGroup group = Hosting();
+        byte[] token = issuer.Issue(Ada, identity.Fingerprint, now: Noon);
+        ClientSession[] both = [Join(group, 1, token), Join(group, 2, token)];
+        Assert.True(group.RunUntil(() => both.All(c => c.State is SessionState.Running or SessionState.Ended), 5));
+        Assert.Equal(1, group.Host.ClientCount);
+        Assert.Contains("before", both.Single(c => c.State == SessionState.Ended).EndReason, StringComparison.Ordinal);
+    }
+
+    /// <summary>One player has one place: another token for it moves it there, with its number.</summary>
+    [Fact]
+    public void Join_SamePlayerWithAnotherToken_TakesItsPlaceOver()
+    {
+        SessionGroup group = Hosting();
+        ClientSession first = Join(group, 1, issuer.Issue(Ada, identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => first.State == SessionState.Running, 3));
+        ClientSession second = Join(group, 2, issuer.Issue(Ada, identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => second.State == SessionState.Running && first.State == SessionState.Ended, 5), second.EndReason);
+        Assert.Equal((first.Peer, 1), (second.Peer, group.Host.ClientCount));
+        Assert.Contains("came in from elsewhere", first.EndReason, StringComparison.Ordinal);
+    }
+
+    /// <summary>Eight players of one school: limits by address are not for who has a token, as each has one place.</summary>
+    [Fact]
+    public void Join_ManyPlayers_EachHasAPlace()
+    {
+        SessionGroup group = Hosting();
+        ClientSession[] all = [.. Enumerable.Range(1, 8).Select(n => Join(group, n, issuer.Issue(new PlayerAdmission($"p{n}"), identity.Fingerprint, now: Noon)))];
+        Assert.True(group.RunUntil(() => all.All(c => c.State == SessionState.Running), 10), string.Join(" ", all.Select(c => c.EndReason)));
+        ClientSession ninth = Join(group, 9, issuer.Issue(new PlayerAdmission("p9"), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ninth.State == SessionState.Ended, 3));
+        Assert.Contains("full", ninth.EndReason, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Rejoin_AfterSilence_NeedsNoOtherToken()
+    {
+        SessionGroup group = Hosting();
+        ClientSession ada = Join(group, 1, issuer.Issue(Ada, identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3));
+        group.Cut(1, 0);
+        group.Cut(0, 1);
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Rejoining && group.Host.ClientCount == 0, 30));
+        hostClock = Noon.AddMinutes(5); // its token is over
+        group.Restore(1, 0);
+        group.Restore(0, 1);
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 10), ada.EndReason);
+        Assert.Equal("Ada", group.Host.AdmissionOf(ada.Peer)!.Name);
+    }
+
+    [Theory]
+    [InlineData(PlayerRights.None, Verdict.NoRight, Verdict.NoRight)]
+    [InlineData(PlayerRights.Act, Verdict.Accepted, Verdict.NoRight)]
+    [InlineData(PlayerRights.Spawn, Verdict.NoRight, Verdict.Accepted)]
+    [InlineData(PlayerRights.All, Verdict.Accepted, Verdict.Accepted)]
+    public void Do_WhatTheTokenGrants_AndNothingElse(PlayerRights rights, Verdict impulse, Verdict spawn)
+    {
+        SessionGroup group = Hosting();
+        ClientSession ada = Join(group, 1, issuer.Issue(new PlayerAdmission("a", rights: rights), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3));
+        group.Do(1, PlayerAction.Impulse(First, V(0, 1)));
+        group.Do(1, PlayerAction.Spawn(Ball(), V(0, 30)));
+        Assert.True(group.Settle(2));
+        Assert.Equal([impulse, spawn], group.Log.Values.Select(e => e.Verdict));
+    }
+
+    [Fact]
+    public void Token_ForWhoeverAnswersFirst_IsRefused()
+    {
+        SessionGroup group = Hosting();
+        byte[] token = issuer.Issue(Ada, identity.Fingerprint, now: Noon);
+        Assert.Throws<ArgumentException>(() => group.Join(1, 7, new ClientOptions { Protection = SecureClient.TrustOnFirstUse(), Token = token }));
+        Assert.Throws<ArgumentException>(() => group.Join(2, 7, new ClientOptions { Token = token }));
+        ArgumentException tooLong = Assert.Throws<ArgumentException>(
+            () => group.Join(3, 7, new ClientOptions { Protection = new SecureClient(identity.Fingerprint), Token = new byte[257] }));
+        Assert.Contains("257 bytes", tooLong.Message, StringComparison.Ordinal);
+    }
+
+    /// <summary>Whatever is done to a token, it is not taken for a good one, and nothing throws.</summary>
+    [Fact]
+    public void Read_ChangedAnywhere_IsNotGood()
+    {
+        SecureHost host = new(identity, issuer.Key, () => Noon);
+        byte[] token = issuer.Issue(new PlayerAdmission("é", new string('x', 64), PlayerRights.Act, 8), identity.Fingerprint, now: Noon);
+        Assert.Equal(TokenFault.None, host.ReadToken(token).Fault);
+        Assert.InRange(token.Length, 1, IHostProtection.MaxTokenBytes);
+        for (int bit = 0; bit < 8 * token.Length; bit++)
+        {
+            byte[] changed = [.. token];
+            changed[bit / 8] ^= (byte)(1 << (bit % 8));
+            Assert.NotEqual(TokenFault.None, host.ReadToken(changed).Fault);
+        }
+
+        for (int length = 0; length < token.Length; length++)
+        {
+            Assert.Equal(TokenFault.Damaged, host.ReadToken(token.AsSpan(0, length)).Fault);
+        }
+
+        Assert.Equal(TokenFault.Damaged, host.ReadToken([.. token, 0]).Fault);
+        Assert.False(new SecureHost(identity).RequiresToken);
+        Assert.Equal(TokenFault.OtherIssuer, new SecureHost(identity).ReadToken(token).Fault);
+    }
+
+    [Fact]
+    public void Issue_OutOfRange_IsRefused()
+    {
+        Assert.Throws<ArgumentException>(() => issuer.Issue(Ada, default));
+        Assert.Throws<ArgumentOutOfRangeException>(() => issuer.Issue(Ada, identity.Fingerprint, TimeSpan.FromDays(2)));
+        Assert.Throws<ArgumentException>(() => new PlayerAdmission(""));
+        Assert.Throws<ArgumentException>(() => new PlayerAdmission(new string('é', 33)));
+        Assert.Throws<ArgumentException>(() => new PlayerAdmission("\ud800"));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", number: 9));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", rights: (PlayerRights)4));
+        Assert.True(TokenIssuer.TryParse(issuer.ToSecretText(), out TokenIssuer? again));
+        Assert.Equal(issuer.Key, again!.Key);
+        again.Dispose();
+        Assert.True(TokenKey.TryParse(issuer.Key.ToString(), out TokenKey? key) && key!.Equals(issuer.Key));
+        Assert.False(TokenKey.TryParse(new string('f', 64), out _)); // no point of the curve
+        Assert.DoesNotContain(issuer.ToSecretText(), issuer.ToString(), StringComparison.Ordinal);
+    }
+
+    private SessionGroup Hosting()
+    {
+        SessionGroup group = new(
+            ScriptedActions.Box(), 1, LinkProfiles.Loopback, expected: 0,
+            options: _ => new HostOptions { Protection = new SecureHost(identity, issuer.Key, () => hostClock) });
+        group.Run(1);
+        return group;
+    }
+
+    private ClientSession Join(SessionGroup group, int address, byte[] token) => group.Join(
+        address, (ulong)(1000 + address), new ClientOptions { Protection = new SecureClient(identity.Fingerprint), Token = token });
+}
