@@ -1,5 +1,6 @@
 using System;
 using System.Buffers.Binary;
+using System.Runtime.InteropServices;
 using System.Text;
 using Org.BouncyCastle.Math.EC.Rfc8032;
 
@@ -82,7 +83,7 @@ internal static class ConnectToken
         long until = BinaryPrimitives.ReadInt64LittleEndian(token.Slice(UntilAt));
         return seconds < from ? new TokenReading(TokenFault.NotYetValid, Span(from - seconds))
             : seconds >= until ? new TokenReading(TokenFault.Expired, Span(seconds - until))
-            : Admission(token);
+            : Admission(bytes);
     }
 
     /// <summary>What identifies a whole token, and when it expires, in seconds since 1970.</summary>
@@ -96,7 +97,7 @@ internal static class ConnectToken
         return isWhole;
     }
 
-    private static TokenReading Admission(ReadOnlySpan<byte> token)
+    private static TokenReading Admission(byte[] token)
     {
         int player = token[TextsAt];
         int name = token[TextsAt + 1 + player];
@@ -104,8 +105,8 @@ internal static class ConnectToken
         {
             UTF8Encoding strict = new(false, throwOnInvalidBytes: true);
             return new TokenReading(new PlayerAdmission(
-                strict.GetString(token.Slice(TextsAt + 1, player).ToArray()),
-                strict.GetString(token.Slice(TextsAt + 1 + player + 1, name).ToArray()),
+                strict.GetString(token, TextsAt + 1, player),
+                strict.GetString(token, TextsAt + 1 + player + 1, name),
                 (PlayerRights)token[RightsAt],
                 token[NumberAt]));
         }
@@ -122,9 +123,12 @@ internal static class ConnectToken
             return false;
         }
 
-        int texts = TextsAt + 1 + token[TextsAt];
-        return texts < token.Length - Ed25519.SignatureSize && texts + 1 + token[texts] + Ed25519.SignatureSize == token.Length;
+        int texts = TextsAt + 1 + ByteAt(token, TextsAt);
+        return texts < token.Length - Ed25519.SignatureSize && texts + 1 + ByteAt(token, texts) + Ed25519.SignatureSize == token.Length;
     }
+
+    /// <summary>One byte of a span, without its indexer, which some Mono runtimes cannot link (docs/ARCHITECTURE.md).</summary>
+    private static byte ByteAt(ReadOnlySpan<byte> bytes, int index) => MemoryMarshal.Read<byte>(bytes.Slice(index));
 
     private static void WriteIssuer(TokenKey issuer, Span<byte> destination)
     {

@@ -18,7 +18,7 @@ internal static class HexText
     }
 
     /// <summary>Reads exactly as many bytes as the destination has; false for any other spelling than <see cref="Of"/> gives.</summary>
-    internal static bool TryRead(ReadOnlySpan<char> text, Span<byte> destination)
+    internal static bool TryRead(string text, Span<byte> destination)
     {
         if (text.Length != 2 * destination.Length)
         {

@@ -41,7 +41,7 @@ public readonly struct HostFingerprint : IEquatable<HostFingerprint>
     public static bool TryParse(string? text, out HostFingerprint fingerprint)
     {
         Span<byte> bytes = stackalloc byte[Bytes];
-        bool isOne = text is not null && HexText.TryRead(text.AsSpan(), bytes);
+        bool isOne = text is not null && HexText.TryRead(text, bytes);
         fingerprint = isOne ? new HostFingerprint(bytes) : default;
         return isOne;
     }

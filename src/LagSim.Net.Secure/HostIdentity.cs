@@ -35,7 +35,7 @@ public sealed class HostIdentity : IDisposable
     public static bool TryParse(string? text, out HostIdentity? identity)
     {
         Span<byte> key = stackalloc byte[Curve25519KeyPair.Bytes];
-        identity = text is not null && HexText.TryRead(text.AsSpan(), key) ? new HostIdentity(new Curve25519KeyPair(key)) : null;
+        identity = text is not null && HexText.TryRead(text, key) ? new HostIdentity(new Curve25519KeyPair(key)) : null;
         CryptographicOperations.ZeroMemory(key);
         return identity is not null;
     }

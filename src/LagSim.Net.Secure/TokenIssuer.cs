@@ -57,7 +57,7 @@ public sealed class TokenIssuer : IDisposable
     public static bool TryParse(string? text, out TokenIssuer? issuer)
     {
         Span<byte> read = stackalloc byte[Ed25519.SecretKeySize];
-        issuer = text is not null && HexText.TryRead(text.AsSpan(), read) ? new TokenIssuer(read) : null;
+        issuer = text is not null && HexText.TryRead(text, read) ? new TokenIssuer(read) : null;
         CryptographicOperations.ZeroMemory(read);
         return issuer is not null;
     }

@@ -19,7 +19,7 @@ public sealed class TokenKey : IEquatable<TokenKey>
     public static bool TryParse(string? text, out TokenKey? key)
     {
         Span<byte> bytes = stackalloc byte[Org.BouncyCastle.Math.EC.Rfc8032.Ed25519.PublicKeySize];
-        key = text is not null && HexText.TryRead(text.AsSpan(), bytes) && Org.BouncyCastle.Math.EC.Rfc8032.Ed25519.ValidatePublicKeyFull(bytes.ToArray(), 0)
+        key = text is not null && HexText.TryRead(text, bytes) && Org.BouncyCastle.Math.EC.Rfc8032.Ed25519.ValidatePublicKeyFull(bytes.ToArray(), 0)
             ? new TokenKey(bytes)
             : null;
         return key is not null;

@@ -38,8 +38,18 @@ public static class CorpusCheck
             agree += agrees ? 1 : 0;
         }
 
-        output.WriteLine(FormattableString.Invariant($"{agree} agree, {files.Length - agree} differ"));
-        return agree > 0 && agree == files.Length ? 0 : 1;
+        string transcript = Path.Combine(folder, SecureTranscript.FileName);
+        int all = files.Length;
+        if (File.Exists(transcript))
+        {
+            bool isSame = File.ReadAllLines(transcript).SequenceEqual(SecureTranscript.Lines());
+            output.WriteLine(isSame ? "ok handshake" : "DIFFERS handshake");
+            all++;
+            agree += isSame ? 1 : 0;
+        }
+
+        output.WriteLine(FormattableString.Invariant($"{agree} agree, {all - agree} differ"));
+        return agree > 0 && agree == all ? 0 : 1;
     }
 
     /// <summary>Which runtime this is, on which processor, and which builds of the library it runs.</summary>

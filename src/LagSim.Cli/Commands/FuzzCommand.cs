@@ -15,7 +15,14 @@ internal static class FuzzCommand
         Option<int> packets = CommonOptions.Whole("--packets", "How many hostile datagrams to send at most; in real time as many as fit", 1_000_000, 1, 2_000_000_000);
         Option<string> time = CommonOptions.Word("--time", "Sessions in virtual time, or one over real UDP, flooded at full speed.", "virtual", "virtual", "real");
         Option<double> length = CommonOptions.Number("--for-s", "How long to flood in real time", 10, 0.1, 86_400);
-        Command command = new("fuzz", "Sends hostile datagrams at sessions; nothing may throw, and no stranger may end a session.") { packets, time, length };
+        Option<bool> isProtected = new("--protected")
+        {
+            Description = "In virtual time: protect the sessions. Then not even datagrams with the peers' own addresses may disturb one.",
+        };
+        Command command = new("fuzz", "Sends hostile datagrams at sessions; nothing may throw, and no stranger may end a session.")
+        {
+            packets, time, length, isProtected,
+        };
         command.Options.Add(common.Seed);
         command.Options.Add(common.Json);
         command.SetAction(parsed =>
@@ -28,7 +35,8 @@ internal static class FuzzCommand
                 return Flood(console, parsed.GetValue(length), most, seed, parsed.GetValue(common.Json));
             }
 
-            FuzzReport report = console.WithProgress("fuzz", count, progress => SessionFuzz.Run(count, seed, done => progress(done), console.Stop));
+            FuzzReport report = console.WithProgress("fuzz", count, progress => SessionFuzz.Run(
+                count, seed, done => progress(done), console.Stop, parsed.GetValue(isProtected)));
             if (parsed.GetValue(common.Json))
             {
                 WriteJson(console, report, seed);
@@ -83,7 +91,8 @@ internal static class FuzzCommand
         CultureInfo culture = CultureInfo.InvariantCulture;
         console.Output.WriteLine(string.Create(culture, $"{NumberText.Count(report.Packets, "hostile datagram", "N0")} at"
             + $" {NumberText.Count(report.Sessions, "session", "N0")}, every other of which got them from strangers, or as true ones played again"));
-        console.Output.WriteLine(string.Create(culture, $"refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0}"));
+        console.Output.WriteLine(string.Create(culture, $"refused by a decoder {report.Malformed:N0}, ignored {report.Ignored:N0},"
+            + $" forged {report.Forged:N0}"));
         console.Output.WriteLine(string.Create(culture, $"strangers sent {report.StrangerBytesSent:N0} bytes and got {report.StrangerBytesReceived:N0}"));
         console.Output.WriteLine(string.Create(culture, $"sessions broken by who had a peer's own address {report.SessionsBroken:N0}; memory grew by"
             + $" {report.RetainedBytes:N0} bytes, within a session by {report.SessionGrowthBytes:N0}"));
@@ -97,6 +106,7 @@ internal static class FuzzCommand
             json.WriteNumber("sessions", report.Sessions);
             json.WriteNumber("malformed", report.Malformed);
             json.WriteNumber("ignored", report.Ignored);
+            json.WriteNumber("forged", report.Forged);
             json.WriteNumber("sessions_broken", report.SessionsBroken);
             json.WriteNumber("stranger_sent_bytes", report.StrangerBytesSent);
             json.WriteNumber("stranger_received_bytes", report.StrangerBytesReceived);

@@ -25,6 +25,19 @@ public sealed partial class CorpusTests
 
     private static readonly string Folder = Path.Combine(RepositoryRoot.Path, "tests", "corpus");
 
+    /// <summary>What fixed keys make of fixed texts stands beside the recordings, so that every runtime is held to it.</summary>
+    [Fact]
+    public void Handshake_OfFixedKeys_IsTheOneOnRecord()
+    {
+        string path = Path.Combine(Folder, SecureTranscript.FileName);
+        if (Environment.GetEnvironmentVariable(Update) == "1")
+        {
+            File.WriteAllLines(path, SecureTranscript.Lines());
+        }
+
+        Assert.Equal(File.ReadAllLines(path), SecureTranscript.Lines());
+    }
+
     [Fact]
     public void Corpus_OfItsWorlds_IsTheOneOnRecord()
     {
@@ -60,9 +73,10 @@ public sealed partial class CorpusTests
         (int exit, string[] lines) = Check(Folder);
         Assert.True(exit == 0, string.Join("\n", lines));
         Assert.Matches("^CoreCLR .*, library (Debug|Release) net10[.]0$", lines[0]);
-        Assert.All(lines[1..^1], line => Assert.Matches("^ok [a-z0-9-]+ [0-9a-f]{16}-[0-9a-f]{16}$", line));
-        Assert.Equal(Names(), lines[1..^1].Select(line => line.Split(' ')[1]));
-        Assert.Equal($"{Names().Length} agree, 0 differ", lines[^1]);
+        Assert.All(lines[1..^2], line => Assert.Matches("^ok [a-z0-9-]+ [0-9a-f]{16}-[0-9a-f]{16}$", line));
+        Assert.Equal(Names(), lines[1..^2].Select(line => line.Split(' ')[1]));
+        Assert.Equal("ok handshake", lines[^2]);
+        Assert.Equal($"{Names().Length + 1} agree, 0 differ", lines[^1]);
     }
 
     [Fact]

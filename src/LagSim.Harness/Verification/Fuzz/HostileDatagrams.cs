@@ -128,7 +128,7 @@ public sealed class HostileDatagrams
     /// <summary>Returns a valid form with random values, sometimes with the session number of a real datagram.</summary>
     private byte[] MadeUp()
     {
-        int length = Below(11) switch
+        int length = Below(14) switch
         {
             0 => new ConnectRequestDatagram(random.NextUInt64()).Encode(buffer),
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
@@ -142,9 +142,28 @@ public sealed class HostileDatagrams
             7 => DesyncReport().Encode(buffer),
             8 => new SeatDatagram(Session(), (byte)(1 + Below(9)), (uint)Below(9), Token()).Encode(buffer),
             9 => new MoveDatagram(Session(), (byte)Below(10), Token()).Encode(buffer),
+            10 => new MoveChallengeDatagram(Session(), Token()).Encode(buffer),
+            11 => new ResetDatagram(Session(), (LeaveReason)(1 + Below(7)), Token()).Encode(buffer),
+            12 => Sealed(),
             _ => Update().Encode(buffer),
         };
         return buffer.AsSpan(0, length).ToArray();
+    }
+
+    /// <summary>A sealed datagram's form, with a number near those of real ones, and nothing that was sealed.</summary>
+    private int Sealed()
+    {
+        WireWriter writer = new(buffer);
+        writer.WriteHeader(DatagramType.Sealed);
+        writer.WriteUInt64(Session());
+        writer.WriteUInt32((uint)Below(2_000));
+        writer.WriteUInt16((ushort)(Below(10) / 9));
+        for (int n = 17 + Below(100); n > 0; n--)
+        {
+            writer.WriteByte((byte)random.NextUInt64());
+        }
+
+        return writer.Position;
     }
 
     private JoinDatagram Join()
@@ -175,7 +194,7 @@ public sealed class HostileDatagrams
         if (seen.Count > 0 && Below(2) == 0)
         {
             byte[] one = seen[Below(seen.Count)].Datagram;
-            if (one.Length >= WireFormat.EmptyUpdateBytes && one[3] == (byte)DatagramType.Update)
+            if (one.Length >= WireFormat.EmptyUpdateBytes && (DatagramType)one[3] is DatagramType.Update or DatagramType.Sealed)
             {
                 return BitConverter.ToUInt64(one, WireFormat.HeaderBytes);
             }

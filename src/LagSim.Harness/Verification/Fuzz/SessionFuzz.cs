@@ -3,6 +3,7 @@ using System.Linq;
 using System.Threading;
 using LagSim.Events;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
@@ -15,8 +16,9 @@ namespace LagSim.Harness.Verification.Fuzz;
 /// <remarks>
 /// <para>In every other session all hostile datagrams come from strangers' addresses, or are replays from the true ones. That session must
 /// continue and all its worlds agree. In the others they have the peers' own addresses. Then nothing may throw, and no more can be
-/// required.</para>
-/// <para>Deterministic: the same seed and number of datagrams give the same report, except the memory.</para>
+/// required; unless the sessions are protected: then these must continue and agree, too.</para>
+/// <para>Deterministic: the same seed and number of datagrams give the same report, except the memory. Protected sessions draw their keys from
+/// the system, so there the counts differ.</para>
 /// </remarks>
 public static class SessionFuzz
 {
@@ -49,14 +51,18 @@ public static class SessionFuzz
     /// <param name="seed">The seed of the datagrams.</param>
     /// <param name="progress">Called from time to time with the number sent; may be null.</param>
     /// <param name="cancellation">Ends it between two sessions.</param>
-    public static FuzzReport Run(long packets, ulong seed, Action<long>? progress, CancellationToken cancellation) =>
-        Run(packets, seed, progress, static port => port, cancellation);
+    /// <param name="isProtected">Whether the sessions are protected.</param>
+    public static FuzzReport Run(long packets, ulong seed, Action<long>? progress, CancellationToken cancellation, bool isProtected = false) =>
+        Run(packets, seed, progress, static port => port, cancellation, isProtected);
 
     /// <summary>The same, with a wrapper between each session and its port.</summary>
-    internal static FuzzReport Run(long packets, ulong seed, Action<long>? progress, Func<IDatagramPort, IDatagramPort> between, CancellationToken cancellation)
+    internal static FuzzReport Run(
+        long packets, ulong seed, Action<long>? progress, Func<IDatagramPort, IDatagramPort> between, CancellationToken cancellation,
+        bool isProtected = false)
     {
         ArgumentOutOfRangeException.ThrowIfLessThan(packets, 1);
-        FuzzReport report = new(0, 0, 0, 0, 0, 0, 0, 0, 0, null);
+        FuzzReport report = new(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, null);
+        using HostIdentity? identity = isProtected ? HostIdentity.Draw() : null;
         long atFirst = 0;
         while (report.Packets < packets && report.Failure is null)
         {
@@ -64,7 +70,7 @@ public static class SessionFuzz
             bool isFromStrangers = report.Sessions % 2 == 0;
             int count = (int)Math.Min(isFromStrangers ? PacketsOfStrangers : PacketsOfPeers, packets - report.Packets);
             bool isMeasured = count == PacketsOfStrangers && report.Sessions / 2 % LookEvery == 0;
-            report = new Round(seed + (ulong)report.Sessions, isFromStrangers, isMeasured, between).Play(count, report);
+            report = new Round(seed + (ulong)report.Sessions, isFromStrangers, isMeasured, identity, between).Play(count, report);
             progress?.Invoke(report.Packets);
             if (report.Sessions == 2)
             {
@@ -81,6 +87,7 @@ public static class SessionFuzz
         private readonly ulong seed;
         private readonly bool isFromStrangers;
         private readonly bool isMeasured;
+        private readonly bool isProtected;
         private readonly VirtualClock clock = new(SimTime.FromSeconds(100));
         private readonly VirtualNetwork network;
         private readonly Session[] sessions = new Session[Peers];
@@ -91,11 +98,12 @@ public static class SessionFuzz
         private readonly HostileDatagrams hostile;
         private bool isLearning = true;
 
-        internal Round(ulong seed, bool isFromStrangers, bool isMeasured, Func<IDatagramPort, IDatagramPort> between)
+        internal Round(ulong seed, bool isFromStrangers, bool isMeasured, HostIdentity? identity, Func<IDatagramPort, IDatagramPort> between)
         {
             this.seed = seed;
             this.isFromStrangers = isFromStrangers;
             this.isMeasured = isMeasured;
+            isProtected = identity is not null;
             random = new SeededRandom(seed);
             hostile = new HostileDatagrams(random.Fork(1));
             network = new VirtualNetwork(clock, seed, LinkProfiles.Lan);
@@ -118,10 +126,16 @@ public static class SessionFuzz
             {
                 ports[peer] = between(network.CreatePort(peer));
                 HostOptions options = new() { ExpectedClients = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
+                if (identity is not null)
+                {
+                    options = options with { Protection = new SecureHost(identity) };
+                }
+
+                ClientOptions joining = ClientOptions.From(options) with { Protection = identity is null ? null : new SecureClient(identity.Fingerprint) };
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
                     ? new HostSession(scene, ports[0], own, options, random.NextUInt64())
-                    : new ClientSession(null, ports[peer], own, ClientOptions.From(options), PeerAddress.Virtual(0), random.NextUInt64());
+                    : new ClientSession(null, ports[peer], own, joining, PeerAddress.Virtual(0), random.NextUInt64());
                 steps.Add(sessions[peer], ports[peer]);
             }
 
@@ -157,7 +171,9 @@ public static class SessionFuzz
             bool isWhole = failure is null && IsWhole();
             long strangersSent = strangers.Sum(p => network.Traffic(Number(p)).BytesSent - (28 * network.Traffic(Number(p)).DatagramsSent));
             long strangersGot = strangers.Sum(p => network.Traffic(Number(p)).BytesReceived - (28 * network.Traffic(Number(p)).DatagramsReceived));
-            failure ??= isFromStrangers && !isWhole ? $"Seed {seed}: a session came apart under datagrams of strangers and replays: {State()}." : null;
+            failure ??= isFromStrangers && !isWhole ? $"Seed {seed}: a session came apart under datagrams of strangers and replays: {State()}."
+                : isProtected && !isWhole ? $"Seed {seed}: a protected session came apart under datagrams in its peers' names: {State()}."
+                : null;
             failure ??= held > MaxGrowth ? $"Seed {seed}: the memory of a living session grew by {held} bytes over its last {packets - (packets / 4)}"
                 + " packets." : null;
             failure ??= strangersGot > strangersSent ? $"Seed {seed}: strangers sent {strangersSent} bytes and got {strangersGot}." : null;
@@ -166,6 +182,7 @@ public static class SessionFuzz
                 sum.Sessions + 1,
                 sum.Malformed + sessions.Sum(s => s.Counters.DatagramsMalformed),
                 sum.Ignored + sessions.Sum(s => s.Counters.DatagramsIgnored),
+                sum.Forged + sessions.Sum(s => s.Counters.DatagramsForged),
                 sum.SessionsBroken + (isWhole ? 0 : 1),
                 sum.StrangerBytesSent + strangersSent,
                 sum.StrangerBytesReceived + strangersGot,
