@@ -131,7 +131,7 @@ public sealed class HealingFaultTests
         Assert.True(Assert.Single(wrong.Failures).Whole.DifferingBits > 0);
     }
 
-    internal static FaultyEngineParts Faulty(HealingFault fault) => new() { Healing = fault };
+    private static FaultyEngineParts Faulty(HealingFault fault) => new() { Healing = fault };
 
     private static CheckReport Run(CheckOptions options) => InvariantCheck.Run(options, null, TestContext.Current.CancellationToken);
 }

@@ -140,7 +140,7 @@ public sealed class SessionCommandTests
                 other.Send(answer, from);
             }
         };
-        Tool.Refuses(3, ["join", other.LocalAddress.ToString()], $"The host at {other.LocalAddress} refused: it speaks version 77 of the protocol, this peer {WireFormat.Version}.");
+        Tool.Refuses(3, ["join", other.LocalAddress.ToString(), "--unprotected"], $"The host at {other.LocalAddress} refused: it speaks version 77 of the protocol, this peer {WireFormat.Version}.");
     }
 
     [Fact]
@@ -177,7 +177,7 @@ public sealed class SessionCommandTests
         session.ClientGone += _ => gone.Set();
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --timeout-s 2 --for-s 9 --do set-velocity@2:1,3,0 --do set-velocity@8:0,3,0");
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --unprotected --timeout-s 2 --for-s 9 --do set-velocity@2:1,3,0 --do set-velocity@8:0,3,0");
         Assert.NotNull(client.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
         port.IsCut = true;
         Assert.NotNull(client.Error.WaitFor(line => line.EndsWith("Asking to be let in again.", StringComparison.Ordinal), LiveTool.Deadline));
@@ -251,7 +251,7 @@ public sealed class SessionCommandTests
     [Fact]
     public void Host_ClientThatIsGoneAtOnce_IsToldOfNevertheless()
     {
-        using LiveTool host = LiveTool.Run("host --scene drop");
+        using LiveTool host = LiveTool.Run("host --scene drop --unprotected");
         using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
         ClientSession brief = new(null, port, new StopwatchClock(), new ClientOptions(), PeerAddress.From(IPEndPoint.Parse(host.Address)), 9);
         Assert.True(SpinWait.SpinUntil(

@@ -28,7 +28,7 @@ public sealed class SessionDivergenceTests
         HostSession session = new(BuiltInScenes.Drop(), port, new StopwatchClock(), new HostOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 1");
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --unprotected --for-s 1");
         client.Ends(1);
         Assert.Contains("The committed state at T 1 s differs from the host's.", client.Error.ToString(), StringComparison.Ordinal);
         Assert.Matches("states held against the host's: 0 agreed, [1-9] differed", client.Output.ToString());
@@ -42,7 +42,7 @@ public sealed class SessionDivergenceTests
             BuiltInScenes.Drop(), port, new StopwatchClock(), new HostOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 2");
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --unprotected --for-s 2");
         Assert.True(host.WaitUntilRunning(LiveTool.Deadline));
         await host.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(2, 5, 0)));
         client.Ends(1);
@@ -64,7 +64,7 @@ public sealed class SessionDivergenceTests
             BuiltInScenes.Drop(), port, new StopwatchClock(), new HostOptions { Window = new(SimDuration.FromSeconds(0.2)), KeepAlive = SimDuration.FromSeconds(0.3) }, 5);
         using PeerThread host = new(session, port, "host");
         host.Start();
-        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --for-s 4 --record", folder["mine.lagsim"]);
+        using LiveTool client = LiveTool.Run($"join {port.LocalAddress} --unprotected --for-s 4 --record", folder["mine.lagsim"]);
         Assert.NotNull(client.Output.WaitFor(line => line.StartsWith("T 1 s ", StringComparison.Ordinal), LiveTool.Deadline));
         await host.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(2, 5, 0)));
         client.Ends(isAged ? 1 : 0);

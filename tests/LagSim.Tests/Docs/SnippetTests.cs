@@ -24,7 +24,8 @@ namespace LagSim.Tests.Docs;
 public sealed partial class SnippetTests
 {
     private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs")
-        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/Examples.cs")
+        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/SecuritySnippets.cs")
+        + Read("tests/LagSim.Tests/Docs/Examples.cs")
         + Read("samples/FirstGame/Program.cs");
 
     [Theory]
@@ -36,6 +37,8 @@ public sealed partial class SnippetTests
     [InlineData("src/LagSim/README.md", 1)]
     [InlineData("src/LagSim.Net/README.md", 1)]
     [InlineData("src/LagSim.Net.LiteNetLib/README.md", 1)]
+    [InlineData("src/LagSim.Net.Secure/README.md", 1)]
+    [InlineData("docs/SECURITY.md", 2)]
     [InlineData("docs/FORCES.md", 7)]
     public void Page_EachOfItsSnippets_IsCompiledAsItStands(string page, int count)
     {

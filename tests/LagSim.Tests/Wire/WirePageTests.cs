@@ -78,7 +78,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 3 + 6 + 2 + 17 + 4 + 6 + 3 + 2 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 3 + 28 + 5, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 28 + 5, rows);
     }
 
     [Fact]
