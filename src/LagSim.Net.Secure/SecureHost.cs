@@ -1,12 +1,12 @@
 using System;
-using System.Buffers.Binary;
+using System.Security.Cryptography;
 
 namespace LagSim.Net.Protection;
 
 /// <summary>Protects a host's sessions: every datagram is encrypted and authenticated, and clients can tell this host from any other.</summary>
 /// <remarks>
 /// Give it to <see cref="Sessions.HostOptions.Protection"/>. Clients without a protection of their own are refused. Safe on any thread;
-/// sessions may share it. Cost: one agreement for each join that is read, two more for each that is answered; docs/SECURITY.md has times.
+/// sessions on different ports may share it. Cost: one agreement for each join that is read, two more for each that is answered; docs/SECURITY.md has times.
 /// </remarks>
 /// <example>
 /// <code>
@@ -36,7 +36,9 @@ public sealed class SecureHost : IHostProtection
         this.tokens = tokens;
         this.clock = clock;
         Identity = identity ?? throw new ArgumentNullException(nameof(identity));
-        Sha256.Hmac(identity.Keys.PrivateKey.ToArray(), "LagSim reset"u8, default, resetKey);
+        byte[] secret = identity.Keys.PrivateKey.ToArray();
+        Sha256.Hmac(secret, "LagSim reset"u8, default, resetKey);
+        CryptographicOperations.ZeroMemory(secret);
     }
 
     /// <summary>The host's identity.</summary>
@@ -77,12 +79,10 @@ public sealed class SecureHost : IHostProtection
     }
 
     /// <inheritdoc/>
-    public void WriteResetToken(ulong sessionId, Span<byte> token)
+    public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key)
     {
-        Span<byte> id = stackalloc byte[sizeof(ulong)];
-        BinaryPrimitives.WriteUInt64LittleEndian(id, sessionId);
         Span<byte> hash = stackalloc byte[Sha256.Bytes];
-        Sha256.Hmac(resetKey, id, default, hash);
-        hash.Slice(0, IHostProtection.ResetTokenBytes).CopyTo(token);
+        Sha256.Hmac(resetKey, link, default, hash);
+        hash.Slice(0, IHostProtection.ResetKeyBytes).CopyTo(key);
     }
 }

@@ -6,7 +6,7 @@ namespace LagSim.Net.Protection;
 
 /// <summary>Issues connect tokens: for a backend that knows its players, and decides who may join which host.</summary>
 /// <remarks>
-/// <para>The backend keeps <see cref="ToSecretText"/> where only it can read it, and gives hosts the <see cref="Key"/>. Who has the secret
+/// <para>The backend keeps <see cref="ToSecretText"/> where only it can read it, and gives hosts the <see cref="Key"/>. Whoever has the secret
 /// can admit anyone.</para>
 /// <para>Safe on any thread. Disposing it wipes the secret.</para>
 /// </remarks>
@@ -28,6 +28,7 @@ public sealed class TokenIssuer : IDisposable
     private static readonly TimeSpan Leeway = TimeSpan.FromSeconds(10);
 
     private readonly byte[] secret;
+    private bool isWiped;
 
     private TokenIssuer(ReadOnlySpan<byte> secret)
     {
@@ -69,9 +70,15 @@ public sealed class TokenIssuer : IDisposable
     /// <param name="now">The time; default the system's.</param>
     /// <returns>The token, up to 256 bytes: a secret of that player's until it is used.</returns>
     /// <exception cref="ArgumentException">An argument is missing.</exception>
+    /// <exception cref="ObjectDisposedException">The secret is wiped.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The validity is out of range.</exception>
     public byte[] Issue(PlayerAdmission admission, HostFingerprint host, TimeSpan? validity = null, DateTimeOffset? now = null)
     {
+        if (isWiped)
+        {
+            throw new ObjectDisposedException(nameof(TokenIssuer));
+        }
+
         if (host == default)
         {
             throw new ArgumentException("The fingerprint is the default, which is no host's.", nameof(host));
@@ -97,5 +104,9 @@ public sealed class TokenIssuer : IDisposable
     public override string ToString() => Key.ToString();
 
     /// <summary>Wipes the secret.</summary>
-    public void Dispose() => CryptographicOperations.ZeroMemory(secret);
+    public void Dispose()
+    {
+        isWiped = true;
+        CryptographicOperations.ZeroMemory(secret);
+    }
 }

@@ -2,10 +2,12 @@ using System.Collections.Generic;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>The tokens with which players came in, until they expire.</summary>
+/// <summary>The tokens with which players came in, until a day after they expire: a join that began before that is over long before.</summary>
 /// <remarks>Safe on any thread: a host's sessions share it.</remarks>
 internal sealed class UsedTokens
 {
+    private const long SecondsKept = 86_400;
+
     private readonly Dictionary<(ulong, ulong), long> untils = new();
     private readonly List<(ulong, ulong)> expired = new();
 
@@ -28,7 +30,7 @@ internal sealed class UsedTokens
             expired.Clear();
             foreach (KeyValuePair<(ulong, ulong), long> one in untils)
             {
-                if (one.Value <= now)
+                if (one.Value + SecondsKept <= now)
                 {
                     expired.Add(one.Key);
                 }

@@ -47,8 +47,8 @@ public static class SecureTranscript
             }
         }
 
-        byte[] reset = new byte[IHostProtection.ResetTokenBytes];
-        new SecureHost(identity).WriteResetToken(0x0123456789ABCDEF, reset);
+        byte[] reset = new byte[IHostProtection.ResetKeyBytes];
+        new SecureHost(identity).WriteResetKey(Bytes(17, 28), reset);
         lines.Add($"reset {Hex(reset)}");
         using TokenIssuer issuer = TokenIssuer.TryParse(Hex(Bytes(13, 32)), out TokenIssuer? kept) ? kept! : throw new InvalidOperationException();
         byte[] token = ConnectToken.Write(

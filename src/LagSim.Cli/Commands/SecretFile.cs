@@ -57,7 +57,8 @@ internal static class SecretFile
     internal static void Write(string file, string secret)
     {
         string draft = DraftOf(file); // moved into place afterwards, so that a kill in between leaves the old file whole
-        FileStreamOptions options = new() { Mode = FileMode.Create, Access = FileAccess.Write };
+        File.Delete(draft); // a leftover may be readable by others
+        FileStreamOptions options = new() { Mode = FileMode.CreateNew, Access = FileAccess.Write };
         if (!OperatingSystem.IsWindows())
         {
             options.UnixCreateMode = UnixFileMode.UserRead | UnixFileMode.UserWrite;

@@ -15,7 +15,7 @@ internal static class TokenCommand
         CommonOptions common = new();
         Option<string> secret = new("--secret")
         {
-            Description = "The file of the issuer's secret key, created if it is missing. Who has it can admit anyone.",
+            Description = "The file of the issuer's secret key, created if it is missing. Whoever has it can admit anyone.",
             HelpName = "FILE",
             Required = true,
         };

@@ -6,7 +6,7 @@ namespace LagSim.Net.Protection;
 /// A host's identity, and its side of the handshake by which a joining client and a host agree on keys. The package
 /// <c>LagSim.Net.Secure</c> has one.
 /// </summary>
-/// <remarks>Safe on any thread: sessions may share it. Give it to a host by <see cref="Sessions.HostOptions.Protection"/>.</remarks>
+/// <remarks>Safe on any thread: sessions on different ports may share it. Give it to a host by <see cref="Sessions.HostOptions.Protection"/>.</remarks>
 public interface IHostProtection
 {
     /// <summary>The length of the identity that a host shows, in bytes.</summary>
@@ -15,8 +15,8 @@ public interface IHostProtection
     /// <summary>How much longer a handshake message is than its payload, in bytes.</summary>
     public const int HandshakeOverhead = 48;
 
-    /// <summary>The length of a reset token, in bytes.</summary>
-    public const int ResetTokenBytes = 16;
+    /// <summary>The length of a reset key, in bytes.</summary>
+    public const int ResetKeyBytes = 16;
 
     /// <summary>The longest connect token, in bytes.</summary>
     public const int MaxTokenBytes = 256;
@@ -47,10 +47,8 @@ public interface IHostProtection
     /// <returns>False if it was used before.</returns>
     bool TryUseToken(ReadOnlySpan<byte> token);
 
-    /// <summary>
-    /// Writes the token by which this host, even after a restart, proves to the client of that session id that it does not know it.
-    /// </summary>
-    /// <param name="sessionId">The session id.</param>
-    /// <param name="token">Receives <see cref="ResetTokenBytes"/> bytes: always the same for one session id and identity.</param>
-    void WriteResetToken(ulong sessionId, Span<byte> token);
+    /// <summary>Writes the key by which this host, even after a restart, proves to the client of a link that it does not know the link.</summary>
+    /// <param name="link">What identifies the link: its session id, and where the host listens.</param>
+    /// <param name="key">Receives <see cref="ResetKeyBytes"/> bytes: always the same for one link and identity.</param>
+    void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key);
 }

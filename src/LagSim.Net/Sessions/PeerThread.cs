@@ -199,6 +199,7 @@ public sealed class PeerThread : IDisposable
         }
 
         isOwner = true;
+        Session.WarnIfUnprotected();
         try
         {
             thread.Start();
@@ -287,7 +288,6 @@ public sealed class PeerThread : IDisposable
             TSession session = make();
             peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.Once);
             setUp?.Invoke(session);
-            session.WarnIfUnprotected();
             peer.Start();
             return peer;
         }
@@ -368,9 +368,9 @@ public sealed class PeerThread : IDisposable
             {
                 hasLeftPort = true;
                 owner.Failures.Guard(() => port.Arrived -= thread.Wake);
+                owner.Failures.Guard(Session.WipeKeysIfEnded);
                 if (ownsPort)
                 {
-                    owner.Failures.Guard(Session.WipeKeys);
                     owner.Failures.Guard(port.Dispose);
                 }
             }

@@ -317,8 +317,14 @@ public abstract class Session
         }
     }
 
-    /// <summary>Wipes the keys of all links, once the session has ended. Nothing can be sent over them any more.</summary>
-    internal void WipeKeys() => protocol.WipeKeys();
+    /// <summary>Wipes the keys of all links if the session has ended. Nothing can be sent over them any more.</summary>
+    internal void WipeKeysIfEnded()
+    {
+        if (State == SessionState.Ended)
+        {
+            protocol.WipeKeys();
+        }
+    }
 
     /// <summary>Ends the session, or asks for a fresh snapshot, because its world cannot be simulated any further.</summary>
     private protected void EndWorld(SimulationException failure) => loop.EndWorld(failure);

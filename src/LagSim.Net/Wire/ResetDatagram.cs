@@ -1,20 +1,32 @@
 using System;
+using System.Security.Cryptography;
 
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// A protected host's answer to a sealed datagram of a session that it does not have, or no longer: why, and a token that proves it. The
+/// A protected host's answer to a sealed datagram of a session that it does not have, or no longer: why, and a proof of it. The
 /// host keeps nothing for it, and makes it even after a restart.
 /// </summary>
-/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. The token is one that the host's welcome told the client.</remarks>
+/// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>. The key of the proof is in the host's welcome.</remarks>
 internal readonly struct ResetDatagram
 {
     /// <summary>Creates an answer from its fields.</summary>
-    public ResetDatagram(ulong sessionId, LeaveReason reason, Token128 token)
+    public ResetDatagram(ulong sessionId, LeaveReason reason, Token128 proof)
     {
         SessionId = sessionId;
         Reason = reason;
-        Token = token;
+        Proof = proof;
+    }
+
+    /// <summary>Computes the proof: a keyed hash of the reason.</summary>
+    /// <param name="key">The key of the link, which the host's welcome told the client.</param>
+    /// <param name="reason">The reason.</param>
+    internal static Token128 Prove(Token128 key, LeaveReason reason)
+    {
+        byte[] secret = new byte[Token128.Bytes];
+        key.CopyTo(secret);
+        using HMACSHA256 prover = new(secret);
+        return new Token128(prover.ComputeHash([(byte)reason]));
     }
 
     /// <summary>The session that the host does not have.</summary>
@@ -23,8 +35,8 @@ internal readonly struct ResetDatagram
     /// <summary>The reason, as far as the host knows it.</summary>
     public LeaveReason Reason { get; }
 
-    /// <summary>What only the host can make of the session id.</summary>
-    public Token128 Token { get; }
+    /// <summary>What only who has the link's key can make of the reason.</summary>
+    public Token128 Proof { get; }
 
     private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Kicked;
 
@@ -43,7 +55,7 @@ internal readonly struct ResetDatagram
         writer.WriteHeader(DatagramType.Reset);
         writer.WriteUInt64(SessionId);
         writer.WriteByte((byte)Reason);
-        Token.Write(ref writer);
+        Proof.Write(ref writer);
         return writer.Position;
     }
 

@@ -47,8 +47,8 @@ internal static class WireFormat
     /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
     public const int WelcomeBytes = HeaderBytes + sizeof(ulong) + WelcomeTermBytes;
 
-    /// <summary>The length of the payload of a secure welcome: the terms, and the token of a <see cref="ResetDatagram"/>.</summary>
-    public const int SecureWelcomePayloadBytes = WelcomeTermBytes + IHostProtection.ResetTokenBytes;
+    /// <summary>The length of the payload of a secure welcome: the terms, and the key of a <see cref="ResetDatagram"/>.</summary>
+    public const int SecureWelcomePayloadBytes = WelcomeTermBytes + IHostProtection.ResetKeyBytes;
 
     /// <summary>The length of a secure welcome, a <see cref="SecureAnswerDatagram"/>.</summary>
     public const int SecureWelcomeBytes =

@@ -51,15 +51,16 @@ public sealed class PathAttackTests : IDisposable
         Assert.True(group.Settle(1));
         byte[] heard = LastOf(1), host = LastOf(0);
         uint sequence = isProtected ? 1 : PathAttacker.U32(host, PathAttacker.EventsReceivedAt) + 1;
-        long now = isProtected ? 0 : PathAttacker.I64(host, PathAttacker.WatermarkAt) + (1L << 39);
+        long now = isProtected ? group.Host.Watermark.Ticks + (1L << 39) : PathAttacker.I64(host, PathAttacker.WatermarkAt) + (1L << 39);
         for (int n = 0; n < 20; n++)
         {
-            attacker.Send(1, 0, PathAttacker.Teleport(heard, group.Sessions[1].Peer, sequence, now, Mark));
+            attacker.Send(1, 0, PathAttacker.Teleport(heard, group.Sessions[1].Peer, (uint)(900 + n), sequence, now, Mark));
         }
 
         group.Run(0.5);
         Assert.Equal(isProtected ? 1 : 2, group.Host.Counters.EventsAccepted);
         Assert.Equal(!isProtected, group.Log.Values.Any(e => e.Event.Position.Y == Mark));
+        Assert.Equal(isProtected ? 20 : 0, group.Host.Counters.DatagramsForged);
         AssertGoesOn(group, isProtected);
     }
 
@@ -185,7 +186,7 @@ public sealed class PathAttackTests : IDisposable
         SessionGroup group = Playing(isProtected);
         int interruptions = 0;
         group.Client(1).Interrupted += _ => interruptions++;
-        attacker.Send(1, 0, PathAttacker.Empty(LastOf(1), uint.MaxValue));
+        attacker.Send(1, 0, PathAttacker.Empty(LastOf(1), group.Sessions[1].Peer, uint.MaxValue));
         group.Run(12);
         Assert.Equal(isProtected, interruptions == 0);
         AssertGoesOn(group, isProtected);

@@ -64,21 +64,24 @@ internal sealed class PathAttacker
         return bytes;
     }
 
-    /// <summary>An Update without anything but its sender's number, made from one that was heard.</summary>
-    internal static byte[] Empty(byte[] heard, uint number)
+    /// <summary>An Update without anything but its sender's number, of the session of a datagram that was heard, in clear text.</summary>
+    internal static byte[] Empty(byte[] heard, byte peer, uint number)
     {
-        byte[] bytes = new byte[59];
-        heard.AsSpan(0, FlagsAt).CopyTo(bytes);
+        byte[] bytes = Head(Update, 59);
+        heard.AsSpan(SessionAt, 8).CopyTo(bytes.AsSpan(SessionAt));
+        bytes[PeerAt] = peer;
+        BinaryPrimitives.WriteInt64LittleEndian(bytes.AsSpan(33), long.MinValue); // no echo
+        BinaryPrimitives.WriteInt64LittleEndian(bytes.AsSpan(WatermarkAt), long.MinValue);
         BinaryPrimitives.WriteUInt32LittleEndian(bytes.AsSpan(NumberAt), number);
         BinaryPrimitives.WriteUInt32LittleEndian(bytes.AsSpan(FlagsAt + 1), 1); // first index
         return bytes;
     }
 
     /// <summary>An Update with a teleport of the scene's first body, in the name of a client of which one was heard.</summary>
-    internal static byte[] Teleport(byte[] heard, byte peer, uint sequence, long time, double height)
+    internal static byte[] Teleport(byte[] heard, byte peer, uint number, uint sequence, long time, double height)
     {
         byte[] bytes = new byte[59 + 1 + 70];
-        Empty(heard, U32(heard, NumberAt) + 3).CopyTo(bytes, 0);
+        Empty(heard, peer, number).CopyTo(bytes, 0);
         BinaryPrimitives.WriteUInt32LittleEndian(bytes.AsSpan(54), sequence);
         bytes[58] = 1; // one entry, its verdict 0, pending
         (bytes[60], bytes[61]) = (9, peer);

@@ -140,7 +140,18 @@ public sealed class ProtectedSessionTests : IDisposable
         Assert.Contains("another identity", group.Client(1).EndReason, StringComparison.Ordinal);
     }
 
-    /// <summary>Keys hang on the session id: two clients of one address do not end each other.</summary>
+    /// <summary>A game that sends a player away as soon as it comes, in the handler that tells it so: the link's keys are wiped in the middle of a step.</summary>
+    [Fact]
+    public void Client_KickedAsItComes_EndsNothingElse()
+    {
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Loopback, options: Protected());
+        group.Connect();
+        group.Host.ClientCame += link => Assert.True(group.Host.Kick(link.Peer));
+        ClientSession late = group.Join(2, 99, new ClientOptions { Protection = new SecureClient(identity.Fingerprint) });
+        Assert.True(group.RunUntil(() => late.State == SessionState.Ended, 3));
+        Assert.Equal((SessionEnd.Kicked, 1, SessionState.Running), (late.EndedBy, group.Host.ClientCount, group.Host.State));
+    }
+
     [Fact]
     public void Client_KickedOrLeaving_IsTold()
     {

@@ -1,11 +1,13 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Clients;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
+using LagSim.Tests.Wire;
 using LagSim.Time;
 using Xunit;
 
@@ -35,6 +37,28 @@ public sealed class DatagramIntakeTests : IDatagramHandler
         intake.Take([1, 2, 3], PeerAddress.Virtual(1));
         Assert.Equal(["ConnectRequest", "other version", "update 1"], taken);
         Assert.Equal((5L, 3L), (counters.DatagramsReceived, counters.DatagramsMalformed));
+    }
+
+    /// <summary>In a protected session what belongs to a link counts only sealed, of whatever type it is.</summary>
+    [Fact]
+    public void Take_UnsealedInAProtectedSession_IsForgedIfItBelongsToALink()
+    {
+        DatagramType[] free = [
+            DatagramType.ConnectRequest, DatagramType.Welcome, DatagramType.Refusal, DatagramType.Challenge, DatagramType.Join, DatagramType.SecureJoin,
+            DatagramType.SecureWelcome, DatagramType.SecureRefusal, DatagramType.Reset];
+        foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type is not (DatagramType.None or DatagramType.Sealed)))
+        {
+            foreach (bool isProtected in new[] { false, true })
+            {
+                SessionCounters counted = new();
+                taken.Clear();
+                byte[] bytes = type == DatagramType.Update ? AnyDatagram.Bytes(new UpdateDatagram().Encode) : new byte[100];
+                WireWriter writer = new(bytes);
+                writer.WriteHeader(type);
+                new DatagramIntake(counted, this, isProtected).Take(bytes, PeerAddress.Virtual(1));
+                Assert.Equal(isProtected && !free.Contains(type) ? (0, 1L) : (1, 0L), (taken.Count, counted.DatagramsForged));
+            }
+        }
     }
 
     void IDatagramHandler.OnUpdate(UpdateDatagram update, PeerAddress from) => taken.Add($"update {update.Number}");

@@ -23,7 +23,7 @@ public sealed class SessionOptionsTests
     private static readonly string[] OfHosts =
         ["ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "StartLead"];
 
-    private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection"];
+    private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection", "Token"];
 
     private static readonly SimDuration Long = SimDuration.FromSeconds(10_000);
 

@@ -233,7 +233,7 @@ public sealed class WirePageTests
             yield return (AnyDatagram.Bytes(new MoveChallengeDatagram(nonce, new Token128(cookie)).Encode), page => Datagram(
                 page, DatagramType.MoveChallenge, ("session id", nonce), ("cookie", cookie)));
             yield return (AnyDatagram.Bytes(new ResetDatagram(nonce, LeaveReason.NotJoined, new Token128(cookie)).Encode), page => Datagram(
-                page, DatagramType.Reset, ("session id", nonce), ("reason", (byte)LeaveReason.NotJoined), ("token", cookie)));
+                page, DatagramType.Reset, ("session id", nonce), ("reason", (byte)LeaveReason.NotJoined), ("proof", cookie)));
             foreach (DatagramType answer in new[] { DatagramType.SecureWelcome, DatagramType.SecureRefusal })
             {
                 yield return (AnyDatagram.SecureAnswerBytes(answer, nonce, cookie), page => Datagram(page, answer, ("nonce", nonce), ("message", cookie)));

@@ -81,14 +81,14 @@ internal sealed class HostLoss(
         }
     }
 
-    /// <summary>Handles a host that says outside the link that it does not have this peer, which its token proves.</summary>
+    /// <summary>Handles a host that says outside the link that it does not have this peer, and proves it.</summary>
     internal void OnReset(in ResetDatagram reset)
     {
         if (connection.Link is not UpdateLink { Seal: LinkSeal seal } link || reset.SessionId != link.SessionId)
         {
             counters.DatagramsIgnored++;
         }
-        else if (reset.Token != seal.ResetToken)
+        else if (reset.Proof != ResetDatagram.Prove(seal.ResetKey, reset.Reason))
         {
             counters.DatagramsForged++;
         }

@@ -168,9 +168,9 @@ internal sealed class JoinRequests(
             "as many as may join from one address have joined from this one (the host's MaxClientsPerAddress).",
         RefusalReason.ProtectedOnly =>
             "its session is protected. Join with ClientOptions.Protection, and the address with the fingerprint that the host prints.",
-        RefusalReason.TokenMissing => "it lets in only who has a connect token. Ask the game's backend for one.",
-        RefusalReason.TokenDamaged => "the connect token is none, or was changed on its way. Ask for another.",
-        RefusalReason.TokenOfOtherIssuer => "the connect token is of another backend than this host's.",
+        RefusalReason.TokenMissing => "it admits only players with a connect token. Ask the game's backend for one.",
+        RefusalReason.TokenDamaged => "that is not a valid connect token, or it was altered. Ask for another.",
+        RefusalReason.TokenOfOtherIssuer => "the connect token is from another backend than this host's.",
         RefusalReason.TokenOfOtherHost => "the connect token is for another host. Ask for one for this host.",
         RefusalReason.TokenExpired => $"the connect token's time was over {secondsOff} s ago, by the host's clock. Ask for another; if that is refused"
             + " too, the clocks of host and backend differ.",
@@ -184,10 +184,11 @@ internal sealed class JoinRequests(
     private void Join(JoinAttempt attempt, in ChallengeDatagram challenge, SimTime now)
     {
         PlayerPass former = seat.Pass ?? default;
+        PublicIdentity shown = options.IsProtected ? challenge.Identity : default;
         JoinDatagram join = new(
-            attempt.Nonce, challenge.Cookie, JoinCookies.Prove(options.ConnectKey, attempt.Nonce, challenge.Cookie),
+            attempt.Nonce, challenge.Cookie, JoinCookies.Prove(options.ConnectKey, attempt.Nonce, challenge.Cookie, shown),
             world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number,
-            former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie));
+            former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie, shown));
         if (options.Protection is not IClientProtection protection)
         {
             byte[] plain = new byte[WireFormat.JoinBytes];
@@ -221,6 +222,7 @@ internal sealed class JoinRequests(
     private void Enter(JoinAttempt attempt, in WelcomeDatagram welcome, LinkSeal? seal)
     {
         SimTime now = clock.Now;
+        unproven.Forget();
         attempt.Take(welcome, now);
         connection.Open(welcome, seal, now);
         status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;

@@ -11,6 +11,9 @@ internal sealed class UnprovenAnswers
     /// <summary>The last one, as a sentence to follow another; empty if there was none.</summary>
     internal string Sentence => last is null ? "" : $" {last}";
 
+    /// <summary>Forgets them, once the host has proved itself.</summary>
+    internal void Forget() => last = null;
+
     /// <summary>Records an answer that shows the identity of another host than the one that is wanted.</summary>
     internal void NoteOtherHost() =>
         last = "An answer came from a host with another identity than this peer was told: it is another host, or somebody in between.";

@@ -35,7 +35,7 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
         {
             Open(datagram, from);
         }
-        else if (isProtected && IsOfLink(type) && type != DatagramType.Refusal)
+        else if (isProtected && MustBeSealed(type))
         {
             counters.DatagramsForged++;
         }
@@ -45,8 +45,8 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
         }
     }
 
-    /// <summary>Whether datagrams of a type are sent over a link; a refusal may be, and may come before there is one.</summary>
-    private static bool IsOfLink(DatagramType type) => type is DatagramType.Refusal or DatagramType.Update or DatagramType.Leave
+    /// <summary>Whether datagrams of a type are sent over a link and nowhere else.</summary>
+    private static bool MustBeSealed(DatagramType type) => type is DatagramType.Update or DatagramType.Leave
         or DatagramType.SnapshotRequest or DatagramType.SnapshotChunk or DatagramType.DesyncQuery or DatagramType.DesyncReport
         or DatagramType.Seat or DatagramType.Move or DatagramType.MoveChallenge;
 
@@ -69,7 +69,7 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
             counters.DatagramsIgnored += isRepeated ? 1 : 0;
             counters.DatagramsForged += isRepeated ? 0 : 1;
         }
-        else if (WireFormat.TryReadType(opened.AsSpan(0, length), out DatagramType type, out _) && IsOfLink(type))
+        else if (WireFormat.TryReadType(opened.AsSpan(0, length), out DatagramType type, out _) && (MustBeSealed(type) || type == DatagramType.Refusal))
         {
             Pass(type, opened.AsSpan(0, length), from, isSealed: true);
         }

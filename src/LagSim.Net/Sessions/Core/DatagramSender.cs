@@ -18,6 +18,9 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
 
     private readonly byte[] sealing = new byte[WireFormat.MaxBytes];
 
+    /// <summary>Where this peer listens.</summary>
+    internal PeerAddress LocalAddress => port.LocalAddress;
+
     /// <summary>Sends a datagram that belongs to no link, as it is.</summary>
     internal void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
     {
@@ -28,9 +31,14 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
     /// <summary>Sends a datagram over a link.</summary>
     internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link) => Send(datagram, link, link.Other);
 
-    /// <summary>Sends a datagram of a link to an address that may not be the other end's.</summary>
+    /// <summary>Sends a datagram of a link to an address that may not be the other end's. Over a link whose keys are wiped nothing goes.</summary>
     internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link, PeerAddress to)
     {
+        if (link.Seal is { IsWiped: true })
+        {
+            return; // a handler ended the link in the middle of what it was called for
+        }
+
         ReadOnlySpan<byte> bytes = link.Seal is LinkSeal seal ? sealing.AsSpan(0, seal.Seal(datagram, sealing)) : datagram;
         Send(bytes, to);
         link.CountSent(bytes.Length);

@@ -51,9 +51,9 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     internal Client? Seated(byte player) => clients.Find(j => j.Peer == player);
 
     /// <summary>What a backend says of the player with that number; null without a connect token.</summary>
-    internal PlayerAdmission? AdmissionOf(byte player) => places[player].Admission;
+    internal PlayerAdmission? AdmissionOf(byte player) => Seated(player) is null ? null : places[player].Admission;
 
-    /// <summary>Forgets a client that has no number, and wipes its keys.</summary>
+    /// <summary>Forgets a client, and wipes its keys.</summary>
     /// <returns>False if it was gone already.</returns>
     internal bool Drop(Client client)
     {
@@ -103,7 +103,7 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         List<Client> all = clients.FindAll(isIt);
         foreach (Client client in all)
         {
-            for (int n = 0; n < DatagramSender.Goodbyes; n++)
+            for (int n = 0; n < DatagramSender.Goodbyes && clients.Contains(client); n++) // a handler may have sent it away already
             {
                 sender.SayGoodbye(client.Link, 0, LeaveReason.Kicked);
             }

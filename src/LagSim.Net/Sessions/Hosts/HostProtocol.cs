@@ -235,9 +235,9 @@ internal sealed class HostProtocol : ISessionProtocol
         client.Link.CountReceived(update.EncodedLength);
         client.NoteEcho(update.EchoNumber);
         client.HasWritten = true;
-        if (update.Ready && client.Peer == 0 && !Handshake.TrySeat(client, now))
+        if (update.Ready && client.Peer == 0 && (!Handshake.TrySeat(client, now) || Roster.Of(update.SessionId) != client))
         {
-            return;
+            return; // refused; or a handler sent it away as soon as it was in
         }
 
         client.HasBegun |= update.Start != SimTime.MinValue;

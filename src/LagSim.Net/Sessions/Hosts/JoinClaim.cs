@@ -1,5 +1,4 @@
 using System;
-using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -10,7 +9,7 @@ internal sealed class JoinClaim
 {
     /// <param name="join">The join.</param>
     /// <param name="who">Who it proved to be.</param>
-    /// <param name="token">Its connect token; empty for none.</param>
+    /// <param name="token">The connect token that it sent; empty for none.</param>
     /// <param name="until">When it is given up if it has no number by then.</param>
     internal JoinClaim(in JoinDatagram join, JoinIdentity who, ReadOnlySpan<byte> token, SimTime until)
     {
@@ -19,7 +18,7 @@ internal sealed class JoinClaim
         Wanted = join.Player;
         Who = who;
         ClaimedPass = who.Claimed?.Pass;
-        Token = token.ToArray();
+        Token = who.IsByToken ? token.ToArray() : [];
         Until = until;
     }
 
@@ -30,11 +29,8 @@ internal sealed class JoinClaim
     /// <summary>The number that it says it had; 0 for none.</summary>
     internal byte Wanted { get; }
 
-    /// <summary>The connect token that it came with; empty for none.</summary>
+    /// <summary>The connect token that lets it in; empty if something else does.</summary>
     internal byte[] Token { get; }
-
-    /// <summary>What its token says of it; null without one.</summary>
-    internal PlayerAdmission? Admission => Who.Admission;
 
     /// <summary>The place of the player that it was before, unless another has taken it since; null for none.</summary>
     internal PlayerPlaces.Place? Former => Who.Claimed is not null && Who.Claimed.Pass == ClaimedPass ? Who.Claimed : null;

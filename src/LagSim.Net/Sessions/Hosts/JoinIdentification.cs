@@ -6,31 +6,34 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Finds out who a joining client is. A pass comes before a token: who lost its host comes back with it, and its token is used.</summary>
+/// <summary>
+/// Finds out who a joining client is. A good token comes first. Where it is used or over, the pass counts: by it a client that lost its host
+/// comes back.
+/// </summary>
 internal sealed class JoinIdentification(HostOptions options, PlayerPlaces places)
 {
+    private readonly PublicIdentity identity = PublicIdentity.Of(options.Protection);
+
     internal JoinIdentity Of(in JoinDatagram join, ReadOnlySpan<byte> token)
     {
         (byte keyed, string? key) = KeyOf(join);
-        PlayerPlaces.Place? claimed = places.Claimed(join, keyed);
+        PlayerPlaces.Place? claimed = places.Claimed(join, keyed, identity);
         if (key is null || options.Protection is not { RequiresToken: true } protection)
         {
             return new JoinIdentity(key, keyed, claimed);
         }
 
-        if (claimed is not null)
+        TokenReading reading = token.IsEmpty ? default : protection.ReadToken(token);
+        if (reading.Admission is PlayerAdmission admission)
         {
-            return new JoinIdentity(key, keyed, claimed, claimed.Admission);
+            bool isOthers = admission.Number > 0 && (options.PlayerKeys.ContainsKey(admission.Number) || places.IsOfAnother(admission));
+            return new JoinIdentity(
+                key, admission.Number > 0 ? admission.Number : keyed, places.OfPlayer(admission.PlayerId), admission,
+                isOthers ? RefusalReason.Full : null, IsByToken: true);
         }
 
-        if (token.IsEmpty)
-        {
-            return new JoinIdentity(key, keyed, null, Fault: RefusalReason.TokenMissing);
-        }
-
-        TokenReading reading = protection.ReadToken(token);
-        return reading.Admission is PlayerAdmission admission
-            ? new JoinIdentity(key, admission.Number > 0 ? admission.Number : keyed, places.OfPlayer(admission.PlayerId), admission)
+        return claimed is not null ? new JoinIdentity(key, keyed, claimed, claimed.Admission)
+            : token.IsEmpty ? new JoinIdentity(key, keyed, null, Fault: RefusalReason.TokenMissing)
             : new JoinIdentity(key, keyed, null, Fault: ReasonOf(reading.Fault), SecondsOff: (uint)reading.Off.TotalSeconds);
     }
 
@@ -49,12 +52,12 @@ internal sealed class JoinIdentification(HostOptions options, PlayerPlaces place
     {
         foreach (KeyValuePair<byte, string> player in options.PlayerKeys)
         {
-            if (JoinCookies.IsProof(player.Value, join))
+            if (JoinCookies.IsProof(player.Value, join, identity))
             {
                 return (player.Key, player.Value);
             }
         }
 
-        return (0, JoinCookies.IsProof(options.ConnectKey, join) ? options.ConnectKey : null);
+        return (0, JoinCookies.IsProof(options.ConnectKey, join, identity) ? options.ConnectKey : null);
     }
 }

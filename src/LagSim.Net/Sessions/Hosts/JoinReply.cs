@@ -35,7 +35,7 @@ internal sealed class JoinReply(
 
         Span<byte> payload = stackalloc byte[WireFormat.SecureWelcomePayloadBytes];
         WireWriter rest = new(payload.Slice(terms.EncodeTerms(payload)));
-        StrayReply.Token(protection, terms.SessionId).Write(ref rest);
+        StrayReply.Key(protection, terms.SessionId, sender.LocalAddress).Write(ref rest);
         byte[] bytes = new byte[WireFormat.SecureWelcomeBytes];
         int length = SecureAnswerDatagram.WritePrologue(bytes, DatagramType.SecureWelcome, nonce);
         seal = new LinkSeal(handshake.Accept(connectKey, payload, bytes.AsSpan(length)));

@@ -36,12 +36,18 @@ internal sealed class PlayerPlaces
     /// </summary>
     /// <param name="join">The join.</param>
     /// <param name="keyed">The player whose key it presents; 0 for none.</param>
-    internal Place? Claimed(in JoinDatagram join, byte keyed) =>
+    /// <param name="host">The host's identity; none in a session without protection.</param>
+    internal Place? Claimed(in JoinDatagram join, byte keyed, in PublicIdentity host = default) =>
         join.Player is > 0 and <= SessionOptions.MaxClients && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
-            && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join) ? places[join.Player] : null;
+            && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join, host) ? places[join.Player] : null;
 
     /// <summary>Returns the place of the player that a backend knows by that identity; null if it has none.</summary>
-    internal Place? OfPlayer(string playerId) => System.Array.Find(places, place => place?.Admission?.PlayerId == playerId);
+    internal Place? OfPlayer(string playerId, Place? except = null) =>
+        System.Array.Find(places, place => place != except && place?.Admission?.PlayerId == playerId);
+
+    /// <summary>Whether another player than that has the number that its token gives.</summary>
+    internal bool IsOfAnother(PlayerAdmission admission) =>
+        places[admission.Number] is { IsTaken: true } place && place.Admission?.PlayerId != admission.PlayerId;
 
     /// <summary>
     /// Returns the lowest number that is neither taken nor reserved, otherwise the one reserved longest; 0 if all are taken. Never a number
@@ -129,7 +135,7 @@ internal sealed class PlayerPlaces
         internal bool IsKept(SimTime now, SimDuration time) => !IsTaken && Pass is not null && LeftAt is SimTime left && now - left <= time;
 
         /// <summary>Gives the number to the player that has its pass, or to a new player, which gets a new pass.</summary>
-        /// <param name="isSamePlayer">Whether it is the player that had it.</param>
+        /// <param name="isSamePlayer">Whether it is the player that had it, and keeps its pass.</param>
         /// <param name="machine">Where the player is.</param>
         /// <param name="admission">What its connect token says of it; null without one.</param>
         internal void Take(bool isSamePlayer, PeerAddress machine, PlayerAdmission? admission = null)
@@ -148,6 +154,14 @@ internal sealed class PlayerPlaces
 
         /// <summary>The session id of the last holder's link, and why that holder was disconnected.</summary>
         internal (ulong Session, LeaveReason Why) Former { get; private set; }
+
+        /// <summary>Gives up what was reserved for a player that has another place now.</summary>
+        internal void Release()
+        {
+            LeftAt = null;
+            Pass = null;
+            Admission = null;
+        }
 
         /// <summary>Called when its player is gone: the number is reserved or free from then on.</summary>
         internal void Leave(bool isKept, ulong session, LeaveReason why, SimTime now)

@@ -48,6 +48,11 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
         PeerAddress address = client.Link.Other;
         JoinClaim claim = client.Claim;
         JoinIdentity who = claim.Identity;
+        if (who is { IsByToken: true, Admission: PlayerAdmission admission })
+        {
+            who = who with { Claimed = places.OfPlayer(admission.PlayerId) }; // it may have got a place since, by another of its tokens
+        }
+
         PlayerPlaces.Place? claimed = who.Claimed;
         PlayerPlaces.Place? place = who.Keyed > 0 ? places[who.Keyed] : claimed;
         if (roster.All.Find(j => j.Peer > 0 && j.Peer != place?.Number && IsRestarted(j, address)) is Client gone)
@@ -60,15 +65,30 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
             return reason;
         }
 
-        if (claim.Token.Length > 0 && who.Admission is not null && protection?.TryUseToken(claim.Token) == false)
+        if (protection is { RequiresToken: true } && !who.IsByToken && claimed is null)
+        {
+            return RefusalReason.TokenMissing; // it came by a pass, which has become void since
+        }
+
+        if (who.IsByToken && who.Keyed > 0 && places.IsOfAnother(who.Admission!))
+        {
+            return RefusalReason.Full;
+        }
+
+        if (who.IsByToken && protection?.TryUseToken(claim.Token) == false)
         {
             return RefusalReason.TokenUsed;
         }
 
         place ??= places[places.Free(now, claim.Wanted, address.Machine)];
-        if (claimed is not null && claimed != place && roster.Seated(claimed.Number) is Client elsewhere)
+        while (who.IsByToken && places.OfPlayer(who.Admission!.PlayerId, except: place) is PlayerPlaces.Place other)
         {
-            roster.Dismiss(elsewhere, LeaveReason.Replaced); // the same player, whose token gives it another number now
+            if (roster.Seated(other.Number) is Client elsewhere)
+            {
+                roster.Dismiss(elsewhere, LeaveReason.Replaced); // the same player, which has one place
+            }
+
+            other.Release();
         }
 
         if (roster.Seated(place.Number) is Client before)
@@ -82,7 +102,7 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
             budget.BeginAccount(place.Number);
         }
 
-        place.Take(isSamePlayer: claimed == place, address.Machine, who.Admission);
+        place.Take(isSamePlayer: claimed == place && !who.IsByToken, address.Machine, who.Admission); // a token gives another pass
         Tell(client);
         Came?.Invoke(client.Link.Traffic);
         return null;

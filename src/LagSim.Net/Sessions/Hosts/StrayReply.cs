@@ -1,4 +1,5 @@
 using System;
+using System.Buffers.Binary;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
@@ -26,14 +27,21 @@ internal sealed class StrayReply(PlayerPlaces places, SessionStatus status, IHos
             return;
         }
 
-        sender.Send(bytes.Slice(0, new ResetDatagram(sessionId, reason, Token(protection, sessionId)).Encode(bytes)), to);
+        Token128 proof = ResetDatagram.Prove(Key(protection, sessionId, sender.LocalAddress), reason);
+        sender.Send(bytes.Slice(0, new ResetDatagram(sessionId, reason, proof).Encode(bytes)), to);
     }
 
-    /// <summary>What proves to the client with that session id that the host does not have it any more.</summary>
-    internal static Token128 Token(IHostProtection protection, ulong sessionId)
+    /// <summary>
+    /// The key by which a host proves to the client with that session id that it does not have it any more. The host's address is part of it:
+    /// another host with the same identity has another port, and cannot be made to say it of this one's clients.
+    /// </summary>
+    internal static Token128 Key(IHostProtection protection, ulong sessionId, PeerAddress host)
     {
-        Span<byte> token = stackalloc byte[IHostProtection.ResetTokenBytes];
-        protection.WriteResetToken(sessionId, token);
-        return new Token128(token);
+        Span<byte> link = stackalloc byte[sizeof(ulong) + PeerAddress.Bytes];
+        BinaryPrimitives.WriteUInt64LittleEndian(link, sessionId);
+        host.Write(link.Slice(sizeof(ulong)));
+        Span<byte> key = stackalloc byte[IHostProtection.ResetKeyBytes];
+        protection.WriteResetKey(link, key);
+        return new Token128(key);
     }
 }

@@ -17,18 +17,25 @@ internal sealed class LinkSeal : IDisposable
     private ulong sent;
 
     /// <param name="cipher">The cipher of the link.</param>
-    /// <param name="resetToken">What a host shows to prove that it does not have the link any more; for a client's end.</param>
-    internal LinkSeal(IDatagramCipher cipher, Token128 resetToken = default)
+    /// <param name="resetKey">The key by which a host proves that it does not have the link any more; for a client's end.</param>
+    internal LinkSeal(IDatagramCipher cipher, Token128 resetKey = default)
     {
         this.cipher = cipher;
-        ResetToken = resetToken;
+        ResetKey = resetKey;
     }
 
-    /// <summary>What a host shows to prove that it does not have the link any more.</summary>
-    internal Token128 ResetToken { get; }
+    /// <summary>The key by which a host proves that it does not have the link any more.</summary>
+    internal Token128 ResetKey { get; }
+
+    /// <summary>Whether the keys are wiped, since the link is over. Nothing can be sealed or opened any more.</summary>
+    internal bool IsWiped { get; private set; }
 
     /// <summary>Wipes the keys.</summary>
-    public void Dispose() => cipher.Dispose();
+    public void Dispose()
+    {
+        IsWiped = true;
+        cipher.Dispose();
+    }
 
     /// <summary>Seals a datagram.</summary>
     /// <returns>The length, <see cref="WireFormat.SealBytes"/> more than before.</returns>
@@ -53,6 +60,6 @@ internal sealed class LinkSeal : IDisposable
     {
         length = 0;
         isRepeated = !opened.IsNew(datagram.Number);
-        return !isRepeated && datagram.TryOpen(cipher, destination, out length) && opened.Add(datagram.Number);
+        return !isRepeated && !IsWiped && datagram.TryOpen(cipher, destination, out length) && opened.Add(datagram.Number);
     }
 }

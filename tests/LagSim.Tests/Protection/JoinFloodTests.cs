@@ -1,0 +1,175 @@
+using System;
+using System.Linq;
+using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
+using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
+using LagSim.Testing.Links;
+using LagSim.Tests.Sessions;
+using Xunit;
+
+namespace LagSim.Tests.Protection;
+
+/// <summary>A hundred thousand joins a second, from spoofed addresses and from a hundred machines that are there: honest clients get in meanwhile.</summary>
+public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
+{
+    private const int Machines = 100;
+    private const int AMillisecond = 100;
+
+    private readonly HostIdentity identity = HostIdentity.Draw();
+
+    public void Dispose() => identity.Dispose();
+
+    [Theory]
+    [InlineData("connect requests", 0)]
+    [InlineData("joins without a cookie", 0)]
+    [InlineData("joins of machines that are there", Machines)]
+    public void Join_DuringAFlood_TakesNoLonger(string kind, int machines)
+    {
+        CountingProtection protection = new(new SecureHost(identity));
+        SessionGroup group = new(
+            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(10), expected: 0, options: _ => new HostOptions { Protection = protection });
+        group.Run(1);
+        Attacker[] attackers = [.. Enumerable.Range(0, Machines).Select(n => new Attacker(group, 500 + n))];
+        foreach (Attacker attacker in attackers)
+        {
+            attacker.AskForACookie();
+        }
+
+        group.Run(0.2);
+        protection.Reads = 0;
+        Random random = new(1);
+        ClientSession? honest = null;
+        double began = 0, took = double.NaN;
+        int seconds = machines > 0 ? 12 : 3; // longer than the bursts last
+        for (int ms = 0; ms < 1000 * seconds; ms++)
+        {
+            for (int n = 0; n < AMillisecond; n++)
+            {
+                Attacker attacker = attackers[random.Next(Machines)];
+                attacker.Send(random, kind);
+            }
+
+            group.Run(0.001);
+            if (ms == 500)
+            {
+                honest = group.Join(1, 7, new ClientOptions { Protection = new SecureClient(identity.Fingerprint) });
+                began = group.Clock.Now.ToSeconds();
+            }
+
+            if (honest?.State == SessionState.Running)
+            {
+                took = group.Clock.Now.ToSeconds() - began;
+                began = double.MaxValue;
+                break;
+            }
+        }
+
+        output.WriteLine(FormattableString.Invariant($"{kind}: in after {took:0.00} s, {protection.Reads} handshakes read"));
+        Assert.InRange(took, 0, 2);
+        int most = (machines * 8) + (int)(machines * 3) + 1; // the burst, one a second from each, and the honest client's
+        Assert.InRange(protection.Reads, 1, most);
+        Assert.Equal(1, group.Host.ClientCount);
+        Assert.All(attackers, attacker => Assert.True(attacker.BytesIn <= attacker.BytesOut));
+    }
+
+    /// <summary>The count sees what the limit holds back.</summary>
+    [Fact]
+    public void Handshakes_OfOneMachine_AreReadAsOftenAsItsLimitAllows()
+    {
+        foreach ((double perSecond, int burst, int most) in new[] { (1.0, 8, 12), (1e9, 1_000_000, int.MaxValue) })
+        {
+            CountingProtection protection = new(new SecureHost(identity));
+            SessionGroup group = new(
+                ScriptedActions.Box(), 1, LinkProfiles.PureDelay(10), expected: 0, options: _ => new HostOptions
+                {
+                    Protection = protection,
+                    JoinLimits = new() { HandshakesPerSecond = perSecond, HandshakeBurst = burst },
+                });
+            group.Run(1);
+            Attacker attacker = new(group, 500);
+            attacker.AskForACookie();
+            group.Run(0.2);
+            Random random = new(2);
+            for (int n = 0; n < 300; n++)
+            {
+                attacker.Send(random, "joins of machines that are there");
+                group.Run(0.01);
+            }
+
+            Assert.True(most == int.MaxValue ? protection.Reads >= 299 : protection.Reads <= most, $"{protection.Reads} read");
+        }
+    }
+
+    private sealed class Attacker
+    {
+        private readonly IDatagramPort port;
+        private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
+        private readonly byte[] join = new byte[WireFormat.SecureJoinBytes];
+        private readonly ulong nonce;
+        private Token128 cookie;
+
+        internal Attacker(SessionGroup group, int node)
+        {
+            nonce = (ulong)node;
+            port = group.Network.CreatePort(node);
+            port.Arrived += () =>
+            {
+                while (port.TryReceive(buffer, out int length, out _))
+                {
+                    BytesIn += length;
+                    cookie = ChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out ChallengeDatagram challenge, out _) ? challenge.Cookie : cookie;
+                }
+            };
+        }
+
+        internal long BytesIn { get; private set; }
+
+        internal long BytesOut { get; private set; }
+
+        internal void AskForACookie() => Send(AnyDatagramBytes(new ConnectRequestDatagram(nonce).Encode));
+
+        internal void Send(Random random, string kind)
+        {
+            if (kind == "connect requests")
+            {
+                Send(AnyDatagramBytes(new ConnectRequestDatagram((ulong)random.NextInt64()).Encode));
+                return;
+            }
+
+            random.NextBytes(join);
+            bool isThere = kind != "joins without a cookie";
+            JoinDatagram.WritePrologue(join, DatagramType.SecureJoin, isThere ? nonce : (ulong)random.NextInt64(), isThere ? cookie : default);
+            Send(join);
+        }
+
+        private static byte[] AnyDatagramBytes(Wire.AnyDatagram.Encoder encode) => Wire.AnyDatagram.Bytes(encode);
+
+        private void Send(byte[] bytes)
+        {
+            BytesOut += bytes.Length;
+            port.Send(bytes, PeerAddress.Virtual(0));
+        }
+    }
+
+    private sealed class CountingProtection(SecureHost host) : IHostProtection
+    {
+        internal int Reads { get; set; }
+
+        public bool RequiresToken => host.RequiresToken;
+
+        public void WriteIdentity(Span<byte> destination) => host.WriteIdentity(destination);
+
+        public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
+        {
+            Reads++;
+            return host.TryRead(prologue, message, payload);
+        }
+
+        public TokenReading ReadToken(ReadOnlySpan<byte> token) => host.ReadToken(token);
+
+        public bool TryUseToken(ReadOnlySpan<byte> token) => host.TryUseToken(token);
+
+        public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key) => host.WriteResetKey(link, key);
+    }
+}
