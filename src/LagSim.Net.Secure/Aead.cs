@@ -3,7 +3,9 @@ using System;
 namespace LagSim.Net.Protection;
 
 /// <summary>ChaCha20-Poly1305 (RFC 8439) with one key: by the system where it has that cipher, otherwise by Bouncy Castle.</summary>
-/// <remarks>Both give the same bytes. A nonce is 32 zero bits and a number, little-endian, as Noise's ChaChaPoly has it. For one thread.</remarks>
+/// <remarks>
+/// Both give the same bytes. A nonce is 32 zero bits and a number, little-endian, as Noise's ChaChaPoly has it. For one thread.
+/// </remarks>
 internal abstract class Aead : IDisposable
 {
     internal const int KeyBytes = 32;

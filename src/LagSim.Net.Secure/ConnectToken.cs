@@ -6,7 +6,9 @@ using Org.BouncyCastle.Math.EC.Rfc8032;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>The bytes of a connect token: what a backend says, and its Ed25519 signature (RFC 8032). docs/SECURITY.md has the layout.</summary>
+/// <summary>
+/// The bytes of a connect token: what a backend says, and its Ed25519 signature (RFC 8032). docs/SECURITY.md has the layout.
+/// </summary>
 internal static class ConnectToken
 {
     /// <summary>The length of what identifies a token among all of its issuer.</summary>
@@ -91,7 +93,8 @@ internal static class ConnectToken
     {
         bool isWhole = IsWhole(token);
         id = isWhole
-            ? (BinaryPrimitives.ReadUInt64LittleEndian(token.Slice(IdAt)), BinaryPrimitives.ReadUInt64LittleEndian(token.Slice(IdAt + sizeof(ulong))))
+            ? (BinaryPrimitives.ReadUInt64LittleEndian(token.Slice(IdAt)),
+                BinaryPrimitives.ReadUInt64LittleEndian(token.Slice(IdAt + sizeof(ulong))))
             : default;
         until = isWhole ? BinaryPrimitives.ReadInt64LittleEndian(token.Slice(UntilAt)) : 0;
         return isWhole;

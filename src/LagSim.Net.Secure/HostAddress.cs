@@ -128,7 +128,8 @@ public sealed class HostAddress : IEquatable<HostAddress>
     {
         if (host.IndexOf(':') >= 0)
         {
-            return IPAddress.TryParse(host, out IPAddress? six) && six.AddressFamily == AddressFamily.InterNetworkV6 ? six.ToString() : null;
+            bool isOne = IPAddress.TryParse(host, out IPAddress? six) && six.AddressFamily == AddressFamily.InterNetworkV6;
+            return isOne ? six!.ToString() : null;
         }
 
         foreach (char c in host)

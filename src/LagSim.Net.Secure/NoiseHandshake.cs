@@ -51,7 +51,9 @@ internal static class NoiseHandshake
         return TryMixAgreement(state, host, clientKey) && state.TryDecryptAndHash(message.Slice(KeyBytes), payload);
     }
 
-    /// <summary>The host's answer: another key of one use, and the payload for who began the handshake and has the pre-shared key.</summary>
+    /// <summary>
+    /// The host's answer: another key of one use, and the payload for who began the handshake and has the pre-shared key.
+    /// </summary>
     /// <returns>False if the client's public key is none.</returns>
     internal static bool TryWriteSecond(
         NoiseSymmetricState state, Curve25519KeyPair own, ReadOnlySpan<byte> clientKey, ReadOnlySpan<byte> preSharedKey,

@@ -4,7 +4,9 @@ using System.Security.Cryptography;
 namespace LagSim.Net.Protection;
 
 /// <summary>The SymmetricState of the Noise protocol framework (revision 34, section 5.2), for ChaChaPoly and SHA256.</summary>
-/// <remarks>It follows that section name by name, so that the two can be read side by side. For one thread. Disposing it wipes all of it.</remarks>
+/// <remarks>
+/// It follows that section name by name, so that the two can be read side by side. For one thread. Disposing it wipes all of it.
+/// </remarks>
 internal sealed class NoiseSymmetricState : IDisposable
 {
     private readonly byte[] ck = new byte[Sha256.Bytes]; // the chaining key

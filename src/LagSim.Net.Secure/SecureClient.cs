@@ -10,8 +10,8 @@ namespace LagSim.Net.Protection;
 /// <example>
 /// <code>
 /// HostAddress address = HostAddress.Parse("lagsim://192.168.0.7:5000#6f1c8a0b2d3e4f5061728394a5b6c7d8");
-/// using PeerThread client = PeerThread.Join(
-///     new IPEndPoint(IPAddress.Parse(address.Host), address.Port), new ClientOptions { Protection = new SecureClient(address.Fingerprint) });
+/// ClientOptions options = new() { Protection = new SecureClient(address.Fingerprint) };
+/// using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse(address.Host), address.Port), options);
 /// </code>
 /// </example>
 public sealed class SecureClient : IClientProtection

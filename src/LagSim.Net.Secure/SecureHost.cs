@@ -3,10 +3,13 @@ using System.Security.Cryptography;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>Protects a host's sessions: every datagram is encrypted and authenticated, and clients can tell this host from any other.</summary>
+/// <summary>
+/// Protects a host's sessions: every datagram is encrypted and authenticated, and clients can tell this host from any other.
+/// </summary>
 /// <remarks>
 /// Give it to <see cref="Sessions.HostOptions.Protection"/>. Clients without a protection of their own are refused. Safe on any thread;
-/// sessions on different ports may share it. Cost: one agreement for each join that is read, two more for each that is answered; docs/SECURITY.md has times.
+/// sessions on different ports may share it. Cost: one agreement for each join that is read, two more for each that is answered;
+/// docs/SECURITY.md has times.
 /// </remarks>
 /// <example>
 /// <code>

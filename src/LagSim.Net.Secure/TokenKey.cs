@@ -1,4 +1,5 @@
 using System;
+using Org.BouncyCastle.Math.EC.Rfc8032;
 
 namespace LagSim.Net.Protection;
 
@@ -18,8 +19,8 @@ public sealed class TokenKey : IEquatable<TokenKey>
     /// <returns>False if the text is none. Never throws.</returns>
     public static bool TryParse(string? text, out TokenKey? key)
     {
-        Span<byte> bytes = stackalloc byte[Org.BouncyCastle.Math.EC.Rfc8032.Ed25519.PublicKeySize];
-        key = text is not null && HexText.TryRead(text, bytes) && Org.BouncyCastle.Math.EC.Rfc8032.Ed25519.ValidatePublicKeyFull(bytes.ToArray(), 0)
+        Span<byte> bytes = stackalloc byte[Ed25519.PublicKeySize];
+        key = text is not null && HexText.TryRead(text, bytes) && Ed25519.ValidatePublicKeyFull(bytes.ToArray(), 0)
             ? new TokenKey(bytes)
             : null;
         return key is not null;

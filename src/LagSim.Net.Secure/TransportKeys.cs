@@ -83,7 +83,9 @@ internal sealed class TransportKeys : IDisposable
         next = Aead.Of(after);
     }
 
-    /// <summary>Noise's REKEY (revision 34, section 4.2): what the key makes of 32 zero bytes and the highest nonce, without the tag.</summary>
+    /// <summary>
+    /// Noise's REKEY (revision 34, section 4.2): what the key makes of 32 zero bytes and the highest nonce, without the tag.
+    /// </summary>
     private static void Rekey(Aead key, Span<byte> destination)
     {
         Span<byte> encrypted = stackalloc byte[Aead.KeyBytes + Aead.TagBytes];

@@ -2,7 +2,9 @@ using System.Collections.Generic;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>The tokens with which players came in, until a day after they expire: a join that began before that is over long before.</summary>
+/// <summary>
+/// The tokens with which players came in, until a day after they expire: a join that began before that is over long before.
+/// </summary>
 /// <remarks>Safe on any thread: a host's sessions share it.</remarks>
 internal sealed class UsedTokens
 {

@@ -4,8 +4,8 @@ using System.IO;
 namespace LagSim.Corpus;
 
 /// <summary>
-/// Replays a folder of recordings on the runtime that runs it, and computes its handshake: <c>LagSim.Corpus FOLDER</c>. Or plays one end of a
-/// protected session with another runtime: <c>--host</c>, and <c>--join ADDRESS</c>. <c>.ci/corpus</c> runs it on all there are.
+/// Replays a folder of recordings on the runtime that runs it, and computes its handshake: <c>LagSim.Corpus FOLDER</c>. Or plays one end of
+/// a protected session with another runtime: <c>--host</c>, and <c>--join ADDRESS</c>. <c>.ci/corpus</c> runs it on all there are.
 /// </summary>
 internal static class Program
 {

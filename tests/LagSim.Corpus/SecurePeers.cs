@@ -12,6 +12,7 @@ namespace LagSim.Corpus;
 internal static class SecurePeers
 {
     private const string Key = "corpus";
+    private const int StatesWanted = 3;
 
     private static readonly TimeSpan Patience = TimeSpan.FromSeconds(60);
 
@@ -35,13 +36,23 @@ internal static class SecurePeers
         return gone.Wait(Patience) && host.Session.Counters.DatagramsForged == 0 ? 0 : 1;
     }
 
-    /// <summary>Joins, kicks the ball, and leaves once three states agreed with the host's.</summary>
+    /// <summary>Joins, kicks the ball, and leaves once enough states agreed with the host's.</summary>
     internal static int Join(string text, TextWriter output)
     {
         HostAddress address = HostAddress.Parse(text);
         ClientOptions options = new() { Protection = new SecureClient(address.Fingerprint), ConnectKey = Key };
-        using PeerThread client = PeerThread.Join(
-            new IPEndPoint(IPAddress.Parse(address.Host), address.Port), options, setUp: session => Watch(session, output));
+        using System.Threading.ManualResetEventSlim enough = new();
+        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse(address.Host), address.Port), options, setUp: session =>
+        {
+            Watch(session, output);
+            session.StateCommitted += _ =>
+            {
+                if (session.Counters.StatesAgreed >= StatesWanted)
+                {
+                    enough.Set();
+                }
+            };
+        });
         if (!client.WaitUntilRunning(Patience))
         {
             output.WriteLine($"not in: {client.Session.EndReason}");
@@ -49,16 +60,11 @@ internal static class SecurePeers
         }
 
         client.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 5, 0))).AsTask().Wait();
-        System.Diagnostics.Stopwatch watch = System.Diagnostics.Stopwatch.StartNew();
-        SessionCounters counters;
-        do
-        {
-            System.Threading.Thread.Sleep(100);
-            counters = client.Ask(session => session.Counters.Copy()).Result;
-        }
-        while (counters.StatesAgreed < 3 && watch.Elapsed < Patience);
-        output.WriteLine($"{counters.StatesAgreed} states agreed, {counters.StatesDiffered} differed, {counters.DatagramsForged} datagrams forged");
-        return counters.StatesAgreed >= 3 && counters.StatesDiffered == 0 && counters.EventsAccepted == 1 ? 0 : 1;
+        enough.Wait(Patience);
+        SessionCounters counters = client.Ask(session => session.Counters.Copy()).Result;
+        output.WriteLine(
+            $"{counters.StatesAgreed} states agreed, {counters.StatesDiffered} differed, {counters.DatagramsForged} datagrams forged");
+        return counters.StatesAgreed >= StatesWanted && counters.StatesDiffered == 0 && counters.EventsAccepted == 1 ? 0 : 1;
     }
 
     private static void Watch(Session session, TextWriter output)

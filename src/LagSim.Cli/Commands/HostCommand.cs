@@ -40,8 +40,8 @@ internal static class HostCommand
             "What each player's actions may cost before it is disconnected, as a multiple of the default, a tenth of a core; 0: no limit",
             1, 0, 1000);
         Option<string?> identity = CommonOptions.File(
-            "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing. Keep it secret:"
-                + " whoever has it can impersonate this host. By default the host has a new identity each time.");
+            "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing."
+                + " Keep it secret: whoever has it can impersonate this host. By default the host has a new identity each time.");
         Option<string?> tokens = new("--tokens")
         {
             Description = "Let in only who has a connect token of the issuer with this public key, the 64 digits that lagsim token prints.",
@@ -82,11 +82,12 @@ internal static class HostCommand
             using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
             HostSession session = Open(loaded, carrier, options);
             bool json = parsed.GetValue(common.Json);
+            int udpPort = carrier.LocalAddress.ToEndPoint().Port;
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
-                ListeningOn = new IPEndPoint(local, carrier.LocalAddress.ToEndPoint().Port).ToString(),
+                ListeningOn = new IPEndPoint(local, udpPort).ToString(),
                 Addresses = self is null ? [] : [.. ReachableAddresses.Of(local)
-                    .Select(reachable => new HostAddress(reachable.ToString(), carrier.LocalAddress.ToEndPoint().Port, self.Fingerprint).ToString())],
+                    .Select(reachable => new HostAddress(reachable.ToString(), udpPort, self.Fingerprint).ToString())],
             };
             printer.Line($"listening on {printer.ListeningOn}");
             foreach (string reachable in printer.Addresses)
@@ -117,7 +118,16 @@ internal static class HostCommand
         isUnprotected && file is not null ? throw new UsageException("--unprotected contradicts --identity; leave out one of them.")
         : isUnprotected ? null
         : file is null ? HostIdentity.Draw()
-        : IdentityFile.ReadOrDraw(file);
+        : SecretFile.ReadOrDraw(
+            "--identity",
+            file,
+            "a host's identity",
+            text => HostIdentity.TryParse(text, out HostIdentity? kept) ? kept : null,
+            () =>
+            {
+                HostIdentity drawn = HostIdentity.Draw();
+                return (drawn, drawn.ToSecretText());
+            });
 
     /// <exception cref="UsageException">The text is no key.</exception>
     private static TokenKey? Key(string? text) =>

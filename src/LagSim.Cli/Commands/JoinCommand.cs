@@ -19,8 +19,9 @@ internal static class JoinCommand
         SessionArguments shared = new();
         Argument<string> host = new("ADDRESS")
         {
-            Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as 192.168.0.7:5000, [::1]:5000 or"
-                + " some.name:5000, the host that answers first is trusted, and its fingerprint printed. If a name has addresses of both kinds, IPv4 is used.",
+            Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as"
+                + " 192.168.0.7:5000, [::1]:5000 or some.name:5000, the host that answers first is trusted, and its fingerprint printed."
+                + " If a name has addresses of both kinds, IPv4 is used.",
         };
         Option<string?> token = new("--token")
         {
@@ -94,7 +95,8 @@ internal static class JoinCommand
             {
                 session.PassGiven -= TellTrustOnce;
                 HostAddress trusted = new(there.Address.ToString(), there.Port, protection!.Host!.Value);
-                console.Error.WriteLine($"Trusting the host that answered first. If it is the right one, join it as {trusted} from now on.");
+                console.Error.WriteLine(
+                    $"Trusting the host that answered first. If it is the right one, join it as {trusted} from now on.");
             }
         });
         return command;
@@ -125,7 +127,9 @@ internal static class JoinCommand
         byte[] token = new byte[text.Length];
         return Convert.TryFromBase64String(text, token, out int length) && length is > 0 and <= IHostProtection.MaxTokenBytes
             ? token[..length]
-            : throw new UsageException($"--token has {text.Length} characters that are no connect token: up to {IHostProtection.MaxTokenBytes} bytes in base64.");
+            : throw new UsageException(
+                $"--token is not a connect token: it has {text.Length} characters, and must be 1 to {IHostProtection.MaxTokenBytes} bytes in"
+                    + " base64.");
     }
 
     /// <summary>Refuses a recording that would overwrite the pass.</summary>

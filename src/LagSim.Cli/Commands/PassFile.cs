@@ -14,7 +14,8 @@ internal static class PassFile
     internal static PlayerPass Read(string file) =>
         SecretFile.Read(file) is not string text ? default
         : PlayerPass.TryParse(text, out PlayerPass pass) ? pass
-        : throw new InputException($"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
+        : throw new InputException(
+            $"--pass is '{file}', which holds no player's pass: a number from 1 to 255, a hyphen, and 32 hexadecimal digits.");
 
     /// <summary>Copies a pass that another player's is about to replace, since it may be of use at another host.</summary>
     /// <returns>The name of the copy; null if it could not be made.</returns>

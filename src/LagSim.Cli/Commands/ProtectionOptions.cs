@@ -10,12 +10,14 @@ internal static class ProtectionOptions
     /// <summary>The option that turns protection off.</summary>
     internal static Option<bool> Unprotected() => new("--unprotected")
     {
-        Description = "Encrypt and authenticate nothing. Anyone on the path can then read, change and forge what is sent. Both ends must say so.",
+        Description = "Encrypt and authenticate nothing. Anyone on the path can then read, change and forge what is sent. Both ends must say"
+            + " so.",
     };
 
     /// <summary>Says loudly that a session is not protected.</summary>
     internal static void Warn(ToolConsole console) => console.Error.WriteLine(
-        "NOT PROTECTED: anyone on the path can read this session, act in any player's name, and be its host. Leave out --unprotected to change that.");
+        "NOT PROTECTED: anyone on the path can read this session, act in any player's name, and be its host. Leave out --unprotected to"
+            + " change that.");
 
     /// <summary>Reads the fingerprint of an address, if it has one.</summary>
     /// <param name="text">What the user wrote: <c>lagsim://HOST:PORT#FINGERPRINT</c>, or <c>HOST:PORT</c>.</param>

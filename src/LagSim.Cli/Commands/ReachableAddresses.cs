@@ -8,7 +8,9 @@ namespace LagSim.Cli.Commands;
 /// <summary>The addresses at which others reach a host that listens on a local address.</summary>
 internal static class ReachableAddresses
 {
-    /// <summary>The address itself; for one that stands for all, this machine's of its family, of the loopback only if there is no other.</summary>
+    /// <summary>
+    /// The address itself; for one that stands for all, this machine's of its family, of the loopback only if there is no other.
+    /// </summary>
     internal static IReadOnlyList<IPAddress> Of(IPAddress local)
     {
         if (!local.Equals(IPAddress.Any) && !local.Equals(IPAddress.IPv6Any))

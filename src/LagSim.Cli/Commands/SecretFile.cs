@@ -25,6 +25,28 @@ internal static class SecretFile
         return length < MaxBytes ? Encoding.UTF8.GetString(bytes, 0, length).Trim() : "";
     }
 
+    /// <summary>Reads the secret of the file; draws one and keeps it if the file does not exist yet.</summary>
+    /// <param name="option">The option that names the file.</param>
+    /// <param name="file">The file.</param>
+    /// <param name="what">What it keeps, as "a host's identity".</param>
+    /// <param name="parse">Reads a secret from its text; null if the text is none.</param>
+    /// <param name="draw">Draws a secret, and gives its text.</param>
+    /// <exception cref="InputException">The file holds something else.</exception>
+    /// <exception cref="IOException">The file cannot be read, or not be written.</exception>
+    internal static T ReadOrDraw<T>(string option, string file, string what, Func<string, T?> parse, Func<(T Secret, string Text)> draw)
+        where T : class
+    {
+        if (Read(file) is string text)
+        {
+            return parse(text) ?? throw new InputException($"{option} is '{file}', which does not hold {what}: 64 hexadecimal digits.");
+        }
+
+        ThrowIfNotWritable(option, file, what);
+        (T drawn, string drawnText) = draw();
+        Write(file, drawnText);
+        return drawn;
+    }
+
     /// <summary>Checks that the file could be written, and changes nothing.</summary>
     /// <param name="option">The option that names the file.</param>
     /// <param name="file">The file.</param>

@@ -1,6 +1,5 @@
 using System;
 using System.CommandLine;
-using System.IO;
 using LagSim.Cli.Output;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
@@ -21,17 +20,23 @@ internal static class TokenCommand
         };
         Option<string?> host = new("--host")
         {
-            Description = "The host that the token is for, as it prints itself: lagsim://HOST:PORT#FINGERPRINT. Without it no token is issued.",
+            Description = "The host that the token is for, as it prints itself: lagsim://HOST:PORT#FINGERPRINT."
+                + " Without it no token is issued.",
             HelpName = "ADDRESS",
         };
-        Option<string?> player = new("--player") { Description = "The player's identity, 1 to 64 bytes of UTF-8. One player has one place.", HelpName = "ID" };
+        Option<string?> player = new("--player")
+        {
+            Description = "The player's identity, 1 to 64 bytes of UTF-8. One player has one place.",
+            HelpName = "ID",
+        };
         Option<string> name = new("--name")
         {
             Description = "The player's name, up to 64 bytes of UTF-8.",
             DefaultValueFactory = _ => "",
             HelpName = "TEXT",
         };
-        Option<int> number = CommonOptions.Whole("--number", "The player's number; 0 for any that is free", 0, 0, SessionOptions.MaxClients);
+        Option<int> number = CommonOptions.Whole(
+            "--number", "The player's number; 0 for any that is free", 0, 0, SessionOptions.MaxClients);
         Option<PlayerRights> rights = new("--rights")
         {
             Description = "What the player may do: all, act, spawn or none (default all).",
@@ -47,7 +52,8 @@ internal static class TokenCommand
             },
         };
         Option<double> valid = CommonOptions.Number(
-            "--valid-s", "How long the player may take to join", TokenIssuer.DefaultValidity.TotalSeconds, 1, TokenIssuer.MaxValidity.TotalSeconds);
+            "--valid-s", "How long the player may take to join",
+            TokenIssuer.DefaultValidity.TotalSeconds, 1, TokenIssuer.MaxValidity.TotalSeconds);
         Command command = new(
             "token", "Prints the public key of an issuer of connect tokens, for host --tokens, and a token, for join --token.")
         {
@@ -112,20 +118,14 @@ internal static class TokenCommand
         return PlayerRights.None;
     }
 
-    /// <exception cref="InputException">The file holds something else.</exception>
-    /// <exception cref="IOException">The file cannot be read, or not be written.</exception>
-    private static TokenIssuer ReadOrDraw(string file)
-    {
-        if (SecretFile.Read(file) is string text)
+    private static TokenIssuer ReadOrDraw(string file) => SecretFile.ReadOrDraw(
+        "--secret",
+        file,
+        "an issuer's secret",
+        text => TokenIssuer.TryParse(text, out TokenIssuer? kept) ? kept : null,
+        () =>
         {
-            return TokenIssuer.TryParse(text, out TokenIssuer? kept)
-                ? kept!
-                : throw new InputException($"--secret is '{file}', which holds no secret of an issuer: 64 hexadecimal digits.");
-        }
-
-        SecretFile.ThrowIfNotWritable("--secret", file, "a secret");
-        TokenIssuer drawn = TokenIssuer.Draw();
-        SecretFile.Write(file, drawn.ToSecretText());
-        return drawn;
-    }
+            TokenIssuer drawn = TokenIssuer.Draw();
+            return (drawn, drawn.ToSecretText());
+        });
 }

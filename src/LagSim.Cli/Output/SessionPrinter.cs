@@ -129,7 +129,8 @@ internal sealed class SessionPrinter
     private static IEnumerable<(string Name, long Count)> Counts(SessionCounters counters, UdpPort port) =>
     [
         ("datagrams_sent", counters.DatagramsSent), ("datagrams_received", counters.DatagramsReceived), ("datagrams_malformed", counters.DatagramsMalformed),
-        ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_forged", counters.DatagramsForged), ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
+        ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_forged", counters.DatagramsForged),
+        ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
         ("receive_failures", port.ReceiveFailures), ("events_forged", counters.EventsForged), ("events_deferred", counters.EventsDeferred),
         ("events_lost", counters.EventsLost), ("events_unanswered", counters.EventsUnanswered), ("renewals", counters.Renewals),
     ];

@@ -6,7 +6,9 @@ namespace LagSim.Net.Protection;
 /// A host's identity, and its side of the handshake by which a joining client and a host agree on keys. The package
 /// <c>LagSim.Net.Secure</c> has one.
 /// </summary>
-/// <remarks>Safe on any thread: sessions on different ports may share it. Give it to a host by <see cref="Sessions.HostOptions.Protection"/>.</remarks>
+/// <remarks>
+/// Safe on any thread: sessions on different ports may share it. Give it to a host by <see cref="Sessions.HostOptions.Protection"/>.
+/// </remarks>
 public interface IHostProtection
 {
     /// <summary>The length of the identity that a host shows, in bytes.</summary>
@@ -21,7 +23,9 @@ public interface IHostProtection
     /// <summary>The longest connect token, in bytes.</summary>
     public const int MaxTokenBytes = 256;
 
-    /// <summary>Whether clients need a connect token: one with a valid one, or with the pass of a player that came in with one, is let in.</summary>
+    /// <summary>
+    /// Whether clients need a connect token: one with a valid one, or with the pass of a player that came in with one, is let in.
+    /// </summary>
     bool RequiresToken { get; }
 
     /// <summary>Writes the identity that this host shows to everyone: a public key.</summary>
@@ -47,7 +51,9 @@ public interface IHostProtection
     /// <returns>False if it was used before.</returns>
     bool TryUseToken(ReadOnlySpan<byte> token);
 
-    /// <summary>Writes the key by which this host, even after a restart, proves to the client of a link that it does not know the link.</summary>
+    /// <summary>
+    /// Writes the key by which this host, even after a restart, proves to the client of a link that it does not know the link.
+    /// </summary>
     /// <param name="link">What identifies the link: its session id, and where the host listens.</param>
     /// <param name="key">Receives <see cref="ResetKeyBytes"/> bytes: always the same for one link and identity.</param>
     void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key);

@@ -57,8 +57,8 @@ public sealed record ClientOptions : SessionOptions
     /// <see cref="Protection"/> that knows which host it wants: a token must not be told to whoever answers first.
     /// </summary>
     /// <remarks>
-    /// It admits once, within its time. A client that loses its host comes back with the pass it has got; after a restart of the host it needs
-    /// another token. Up to 256 bytes.
+    /// It admits once, within its time. A client that loses its host comes back with the pass it has got; after a restart of the host it
+    /// needs another token. Up to 256 bytes.
     /// </remarks>
     public ReadOnlyMemory<byte> Token { get; init; }
 

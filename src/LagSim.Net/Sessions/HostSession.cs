@@ -129,8 +129,8 @@ public sealed class HostSession : Session
     internal int ComingCount => host.Roster.All.Count - host.Roster.SeatedCount;
 
     /// <summary>
-    /// What the connect token of a player says of it: name, identity, rights. Null for one without a token, and for a number that nobody has now: keep what it
-    /// was when the player came.
+    /// What the connect token of a player says of it: name, identity, rights. Null for one without a token, and for a number that nobody
+    /// has now: keep what it was when the player came.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>

@@ -118,8 +118,8 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Whether every datagram is encrypted and authenticated: the options have a protection. If not, anyone on the path can read, change and
-    /// forge what is sent. From any thread.
+    /// Whether every datagram is encrypted and authenticated: the options have a protection. If not, anyone on the path can read, change
+    /// and forge what is sent. From any thread.
     /// </summary>
     public bool IsProtected => parts.Options.IsProtected;
 
@@ -312,8 +312,8 @@ public abstract class Session
         if (!IsProtected)
         {
             HandlerFailures.Write(
-                "This session is not protected: anyone on the path can read it, act in any player's name, and be its host. Give its options a"
-                    + " protection, such as that of the package LagSim.Net.Secure.");
+                "This session is not protected: anyone on the path can read it, act in any player's name, and be its host. Give its"
+                    + " options a protection, such as that of the package LagSim.Net.Secure.");
         }
     }
 

@@ -38,8 +38,8 @@ public abstract record SessionOptions
     /// <remarks>
     /// It keeps strangers out. In a session without protection it does not encrypt: choose a long random key, since an eavesdropper or a
     /// fake host obtains data against which it can test guesses offline, and a host never proves to a client that it knows the key. In a
-    /// protected session it is mixed into the keys, so both prove that they know it, and an eavesdropper cannot test guesses; a fake host can
-    /// only if the client does not say which host it wants.
+    /// protected session it is mixed into the keys, so both prove that they know it, and an eavesdropper cannot test guesses; a fake host
+    /// can only if the client does not say which host it wants.
     /// </remarks>
     public string ConnectKey { get; init; } = "";
 

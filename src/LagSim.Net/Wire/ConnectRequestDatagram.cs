@@ -55,7 +55,8 @@ internal readonly struct ConnectRequestDatagram
     internal static bool TryReadAnyVersion(ReadOnlySpan<byte> datagram, out ulong nonce)
     {
         nonce = 0;
-        if (datagram.Length < WireFormat.ShortestConnectRequestBytes || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.ConnectRequest)
+        if (datagram.Length < WireFormat.ShortestConnectRequestBytes
+            || WireReader.ByteAt(datagram, WireFormat.HeaderBytes - 1) != (byte)DatagramType.ConnectRequest)
         {
             return false;
         }

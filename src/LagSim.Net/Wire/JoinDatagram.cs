@@ -94,7 +94,8 @@ internal readonly struct JoinDatagram
     private static bool TryReadClaims(ref WireReader reader, ulong nonce, Token128 cookie, out JoinDatagram join, out WireRefusal refusal)
     {
         join = new JoinDatagram(
-            nonce, cookie, Token128.Read(ref reader), reader.ReadUInt64(), reader.ReadUInt32(), reader.ReadByte(), Token128.Read(ref reader));
+            nonce, cookie, Token128.Read(ref reader), reader.ReadUInt64(), reader.ReadUInt32(), reader.ReadByte(),
+            Token128.Read(ref reader));
         reader.Require(join.Player != 0 || join.PlayerProof == default);
         return reader.Finish(out refusal);
     }

@@ -2,7 +2,9 @@ using System;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>The host's answer to a client's datagram from a new address: the client must return this cookie to prove that address.</summary>
+/// <summary>
+/// The host's answer to a client's datagram from a new address: the client must return this cookie to prove that address.
+/// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct MoveChallengeDatagram
 {

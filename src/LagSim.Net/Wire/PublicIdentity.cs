@@ -7,17 +7,12 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
 {
-    private readonly Token128 first;
-    private readonly Token128 second;
+    private readonly (ulong, ulong, ulong, ulong) words;
 
-    private PublicIdentity(Token128 first, Token128 second)
-    {
-        this.first = first;
-        this.second = second;
-    }
+    private PublicIdentity((ulong, ulong, ulong, ulong) words) => this.words = words;
 
     /// <summary>Whether it is none: the host has no protection.</summary>
-    internal bool IsNone => first == default && second == default;
+    internal bool IsNone => words == default;
 
     /// <summary>The identity that a host shows.</summary>
     internal static PublicIdentity Of(IHostProtection? protection)
@@ -29,23 +24,27 @@ internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
 
         Span<byte> bytes = stackalloc byte[IHostProtection.IdentityBytes];
         protection.WriteIdentity(bytes);
-        return new PublicIdentity(new Token128(bytes), new Token128(bytes.Slice(Token128.Bytes)));
+        WireReader reader = new(bytes);
+        return Read(ref reader);
     }
 
     /// <inheritdoc/>
-    public bool Equals(PublicIdentity other) => first == other.first && second == other.second;
+    public bool Equals(PublicIdentity other) => words == other.words;
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is PublicIdentity other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => first.GetHashCode();
+    public override int GetHashCode() => words.GetHashCode();
 
-    internal static PublicIdentity Read(ref WireReader reader) => new(Token128.Read(ref reader), Token128.Read(ref reader));
+    internal static PublicIdentity Read(ref WireReader reader) => 
+        new((reader.ReadUInt64(), reader.ReadUInt64(), reader.ReadUInt64(), reader.ReadUInt64()));
 
     internal void Write(ref WireWriter writer)
     {
-        first.Write(ref writer);
-        second.Write(ref writer);
+        writer.WriteUInt64(words.Item1);
+        writer.WriteUInt64(words.Item2);
+        writer.WriteUInt64(words.Item3);
+        writer.WriteUInt64(words.Item4);
     }
 }

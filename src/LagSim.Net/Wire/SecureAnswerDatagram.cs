@@ -3,7 +3,9 @@ using LagSim.Net.Protection;
 
 namespace LagSim.Net.Wire;
 
-/// <summary>A protected host's answer to a <see cref="SecureJoinDatagram"/>: a handshake message with its terms, or with its refusal.</summary>
+/// <summary>
+/// A protected host's answer to a <see cref="SecureJoinDatagram"/>: a handshake message with its terms, or with its refusal.
+/// </summary>
 /// <remarks>Its bytes are those of the datagram it was read from, or will be written from; valid as long as those are.</remarks>
 internal readonly ref struct SecureAnswerDatagram
 {

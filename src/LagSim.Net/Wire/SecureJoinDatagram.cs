@@ -10,6 +10,9 @@ namespace LagSim.Net.Wire;
 /// <remarks>Its bytes are those of the datagram it was read from; valid as long as those are.</remarks>
 internal readonly ref struct SecureJoinDatagram
 {
+    /// <summary>The length of a message without a connect token.</summary>
+    private const int LeastMessageBytes = IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes;
+
     private SecureJoinDatagram(ulong nonce, Token128 cookie, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message)
     {
         Nonce = nonce;
@@ -42,7 +45,8 @@ internal readonly ref struct SecureJoinDatagram
     internal static IClientHandshake? Encode(
         Span<byte> destination, in JoinDatagram join, ReadOnlySpan<byte> token, in PublicIdentity identity, IClientProtection protection)
     {
-        Span<byte> prologue = destination.Slice(0, JoinDatagram.WritePrologue(destination, DatagramType.SecureJoin, join.Nonce, join.Cookie));
+        int length = JoinDatagram.WritePrologue(destination, DatagramType.SecureJoin, join.Nonce, join.Cookie);
+        Span<byte> prologue = destination.Slice(0, length);
         Span<byte> shown = stackalloc byte[IHostProtection.IdentityBytes];
         WireWriter writer = new(shown);
         identity.Write(ref writer);
@@ -62,9 +66,8 @@ internal readonly ref struct SecureJoinDatagram
         ulong nonce = reader.ReadUInt64();
         Token128 cookie = Token128.Read(ref reader);
         int length = reader.Remaining;
-        reader.Require(length >= IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes, WireRefusal.TooShort);
-        reader.Require(
-            length <= IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes + IHostProtection.MaxTokenBytes, WireRefusal.TrailingBytes);
+        reader.Require(length >= LeastMessageBytes, WireRefusal.TooShort);
+        reader.Require(length <= LeastMessageBytes + IHostProtection.MaxTokenBytes, WireRefusal.TrailingBytes);
         ReadOnlySpan<byte> message = reader.ReadBytes(length);
         bool isOne = reader.Finish(out refusal);
         join = isOne ? new SecureJoinDatagram(nonce, cookie, datagram.Slice(0, WireFormat.JoinPrologueBytes), message) : default;

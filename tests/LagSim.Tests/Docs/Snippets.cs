@@ -116,7 +116,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         ExternalEvent shot = await peer.Do(PlayerAction.Spawn(new BodySpec(radius: 0.05, mass: 0.02, restitution: 0.5), position, velocity));
         BodyId bullet = shot.Body;
 
-        // each frame: draw every body that is in the world, whoever spawned it
+        // each frame: draw all bodies, also those that players have spawned
         if (peer.Latest() is RenderSnapshot all)
         {
             for (int n = 0; n < all.BodyCount; n++)

@@ -3,6 +3,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
@@ -112,12 +113,50 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.Contains("came in from elsewhere", first.EndReason, StringComparison.Ordinal);
     }
 
-    /// <summary>Eight players of one school: limits by address are not for who has a token, as each has one place.</summary>
+    /// <summary>A token gives no number that another player has, nor one that a key is for; the player may have another number later.</summary>
+    [Fact]
+    public void Join_WithTheNumberOfAnother_IsRefusedAndTheTokenNotUsed()
+    {
+        SessionGroup group = Hosting();
+        ClientSession ada = Join(group, 1, issuer.Issue(new PlayerAdmission("ada", number: 3), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3));
+        byte[] token = issuer.Issue(new PlayerAdmission("bob", number: 3), identity.Fingerprint, now: Noon);
+        ClientSession bob = Join(group, 2, token);
+        Assert.True(group.RunUntil(() => bob.State == SessionState.Ended, 3));
+        Assert.Contains("full", bob.EndReason, StringComparison.Ordinal);
+        Assert.Equal((SessionState.Running, 1), (ada.State, group.Host.ClientCount));
+        ada.Leave();
+        group.Run(0.2);
+        bob = Join(group, 4, token);
+        Assert.True(group.RunUntil(() => bob.State == SessionState.Running, 3), bob.EndReason);
+        Assert.Equal(3, bob.Peer);
+
+        ClientSession keyed = Join(group, 5, issuer.Issue(new PlayerAdmission("eve", number: 8), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => keyed.State == SessionState.Ended, 3));
+        Assert.Contains("full", keyed.EndReason, StringComparison.Ordinal);
+    }
+
+    /// <summary>A player that is sent away while another join of it is on its way, by its pass, is not let in by that either.</summary>
+    [Fact]
+    public void Join_ByAPassThatBecameVoidMeanwhile_IsRefused()
+    {
+        SessionGroup group = Hosting();
+        ClientSession ada = Join(group, 1, issuer.Issue(Ada, identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3));
+        ClientSession again = group.Join(2, 99, new ClientOptions { Protection = new SecureClient(identity.Fingerprint), Pass = ada.Pass!.Value });
+        Assert.True(group.RunUntil(() => again.State == SessionState.Synchronising, 3));
+        Assert.True(group.Host.Kick(ada.Peer));
+        Assert.True(group.RunUntil(() => again.State is SessionState.Ended or SessionState.Running, 3));
+        Assert.Contains("admits only players with a connect token", again.EndReason, StringComparison.Ordinal);
+        Assert.Equal(0, group.Host.ClientCount);
+    }
+
+    /// <summary>Seven players of one school: limits by address are not for who has a token, as each has one place.</summary>
     [Fact]
     public void Join_ManyPlayers_EachHasAPlace()
     {
         SessionGroup group = Hosting();
-        ClientSession[] all = [.. Enumerable.Range(1, 8).Select(n => Join(group, n, issuer.Issue(new PlayerAdmission($"p{n}"), identity.Fingerprint, now: Noon)))];
+        ClientSession[] all = [.. Enumerable.Range(1, 7).Select(n => Join(group, n, issuer.Issue(new PlayerAdmission($"p{n}"), identity.Fingerprint, now: Noon)))];
         Assert.True(group.RunUntil(() => all.All(c => c.State == SessionState.Running), 10), string.Join(" ", all.Select(c => c.EndReason)));
         ClientSession ninth = Join(group, 9, issuer.Issue(new PlayerAdmission("p9"), identity.Fingerprint, now: Noon));
         Assert.True(group.RunUntil(() => ninth.State == SessionState.Ended, 3));
@@ -205,6 +244,31 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.Equal(TokenFault.OtherIssuer, new SecureHost(identity).ReadToken(token).Fault);
     }
 
+    /// <summary>Two joins with one token began before it expired; the second gets ready after that.</summary>
+    [Fact]
+    public void Use_AgainAfterItExpired_IsRefused()
+    {
+        SecureHost host = new(identity, issuer.Key, () => hostClock);
+        byte[] token = issuer.Issue(Ada, identity.Fingerprint, now: Noon), other = issuer.Issue(Ada, identity.Fingerprint, now: Noon);
+        Assert.True(host.TryUseToken(token));
+        hostClock = Noon.AddMinutes(20);
+        Assert.True(host.TryUseToken(other)); // whatever is forgotten is forgotten now
+        Assert.False(host.TryUseToken(token));
+    }
+
+    /// <summary>What a host was shown of a connect key or a pass is of no use to it at another host, though nonce and cookie be the same.</summary>
+    [Fact]
+    public void Proof_ShownToOneHost_IsNoneToAnother()
+    {
+        using HostIdentity another = HostIdentity.Draw();
+        PublicIdentity mine = PublicIdentity.Of(new SecureHost(identity)), its = PublicIdentity.Of(new SecureHost(another));
+        Token128 cookie = new(1, 2), pass = new(3, 4);
+        JoinDatagram join = new(7, cookie, JoinCookies.Prove("key", 7, cookie, its), 0, 1, 1, JoinCookies.Prove(pass, 7, cookie, its));
+        Assert.True(JoinCookies.IsProof("key", join, its) && JoinCookies.IsProof(pass, join, its));
+        Assert.False(JoinCookies.IsProof("key", join, mine) || JoinCookies.IsProof(pass, join, mine));
+        Assert.False(JoinCookies.IsProof("key", join, default) || JoinCookies.IsProof(pass, join, default));
+    }
+
     [Fact]
     public void Issue_OutOfRange_IsRefused()
     {
@@ -227,7 +291,11 @@ public sealed class ConnectTokenTests : IDisposable
     {
         SessionGroup group = new(
             ScriptedActions.Box(), 1, LinkProfiles.Loopback, expected: 0,
-            options: _ => new HostOptions { Protection = new SecureHost(identity, issuer.Key, () => hostClock) });
+            options: _ => new HostOptions
+            {
+                Protection = new SecureHost(identity, issuer.Key, () => hostClock),
+                PlayerKeys = new System.Collections.Generic.Dictionary<byte, string> { [8] = "a key" },
+            });
         group.Run(1);
         return group;
     }

@@ -10,7 +10,9 @@ using Xunit;
 
 namespace LagSim.Tests.Protection;
 
-/// <summary>A hundred thousand joins a second, from spoofed addresses and from a hundred machines that are there: honest clients get in meanwhile.</summary>
+/// <summary>
+/// A hundred thousand joins a second, from spoofed addresses and from a hundred machines that are there: honest clients get in meanwhile.
+/// </summary>
 public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
 {
     private const int Machines = 100;

@@ -152,7 +152,9 @@ public sealed class PathAttackTests : IDisposable
         AssertGoesOn(group, isProtected: true);
     }
 
-    /// <summary>The host's own datagrams come back to it as if a client had sent them; where they can be changed, with a number it has not had.</summary>
+    /// <summary>
+    /// The host's own datagrams come back to it as if a client had sent them; where they can be changed, with a number it has not had.
+    /// </summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
@@ -175,6 +177,36 @@ public sealed class PathAttackTests : IDisposable
         Assert.Equal(isProtected, group.Host.Links.Single().RoundTrip > SimDuration.Zero && group.Host.Counters.DatagramsForged == 10);
         Assert.Equal(!isProtected, group.Host.Counters is { DatagramsForged: 0, DatagramsIgnored: < 10 });
         AssertGoesOn(group, isProtected);
+    }
+
+    /// <summary>The host has given up a client that was cut off, and says so; on the way it becomes the end of the session.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Change_WhyAClientIsGone_OnlyWithoutProtection(bool isProtected)
+    {
+        const byte reset = 18, hostEnded = 3;
+        SessionGroup group = Playing(isProtected);
+        attacker.Drops = (_, _) => true;
+        group.Run(11);
+        Assert.Equal((0, SessionState.Rejoining), (group.Host.ClientCount, group.Client(1).State));
+        attacker.Drops = (from, bytes) =>
+        {
+            if (from == 0 && bytes[3] is PathAttacker.Leave or reset)
+            {
+                bytes[isProtected ? 12 : 13] = hostEnded;
+            }
+
+            return from == 1;
+        };
+        long forged = group.Client(1).Counters.DatagramsForged;
+        attacker.Send(1, 0, LastOf(1)); // of the link that the host does not have any more
+        group.Run(0.1);
+        Assert.True(attacker.HasHeard(0, isProtected ? reset : PathAttacker.Leave));
+        Assert.Equal(isProtected ? SessionState.Rejoining : SessionState.Ended, group.Client(1).State);
+        Assert.Equal(forged + (isProtected ? 1 : 0), group.Client(1).Counters.DatagramsForged);
+        attacker.Drops = (_, _) => false;
+        Assert.Equal(isProtected, group.RunUntil(() => group.Client(1).State == SessionState.Running, 5));
     }
 
     /// <summary>One number far ahead, and everything the client sends from then on is old.</summary>
@@ -227,7 +259,9 @@ public sealed class PathAttackTests : IDisposable
         AssertGoesOn(group, isProtected);
     }
 
-    /// <summary>A client that is joining is told that it may not, that the host speaks another version, and is sent cookies that are none.</summary>
+    /// <summary>
+    /// A client that is joining is told that it may not, that the host speaks another version, and is sent cookies that are none.
+    /// </summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
@@ -326,7 +360,9 @@ public sealed class PathAttackTests : IDisposable
     /// <summary>The last update of a peer, or what seals it.</summary>
     private byte[] LastOf(int peer) => attacker.Heard.FindLast(h => h.From == peer && h.Bytes[3] is PathAttacker.Update or PathAttacker.Sealed).Bytes;
 
-    /// <summary>A protected session goes on as if nothing had been: the client's next act takes effect everywhere, and all states agree.</summary>
+    /// <summary>
+    /// A protected session goes on as if nothing had been: the client's next act takes effect everywhere, and all states agree.
+    /// </summary>
     private static void AssertGoesOn(SessionGroup group, bool isProtected)
     {
         long done = group.Host.Counters.EventsAccepted + group.Host.Counters.EventsRefused;

@@ -140,7 +140,10 @@ public sealed class ProtectedSessionTests : IDisposable
         Assert.Contains("another identity", group.Client(1).EndReason, StringComparison.Ordinal);
     }
 
-    /// <summary>A game that sends a player away as soon as it comes, in the handler that tells it so: the link's keys are wiped in the middle of a step.</summary>
+    /// <summary>
+    /// A game that sends a player away as soon as it comes, in the handler that tells it so: the link's keys are wiped in the middle of a
+    /// step.
+    /// </summary>
     [Fact]
     public void Client_KickedAsItComes_EndsNothingElse()
     {

@@ -8,7 +8,8 @@ namespace LagSim.Harness.Verification.Fuzz;
 /// peer's.</param>
 /// <param name="Forged">The number that a protected session refused because nobody of it had sealed them.</param>
 /// <param name="SessionsBroken">The number of sessions that ended or diverged under datagrams with a peer's own address and its session's
-/// number. Without protection, a sender that can forge those can do what the peer can; of protected sessions none may break. Datagrams from strangers may break none.</param>
+/// number. Without protection, a sender that can forge those can do what the peer can; of protected sessions none may break. Datagrams from
+/// strangers may break none.</param>
 /// <param name="StrangerBytesSent">The bytes that strangers sent to peers, without headers.</param>
 /// <param name="StrangerBytesReceived">The bytes that strangers got in reply; never more.</param>
 /// <param name="RetainedBytes">How much the memory in use grew from the end of the first session to that of the last.</param>

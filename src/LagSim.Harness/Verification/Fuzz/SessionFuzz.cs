@@ -17,8 +17,8 @@ namespace LagSim.Harness.Verification.Fuzz;
 /// <para>In every other session all hostile datagrams come from strangers' addresses, or are replays from the true ones. That session must
 /// continue and all its worlds agree. In the others they have the peers' own addresses. Then nothing may throw, and no more can be
 /// required; unless the sessions are protected: then these must continue and agree, too.</para>
-/// <para>Deterministic: the same seed and number of datagrams give the same report, except the memory. Protected sessions draw their keys from
-/// the system, so there the counts differ.</para>
+/// <para>Deterministic: the same seed and number of datagrams give the same report, except the memory. Protected sessions draw their keys
+/// from the system, so there the counts differ.</para>
 /// </remarks>
 public static class SessionFuzz
 {
@@ -52,7 +52,8 @@ public static class SessionFuzz
     /// <param name="progress">Called from time to time with the number sent; may be null.</param>
     /// <param name="cancellation">Ends it between two sessions.</param>
     /// <param name="isProtected">Whether the sessions are protected.</param>
-    public static FuzzReport Run(long packets, ulong seed, Action<long>? progress, CancellationToken cancellation, bool isProtected = false) =>
+    public static FuzzReport Run(
+        long packets, ulong seed, Action<long>? progress, CancellationToken cancellation, bool isProtected = false) =>
         Run(packets, seed, progress, static port => port, cancellation, isProtected);
 
     /// <summary>The same, with a wrapper between each session and its port.</summary>
@@ -98,7 +99,8 @@ public static class SessionFuzz
         private readonly HostileDatagrams hostile;
         private bool isLearning = true;
 
-        internal Round(ulong seed, bool isFromStrangers, bool isMeasured, HostIdentity? identity, Func<IDatagramPort, IDatagramPort> between)
+        internal Round(
+            ulong seed, bool isFromStrangers, bool isMeasured, HostIdentity? identity, Func<IDatagramPort, IDatagramPort> between)
         {
             this.seed = seed;
             this.isFromStrangers = isFromStrangers;
@@ -131,7 +133,10 @@ public static class SessionFuzz
                     options = options with { Protection = new SecureHost(identity) };
                 }
 
-                ClientOptions joining = ClientOptions.From(options) with { Protection = identity is null ? null : new SecureClient(identity.Fingerprint) };
+                ClientOptions joining = ClientOptions.From(options) with
+                {
+                    Protection = identity is null ? null : new SecureClient(identity.Fingerprint),
+                };
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
                     ? new HostSession(scene, ports[0], own, options, random.NextUInt64())
@@ -171,9 +176,8 @@ public static class SessionFuzz
             bool isWhole = failure is null && IsWhole();
             long strangersSent = strangers.Sum(p => network.Traffic(Number(p)).BytesSent - (28 * network.Traffic(Number(p)).DatagramsSent));
             long strangersGot = strangers.Sum(p => network.Traffic(Number(p)).BytesReceived - (28 * network.Traffic(Number(p)).DatagramsReceived));
-            failure ??= isFromStrangers && !isWhole ? $"Seed {seed}: a session came apart under datagrams of strangers and replays: {State()}."
-                : isProtected && !isWhole ? $"Seed {seed}: a protected session came apart under datagrams in its peers' names: {State()}."
-                : null;
+            string? whose = isFromStrangers ? "of strangers and replays" : isProtected ? "in its peers' names, though protected" : null;
+            failure ??= whose is not null && !isWhole ? $"Seed {seed}: a session came apart under datagrams {whose}: {State()}." : null;
             failure ??= held > MaxGrowth ? $"Seed {seed}: the memory of a living session grew by {held} bytes over its last {packets - (packets / 4)}"
                 + " packets." : null;
             failure ??= strangersGot > strangersSent ? $"Seed {seed}: strangers sent {strangersSent} bytes and got {strangersGot}." : null;

@@ -154,7 +154,8 @@ public sealed class StallProcessRun : IDisposable
     private StallProcess StartHost(int expected, double seconds)
     {
         StallProcess host = Run(
-            "host", "--scene", "billiards", "--joiners", Text(expected), "--budget", "0", "--port", port, "--identity", IdentityPath, "--for-s", Text(Math.Max(1, Math.Ceiling(seconds))), "--json");
+            "host", "--scene", "billiards", "--joiners", Text(expected), "--budget", "0", "--port", port,
+            "--identity", IdentityPath, "--for-s", Text(Math.Max(1, Math.Ceiling(seconds))), "--json");
         hosts.Add(host);
         return host;
     }

@@ -150,8 +150,8 @@ internal sealed class ClientProtocol : ISessionProtocol
             case DatagramType.Seat when counters.IsWellFormed(SeatDatagram.TryDecode(datagram, out SeatDatagram seat, out _)):
                 Seat.OnSeat(seat);
                 break;
-            case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery or DatagramType.Move
-                or DatagramType.SecureJoin:
+            case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery
+                or DatagramType.Move or DatagramType.SecureJoin:
                 counters.DatagramsIgnored++; // only a client sends these
                 break;
         }

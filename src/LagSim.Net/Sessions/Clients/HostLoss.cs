@@ -11,8 +11,8 @@ namespace LagSim.Net.Sessions.Clients;
 /// snapshot. Where rejoining is disabled or pointless, it ends the session.
 /// </summary>
 internal sealed class HostLoss(
-    JoinAttempts attempts, HostConnection connection, UnprovenAnswers unproven, SharedWorld world, SessionStatus status, SessionCounters counters,
-    IClock clock, ClientOptions options)
+    JoinAttempts attempts, HostConnection connection, UnprovenAnswers unproven, SharedWorld world, SessionStatus status,
+    SessionCounters counters, IClock clock, ClientOptions options)
 {
     private const int MaxFailedAttempts = 3;
 

@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics.CodeAnalysis;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
@@ -9,8 +10,8 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>Asks a host to let this peer in: connect request, cookie, join, and then a welcome or a refusal.</summary>
 internal sealed class JoinRequests(
-    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, UnprovenAnswers unproven, SharedWorld world, SessionStatus status,
-    DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
+    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, UnprovenAnswers unproven, SharedWorld world,
+    SessionStatus status, DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
     /// <summary>
     /// How many handshake messages are made or read a second, and at once: each costs an agreement or two. Only somebody on the path can
@@ -81,10 +82,8 @@ internal sealed class JoinRequests(
 
     internal void OnSecureWelcome(in SecureAnswerDatagram answer)
     {
-        if (attempts.Current is not { IsWelcome: false, Join.Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
-            || !handshakes.TrySpend(clock.Now))
+        if (!IsOfHandshake(answer, out JoinAttempt? attempt, out IClientHandshake? handshake))
         {
-            counters.DatagramsIgnored++;
             return;
         }
 
@@ -110,10 +109,8 @@ internal sealed class JoinRequests(
 
     internal void OnSecureRefusal(in SecureAnswerDatagram answer)
     {
-        if (attempts.Current is not { IsWelcome: false, Join.Handshake: IClientHandshake handshake } attempt || answer.Nonce != attempt.Nonce
-            || !handshakes.TrySpend(clock.Now))
+        if (!IsOfHandshake(answer, out _, out IClientHandshake? handshake))
         {
-            counters.DatagramsIgnored++;
             return;
         }
 
@@ -172,13 +169,28 @@ internal sealed class JoinRequests(
         RefusalReason.TokenDamaged => "that is not a valid connect token, or it was altered. Ask for another.",
         RefusalReason.TokenOfOtherIssuer => "the connect token is from another backend than this host's.",
         RefusalReason.TokenOfOtherHost => "the connect token is for another host. Ask for one for this host.",
-        RefusalReason.TokenExpired => $"the connect token's time was over {secondsOff} s ago, by the host's clock. Ask for another; if that is refused"
-            + " too, the clocks of host and backend differ.",
-        RefusalReason.TokenNotYetValid => $"the connect token's time begins in {secondsOff} s, by the host's clock: the clocks of host and backend"
-            + " differ.",
+        RefusalReason.TokenExpired => $"the connect token's time was over {secondsOff} s ago, by the host's clock. Ask for another;"
+            + " if that is refused too, the clocks of host and backend differ.",
+        RefusalReason.TokenNotYetValid => $"the connect token's time begins in {secondsOff} s, by the host's clock: the clocks of"
+            + " host and backend differ.",
         RefusalReason.TokenUsed => "a player came in with the connect token before. Ask for another.",
         _ => $"reason {(int)reason}.",
     };
+
+    /// <summary>Whether an answer may belong to the handshake that waits for one, and may be read now; if not, it is counted.</summary>
+    private bool IsOfHandshake(
+        in SecureAnswerDatagram answer, [NotNullWhen(true)] out JoinAttempt? attempt, [NotNullWhen(true)] out IClientHandshake? handshake)
+    {
+        attempt = attempts.Current;
+        handshake = attempt is { IsWelcome: false } && attempt.Nonce == answer.Nonce ? attempt.Join?.Handshake : null;
+        if (attempt is not null && handshake is not null && handshakes.TrySpend(clock.Now))
+        {
+            return true;
+        }
+
+        counters.DatagramsIgnored++;
+        return false;
+    }
 
     /// <summary>Makes the join that brings a cookie back, and the handshake with the host that sent it.</summary>
     private void Join(JoinAttempt attempt, in ChallengeDatagram challenge, SimTime now)
@@ -228,7 +240,9 @@ internal sealed class JoinRequests(
         status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;
     }
 
-    /// <summary>Handles a refusal in clear text: in a session without protection it counts, in a protected one it may be anybody's.</summary>
+    /// <summary>
+    /// Handles a refusal in clear text: in a session without protection it counts, in a protected one it may be anybody's.
+    /// </summary>
     private void TakeUnproven(ulong nonce, RefusalReason? reason, string why)
     {
         if (attempts.Current is not JoinAttempt attempt || nonce != attempt.Nonce)

@@ -69,7 +69,8 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
             counters.DatagramsIgnored += isRepeated ? 1 : 0;
             counters.DatagramsForged += isRepeated ? 0 : 1;
         }
-        else if (WireFormat.TryReadType(opened.AsSpan(0, length), out DatagramType type, out _) && (MustBeSealed(type) || type == DatagramType.Refusal))
+        else if (WireFormat.TryReadType(opened.AsSpan(0, length), out DatagramType type, out _)
+            && (MustBeSealed(type) || type == DatagramType.Refusal))
         {
             Pass(type, opened.AsSpan(0, length), from, isSealed: true);
         }

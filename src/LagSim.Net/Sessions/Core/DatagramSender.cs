@@ -31,7 +31,9 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
     /// <summary>Sends a datagram over a link.</summary>
     internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link) => Send(datagram, link, link.Other);
 
-    /// <summary>Sends a datagram of a link to an address that may not be the other end's. Over a link whose keys are wiped nothing goes.</summary>
+    /// <summary>
+    /// Sends a datagram of a link to an address that may not be the other end's. Over a link whose keys are wiped nothing goes.
+    /// </summary>
     internal void Send(ReadOnlySpan<byte> datagram, UpdateLink link, PeerAddress to)
     {
         if (link.Seal is { IsWiped: true })

@@ -14,8 +14,8 @@ namespace LagSim.Net.Sessions.Core;
 /// </summary>
 /// <remarks>
 /// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is valid for half a minute to a minute. The
-/// proof of a key is HMAC-SHA-256 over nonce, cookie and the host's identity with the key. Both are cut to 128 bits. A session id is HMAC-SHA-256 with the
-/// secret too, so a client cannot derive another's from its own. For one thread.
+/// proof of a key is HMAC-SHA-256 over nonce, cookie and the host's identity with the key. Both are cut to 128 bits. A session id is
+/// HMAC-SHA-256 with the secret too, so a client cannot derive another's from its own. For one thread.
 /// </remarks>
 internal sealed class JoinCookies : IDisposable
 {

@@ -107,7 +107,8 @@ internal sealed class HostProtocol : ISessionProtocol
             case DatagramType.Join when counters.IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
                 Handshake.OnJoin(join, from);
                 break;
-            case DatagramType.SecureJoin when counters.IsWellFormed(SecureJoinDatagram.TryDecode(datagram, out SecureJoinDatagram secure, out _)):
+            case DatagramType.SecureJoin when counters.IsWellFormed(
+                SecureJoinDatagram.TryDecode(datagram, out SecureJoinDatagram secure, out _)):
                 Handshake.OnJoin(secure, from);
                 break;
             case DatagramType.SnapshotRequest when counters.IsWellFormed(SnapshotRequestDatagram.TryDecode(datagram, out SnapshotRequestDatagram request, out _)):

@@ -43,11 +43,13 @@ internal sealed class JoinHandshake
         challenge = new AddressChallenge(PublicIdentity.Of(options.Protection), cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
-        server = new SnapshotServer(roster, new MachineRates(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst), challenge, parts.Sender, counters, clock);
+        MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
+        server = new SnapshotServer(roster, chunks, challenge, parts.Sender, counters, clock);
         JoinRules rules = new(parts.World.Scene!.Hash, BanList, Seating);
         WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
         Admission admission = new(
-            sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links, counters);
+            sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links,
+            counters);
         intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
         stray = new StrayReply(places, parts.Status, options.Protection, sender);
     }

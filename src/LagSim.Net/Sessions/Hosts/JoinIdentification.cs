@@ -7,8 +7,8 @@ using LagSim.Net.Wire;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// Finds out who a joining client is. A good token comes first. Where it is used or over, the pass counts: by it a client that lost its host
-/// comes back.
+/// Finds out who a joining client is. A good token comes first. Where it is used or over, the pass counts: by it a client that lost its
+/// host comes back.
 /// </summary>
 internal sealed class JoinIdentification(HostOptions options, PlayerPlaces places)
 {
@@ -26,14 +26,12 @@ internal sealed class JoinIdentification(HostOptions options, PlayerPlaces place
         TokenReading reading = token.IsEmpty ? default : protection.ReadToken(token);
         if (reading.Admission is PlayerAdmission admission)
         {
-            bool isOthers = admission.Number > 0 && (options.PlayerKeys.ContainsKey(admission.Number) || places.IsOfAnother(admission));
-            return new JoinIdentity(
-                key, admission.Number > 0 ? admission.Number : keyed, places.OfPlayer(admission.PlayerId), admission,
-                isOthers ? RefusalReason.Full : null, IsByToken: true);
+            byte number = admission.Number > 0 ? admission.Number : keyed;
+            return new JoinIdentity(key, number, places.OfPlayer(admission.PlayerId), admission, IsByToken: true);
         }
 
-        return claimed is not null ? new JoinIdentity(key, keyed, claimed, claimed.Admission)
-            : token.IsEmpty ? new JoinIdentity(key, keyed, null, Fault: RefusalReason.TokenMissing)
+        return claimed is not null || token.IsEmpty
+            ? new JoinIdentity(key, keyed, claimed, claimed?.Admission)
             : new JoinIdentity(key, keyed, null, Fault: ReasonOf(reading.Fault), SecondsOff: (uint)reading.Off.TotalSeconds);
     }
 

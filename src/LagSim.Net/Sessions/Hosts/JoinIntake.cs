@@ -93,7 +93,9 @@ internal sealed class JoinIntake(
         }
 
         using JoinReply reply = new(join.Nonce, from, by, handshake, sender);
-        if (counters.IsWellFormed(JoinDatagram.TryDecodeClaims(claims.Slice(0, WireFormat.JoinClaimBytes), join.Nonce, join.Cookie, out JoinDatagram claimed)))
+        bool isWellFormed = JoinDatagram.TryDecodeClaims(
+            claims.Slice(0, WireFormat.JoinClaimBytes), join.Nonce, join.Cookie, out JoinDatagram claimed);
+        if (counters.IsWellFormed(isWellFormed))
         {
             Decide(claimed, claims.Slice(WireFormat.JoinClaimBytes), from, reply);
         }

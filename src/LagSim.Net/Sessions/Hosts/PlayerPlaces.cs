@@ -45,9 +45,10 @@ internal sealed class PlayerPlaces
     internal Place? OfPlayer(string playerId, Place? except = null) =>
         System.Array.Find(places, place => place != except && place?.Admission?.PlayerId == playerId);
 
-    /// <summary>Whether another player than that has the number that its token gives.</summary>
+    /// <summary>Whether the number that a token gives is another player's: one that is in, or the owner of its key.</summary>
     internal bool IsOfAnother(PlayerAdmission admission) =>
-        places[admission.Number] is { IsTaken: true } place && place.Admission?.PlayerId != admission.PlayerId;
+        options.PlayerKeys.ContainsKey(admission.Number)
+        || (places[admission.Number] is { IsTaken: true } place && place.Admission?.PlayerId != admission.PlayerId);
 
     /// <summary>
     /// Returns the lowest number that is neither taken nor reserved, otherwise the one reserved longest; 0 if all are taken. Never a number

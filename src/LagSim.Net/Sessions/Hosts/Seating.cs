@@ -15,7 +15,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="sender">Sends them their numbers.</param>
 /// <param name="protection">Takes each connect token once; null in a session without protection.</param>
 /// <param name="maxOfOneMachine">The most clients that may be in from one machine.</param>
-internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, IHostProtection? protection, int maxOfOneMachine)
+internal sealed class Seating(
+    ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, IHostProtection? protection, int maxOfOneMachine)
 {
     /// <summary>Raised for each client that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
@@ -26,9 +27,14 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
     /// <param name="now">The time by the local clock.</param>
     internal RefusalReason? WhyNone(JoinIdentity who, PeerAddress from, SimTime now)
     {
+        if (protection is { RequiresToken: true } && !who.IsByToken && who.Claimed is null)
+        {
+            return RefusalReason.TokenMissing; // also for a pass that has become void since it was shown
+        }
+
         if (who.Keyed > 0)
         {
-            return null; // it has one
+            return who.Admission is not null && places.IsOfAnother(who.Admission) ? RefusalReason.Full : null; // it has one
         }
 
         // A client that proves to be an absent player has a number, but counts: otherwise a machine could collect passes, and then join
@@ -65,37 +71,18 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
             return reason;
         }
 
-        if (protection is { RequiresToken: true } && !who.IsByToken && claimed is null)
-        {
-            return RefusalReason.TokenMissing; // it came by a pass, which has become void since
-        }
-
-        if (who.IsByToken && who.Keyed > 0 && places.IsOfAnother(who.Admission!))
-        {
-            return RefusalReason.Full;
-        }
-
         if (who.IsByToken && protection?.TryUseToken(claim.Token) == false)
         {
             return RefusalReason.TokenUsed;
         }
 
         place ??= places[places.Free(now, claim.Wanted, address.Machine)];
-        while (who.IsByToken && places.OfPlayer(who.Admission!.PlayerId, except: place) is PlayerPlaces.Place other)
+        if (who.IsByToken)
         {
-            if (roster.Seated(other.Number) is Client elsewhere)
-            {
-                roster.Dismiss(elsewhere, LeaveReason.Replaced); // the same player, which has one place
-            }
-
-            other.Release();
+            ReleaseOthers(who.Admission!, place);
         }
 
-        if (roster.Seated(place.Number) is Client before)
-        {
-            roster.Dismiss(before, LeaveReason.Replaced); // its player joined from elsewhere
-        }
-
+        MakeRoom(place);
         client.Sit(place);
         if (claimed != place)
         {
@@ -109,10 +96,29 @@ internal sealed class Seating(ClientRoster roster, PlayerPlaces places, WorkBudg
     }
 
     /// <summary>
-    /// Whether a client that is in has restarted, if one joins from its address. Only without protection: somebody on the path can join from
-    /// anyone's address, and a protected link is known by its keys.
+    /// Whether a client that is in has restarted, if one joins from its address. Only without protection: somebody on the path can join
+    /// from anyone's address, and a protected link is known by its keys.
     /// </summary>
     private static bool IsRestarted(Client client, PeerAddress from) => client.Link.Seal is null && client.Link.Other == from;
+
+    /// <summary>Gives up all places of a player but the one that it gets: it has one.</summary>
+    private void ReleaseOthers(PlayerAdmission admission, PlayerPlaces.Place own)
+    {
+        while (places.OfPlayer(admission.PlayerId, except: own) is PlayerPlaces.Place other)
+        {
+            MakeRoom(other);
+            other.Release();
+        }
+    }
+
+    /// <summary>Lets the client go that has a place: its player joined from elsewhere.</summary>
+    private void MakeRoom(PlayerPlaces.Place place)
+    {
+        if (roster.Seated(place.Number) is Client before)
+        {
+            roster.Dismiss(before, LeaveReason.Replaced);
+        }
+    }
 
     /// <summary>Sends a client its number.</summary>
     internal void Tell(Client client)

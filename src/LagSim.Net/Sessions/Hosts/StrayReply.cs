@@ -32,8 +32,8 @@ internal sealed class StrayReply(PlayerPlaces places, SessionStatus status, IHos
     }
 
     /// <summary>
-    /// The key by which a host proves to the client with that session id that it does not have it any more. The host's address is part of it:
-    /// another host with the same identity has another port, and cannot be made to say it of this one's clients.
+    /// The key by which a host proves to the client with that session id that it does not have it any more. The host's address is part of
+    /// it: another host with the same identity has another port, and cannot be made to say it of this one's clients.
     /// </summary>
     internal static Token128 Key(IHostProtection protection, ulong sessionId, PeerAddress host)
     {
