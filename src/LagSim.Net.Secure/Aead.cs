@@ -2,7 +2,7 @@ using System;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>ChaCha20-Poly1305 (RFC 8439) with one key: by the system where it has that cipher, otherwise by Bouncy Castle.</summary>
+/// <summary>ChaCha20-Poly1305 (RFC 8439) with one key: by libsodium where it runs, otherwise by Bouncy Castle.</summary>
 /// <remarks>
 /// Both give the same bytes. A nonce is 32 zero bits and a number, little-endian, as Noise's ChaChaPoly has it. For one thread.
 /// </remarks>
@@ -18,9 +18,9 @@ internal abstract class Aead : IDisposable
     internal static Aead Of(ReadOnlySpan<byte> key)
     {
 #if NET10_0_OR_GREATER
-        if (System.Security.Cryptography.ChaCha20Poly1305.IsSupported)
+        if (SodiumAead.IsSupported)
         {
-            return new SystemAead(key);
+            return new SodiumAead(key);
         }
 #endif
         return new BouncyCastleAead(key);

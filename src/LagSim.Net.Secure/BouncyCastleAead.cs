@@ -6,7 +6,7 @@ using Org.BouncyCastle.Crypto.Parameters;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>Bouncy Castle's ChaCha20-Poly1305, for runtimes whose system has none: Mono, browsers.</summary>
+/// <summary>Bouncy Castle's ChaCha20-Poly1305, for runtimes without libsodium: Mono, Unity, browsers.</summary>
 internal sealed class BouncyCastleAead : Aead
 {
     private readonly Org.BouncyCastle.Crypto.Modes.ChaCha20Poly1305 cipher = new();

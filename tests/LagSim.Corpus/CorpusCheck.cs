@@ -4,6 +4,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
+using System.Runtime.CompilerServices;
 using System.Runtime.InteropServices;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
@@ -55,7 +56,10 @@ public static class CorpusCheck
     /// <summary>Which runtime this is, on which processor, and which builds of the library it runs.</summary>
     public static string Runtime()
     {
-        string name = Type.GetType("Mono.Runtime") is null ? "CoreCLR" : "Mono";
+        string name = Type.GetType("Mono.Runtime") is not null ? "Mono"
+            : RuntimeInformation.ProcessArchitecture.ToString() == "Wasm" ? "WebAssembly" // an enum of netstandard2.1 does not know it
+            : !RuntimeFeature.IsDynamicCodeSupported ? "NativeAOT"
+            : "CoreCLR";
         string version = RuntimeInformation.FrameworkDescription.Split('(')[0].Trim();
         string world = Build(typeof(Simulation)), net = Build(typeof(Recording));
         return $"{name} {RuntimeInformation.ProcessArchitecture} ({version}), library {(world == net ? world : $"{world} and {net}")}";

@@ -5,10 +5,10 @@ using Xunit;
 
 namespace LagSim.Tests.Protection;
 
-/// <summary>The primitives against the vectors of their standards, by the system and by Bouncy Castle.</summary>
+/// <summary>The primitives against the vectors of their standards, by libsodium and by Bouncy Castle.</summary>
 public sealed class AeadVectorTests
 {
-    public static IEnumerable<TheoryDataRow<string>> Makers => [new("system"), new("Bouncy Castle")];
+    public static IEnumerable<TheoryDataRow<string>> Makers => [new("libsodium"), new("Bouncy Castle")];
 
     /// <summary>RFC 8439, A.5: a nonce whose first 32 bits are 0, as all of ours are.</summary>
     [Theory]
@@ -57,7 +57,7 @@ public sealed class AeadVectorTests
     }
 
     [Fact]
-    public void Seal_BySystemAndByBouncyCastle_GivesTheSameBytes()
+    public void Seal_ByLibsodiumAndByBouncyCastle_GivesTheSameBytes()
     {
         Random random = new(6);
         for (int n = 0; n < 100; n++)
@@ -65,9 +65,9 @@ public sealed class AeadVectorTests
             byte[] key = new byte[32], plain = new byte[random.Next(0, 1178)], ad = new byte[random.Next(0, 40)];
             random.NextBytes(key);
             random.NextBytes(plain);
-            using Aead system = Make("system", key), castle = Make("Bouncy Castle", key);
+            using Aead sodium = Make("libsodium", key), castle = Make("Bouncy Castle", key);
             byte[] one = new byte[plain.Length + Aead.TagBytes], other = new byte[plain.Length + Aead.TagBytes];
-            system.Seal((ulong)n, ad, plain, one);
+            sodium.Seal((ulong)n, ad, plain, one);
             castle.Seal((ulong)n, ad, plain, other);
             Assert.Equal(one, other);
         }
@@ -87,5 +87,5 @@ public sealed class AeadVectorTests
         Assert.Equal(mine, its);
     }
 
-    private static Aead Make(string maker, byte[] key) => maker == "system" ? new SystemAead(key) : new BouncyCastleAead(key);
+    private static Aead Make(string maker, byte[] key) => maker == "libsodium" ? new SodiumAead(key) : new BouncyCastleAead(key);
 }

@@ -103,6 +103,34 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
         }
     }
 
+    /// <summary>Thousands of machines, each within its own limit, have no more read than the limit of all allows.</summary>
+    [Fact]
+    public void Handshakes_OfThousandsOfMachines_AreReadAsOftenAsTheLimitOfAllAllows()
+    {
+        const int machines = 1000, each = 4;
+        foreach ((double ofAll, int read) in new[] { (500, 500), (1e9, machines * each) })
+        {
+            CountingProtection protection = new(new SecureHost(identity));
+            SessionGroup group = new(
+                ScriptedActions.Box(), 1, LinkProfiles.PureDelay(10), expected: 0, options: _ => new HostOptions
+                {
+                    Protection = protection, JoinLimits = new() { HandshakesPerSecondOfAll = ofAll },
+                });
+            group.Run(1);
+            Attacker[] attackers = [.. Enumerable.Range(0, machines).Select(n => new Attacker(group, 500 + n))];
+            Array.ForEach(attackers, attacker => attacker.AskForACookie());
+            group.Run(0.2);
+            Random random = new(3);
+            for (int n = 0; n < each; n++)
+            {
+                Array.ForEach(attackers, attacker => attacker.Send(random, "joins of machines that are there"));
+            }
+
+            group.Run(0.2);
+            Assert.Equal(read, protection.Reads);
+        }
+    }
+
     private sealed class Attacker
     {
         private readonly IDatagramPort port;

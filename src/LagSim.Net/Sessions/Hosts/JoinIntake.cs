@@ -2,6 +2,7 @@ using System;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -9,7 +10,7 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
 /// Takes joins whose cookie is good: repeats the answer to one that comes again, and has a new one decided on. In a protected session it
-/// reads the handshake first, a few a second from each machine.
+/// reads the handshake first, a few a second from each machine and not too many from all.
 /// </summary>
 internal sealed class JoinIntake(
     HostOptions options, AddressChallenge challenge, ClientRoster roster, Admission admission, DatagramSender sender,
@@ -17,6 +18,7 @@ internal sealed class JoinIntake(
 {
     private readonly IHostProtection? protection = options.Protection;
     private readonly MachineRates handshakes = new(options.JoinLimits.HandshakesPerSecond, options.JoinLimits.HandshakeBurst);
+    private readonly RateLimit ofAll = new(options.JoinLimits.HandshakesPerSecondOfAll, options.JoinLimits.HandshakesPerSecondOfAll, clock.Now);
 
     /// <summary>Takes a join in clear text.</summary>
     internal void OnJoin(in JoinDatagram join, PeerAddress from)
@@ -78,7 +80,7 @@ internal sealed class JoinIntake(
 
     private void Read(in SecureJoinDatagram join, PeerAddress from, IHostProtection by)
     {
-        if (!handshakes.TrySpend(from, clock.Now))
+        if (!handshakes.TrySpend(from, clock.Now) || !ofAll.TrySpend(clock.Now))
         {
             counters.DatagramsIgnored++; // it asks again
             return;

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Links;
@@ -12,13 +13,17 @@ namespace LagSim.Net.Sessions.Hosts;
 /// </remarks>
 internal sealed class MachineRates
 {
-    /// <summary>The number of machines above which those with a full limit are looked for.</summary>
+    /// <summary>
+    /// The number of machines from which on those with a full limit are looked for; then at twice what is left of them, so that a flood
+    /// of machines costs little for each.
+    /// </summary>
     private const int Many = 64;
 
     private readonly Dictionary<PeerAddress, RateLimit> limits = new();
     private readonly List<PeerAddress> rested = new();
     private readonly double perSecond;
     private readonly int burst;
+    private int lookAt = Many;
 
     /// <param name="perSecond">How often a second.</param>
     /// <param name="burst">How often at once after a pause.</param>
@@ -46,7 +51,7 @@ internal sealed class MachineRates
 
     private void Forget(SimTime now)
     {
-        if (limits.Count < Many)
+        if (limits.Count < lookAt)
         {
             return;
         }
@@ -64,5 +69,7 @@ internal sealed class MachineRates
         {
             limits.Remove(machine);
         }
+
+        lookAt = Math.Max(Many, 2 * limits.Count);
     }
 }
