@@ -31,13 +31,14 @@ internal static class DropCommand
         Option<string> time = CommonOptions.Time("real");
         Option<string> transport = CommonOptions.Word("--transport", "What carries the datagrams in real time; in virtual time they only cross the simulated"
             + " link.", Carrier.Udp.Name, CarrierChoice.Names);
+        Option<bool> unprotected = ProtectionOptions.UnprotectedExperiment();
         Option<double> height = CommonOptions.Number("--height-m", "The height from which the ball's centre falls", 10, 0.5, 1e6);
         Option<double> second = CommonOptions.Number("--second-height-m", "The height to which it is lifted", 15, 0.5, 1e6);
         Option<double> restitution = CommonOptions.Number("--restitution", "Restitution of ball and floor", 0.8, 0, 1);
 
         Command command = new("drop", "The thesis's drop test: two instances of a world, a ball that falls, and one side that lifts it.")
         {
-            which, strategy, displayDelay, motion, rate, delay, profile, peers, time, transport, height, second, restitution,
+            which, strategy, displayDelay, motion, rate, delay, profile, peers, time, transport, unprotected, height, second, restitution,
         };
         common.AddTo(command);
         command.SetAction(parsed =>
@@ -56,6 +57,7 @@ internal static class DropCommand
                 Peers = parsed.GetValue(peers),
                 IsVirtual = parsed.GetValue(time) == "virtual",
                 Carrier = CarrierChoice.Of(parsed.GetValue(transport)!),
+                IsProtected = !parsed.GetValue(unprotected),
                 HeightMetres = parsed.GetValue(height),
                 SecondHeightMetres = parsed.GetValue(second),
                 Restitution = parsed.GetValue(restitution),
@@ -74,7 +76,7 @@ internal static class DropCommand
             OutputFolder.ThrowIfNotWritable(folder); // report this before half a minute of work
         }
 
-        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier.Name}";
+        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier.Name}{ProtectionText.Of(options.IsProtected)}";
         IReadOnlyList<DropRun> runs = console.WithProgress(
             title, options.Length.ToSeconds(), progress => DropTest.Run(options, done => progress(done.ToSeconds())));
 

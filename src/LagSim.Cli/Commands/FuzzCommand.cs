@@ -17,7 +17,7 @@ internal static class FuzzCommand
         Option<double> length = CommonOptions.Number("--for-s", "How long to flood in real time", 10, 0.1, 86_400);
         Option<bool> isProtected = new("--protected")
         {
-            Description = "In virtual time: protect the sessions. Then not even datagrams with the peers' own addresses may disturb one.",
+            Description = "Protect the sessions. Then not even datagrams with the peers' own addresses may disturb one.",
         };
         Command command = new("fuzz", "Sends hostile datagrams at sessions; nothing may throw, and no stranger may end a session.")
         {
@@ -32,7 +32,7 @@ internal static class FuzzCommand
             if (parsed.GetValue(time) == "real")
             {
                 long most = parsed.GetResult(packets)?.Implicit == false ? count : long.MaxValue;
-                return Flood(console, parsed.GetValue(length), most, seed, parsed.GetValue(common.Json));
+                return Flood(console, parsed.GetValue(length), most, seed, parsed.GetValue(isProtected), parsed.GetValue(common.Json));
             }
 
             FuzzReport report = console.WithProgress("fuzz", count, progress => SessionFuzz.Run(
@@ -51,9 +51,10 @@ internal static class FuzzCommand
         return command;
     }
 
-    private static int Flood(ToolConsole console, double seconds, long packets, ulong seed, bool asJson)
+    private static int Flood(ToolConsole console, double seconds, long packets, ulong seed, bool isProtected, bool asJson)
     {
-        FloodReport report = console.WithProgress("flood", seconds, progress => RealFlood.Run(seconds, packets, seed, progress, console.Stop));
+        FloodReport report = console.WithProgress(
+            "flood", seconds, progress => RealFlood.Run(seconds, packets, seed, isProtected, progress, console.Stop));
         CultureInfo culture = CultureInfo.InvariantCulture;
         if (asJson)
         {
@@ -62,11 +63,14 @@ internal static class FuzzCommand
                 json.WriteNumber("flood_s", report.Seconds);
                 json.WriteNumber("garbage_sent", report.GarbageSent);
                 json.WriteNumber("replays_sent", report.ReplaysSent);
+                json.WriteNumber("joins_sent", report.JoinsSent);
                 json.WriteNumber("received", report.Received);
                 json.WriteNumber("malformed", report.Malformed);
                 json.WriteNumber("ignored", report.Ignored);
+                json.WriteNumber("forged", report.Forged);
                 json.WriteNumber("events_done", report.EventsDone);
                 json.WriteNumber("events_agreed", report.EventsAgreed);
+                JsonDocumentWriter.Number(json, "join_s", report.JoinSeconds);
                 json.WriteNumber("retained_bytes", report.RetainedBytes);
                 json.WriteNumber("max_lateness_ms", report.MaxLatenessMilliseconds);
                 json.WriteString("failure", report.Failure);
@@ -75,9 +79,11 @@ internal static class FuzzCommand
         else
         {
             console.Output.WriteLine(string.Create(culture, $"{report.GarbageSent:N0} datagrams of garbage and {report.ReplaysSent:N0} replayed ones in"
-                + $" {report.Seconds:0.0} s at a host and a client"));
+                + $" {report.Seconds:0.0} s at a host and a client, and {report.JoinsSent:N0} of joins at the host"));
             console.Output.WriteLine(string.Create(culture, $"taken in {report.Received:N0}, refused by a decoder {report.Malformed:N0}, ignored"
-                + $" {report.Ignored:N0}"));
+                + $" {report.Ignored:N0}, forged {report.Forged:N0}"));
+            console.Output.WriteLine(string.Create(
+                culture, $"a client that joined meanwhile {(report.JoinSeconds is double took ? $"was in after {took:0.00} s" : "did not get in")}"));
             console.Output.WriteLine(string.Create(culture, $"{report.EventsAgreed} of {report.EventsDone} events that the two did meanwhile are on both;"
                 + $" memory grew by {report.RetainedBytes:N0} bytes; a world was at most {report.MaxLatenessMilliseconds:0.0} ms behind"));
             console.Output.WriteLine(report.Failure ?? "The session went on, and both have the same world.");

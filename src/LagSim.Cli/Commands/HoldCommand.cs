@@ -48,12 +48,13 @@ internal static class HoldCommand
             "--knot-distance-m", "How far off the others' view of the hand may be before the hand sends where it is", new HandSenderOptions().Distance, 1e-6, 1);
         Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that arrives late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
         Option<double> displayDelay = CommonOptions.DisplayDelay();
+        Option<bool> unprotected = ProtectionOptions.UnprotectedExperiment();
         Option<int> peers = CommonOptions.Whole("--peers", "How many peers, the host included", 2, 2, 9);
 
         Command command = new("hold", "A hand holds and throws a ball, which others see late: reports what they see of it at each delay, and how well a hand"
             + " can be predicted (Fig 4, 5).")
         {
-            input, delay, profile, time, hold, distance, strategy, displayDelay, peers,
+            input, delay, profile, time, hold, distance, strategy, displayDelay, peers, unprotected,
         };
         common.AddTo(command);
         command.SetAction(parsed =>
@@ -72,6 +73,7 @@ internal static class HoldCommand
                 DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(displayDelay)),
                 Peers = parsed.GetValue(peers),
                 IsVirtual = isVirtual,
+                IsProtected = !parsed.GetValue(unprotected),
                 Seed = seed,
                 Cancellation = console.Stop,
             };
@@ -96,7 +98,7 @@ internal static class HoldCommand
         double each = options[0].Length.ToSeconds();
         string title = options[0].IsVirtual
             ? $"hold, {motion.Name} motion, virtual time"
-            : string.Create(CultureInfo.InvariantCulture, $"hold, {motion.Name} motion, {each:0} s in real time over udp, {options[0].Link.Name} alone");
+            : string.Create(CultureInfo.InvariantCulture, $"hold, {motion.Name} motion, {each:0} s in real time over udp{ProtectionText.Of(options[0].IsProtected)}, {options[0].Link.Name} alone");
         List<HoldRun> runs = console.WithProgress(
             title,
             each * options.Length,

@@ -4,7 +4,7 @@ using LagSim.Net.Protection;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>How <c>lagsim host</c> and <c>lagsim join</c> protect a session: they do, unless they are told not to.</summary>
+/// <summary>How the tool protects sessions over real sockets: it does, unless it is told not to.</summary>
 internal static class ProtectionOptions
 {
     /// <summary>The option that turns protection off.</summary>
@@ -12,6 +12,12 @@ internal static class ProtectionOptions
     {
         Description = "Encrypt and authenticate nothing. Anyone on the path can then read, change and forge what is sent. Both ends must say"
             + " so.",
+    };
+
+    /// <summary>The same for experiments that have both ends in this process.</summary>
+    internal static Option<bool> UnprotectedExperiment() => new("--unprotected")
+    {
+        Description = "In real time: encrypt and authenticate nothing, to compare what protection costs. In virtual time nothing is in any case.",
     };
 
     /// <summary>Says loudly that a session is not protected.</summary>

@@ -54,7 +54,7 @@ internal static class HoldTables
     internal static string Introduction(HoldReport report)
     {
         HoldOptions options = report.Runs[0].Options;
-        string time = options.IsVirtual ? "virtual time" : $"real time over {Carrier.Udp.Name}, {options.Link.Name} alone";
+        string time = options.IsVirtual ? "virtual time" : $"real time over {Carrier.Udp.Name}{ProtectionText.Of(options.IsProtected)}, {options.Link.Name} alone";
         string hand = FormattableString.Invariant($"{report.Motion.Name} motion of a hand, {report.Motion.Seconds:0.#} s, at most {NumberText.Short(report.Motion.LargestAcceleration())} m/s^2");
         return FormattableString.Invariant($"{hand}; {options.Strategy}, {options.Peers} peers, the ball is held for {options.HoldSeconds:0.##} s and thrown, {time}");
     }

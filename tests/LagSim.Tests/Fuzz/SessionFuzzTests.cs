@@ -27,14 +27,18 @@ public sealed class SessionFuzzTests
         Assert.True(report.StrangerBytesReceived > 0);
     }
 
-    [Fact]
-    public void Flood_OfTwentyThousandOverRealSockets_IsSurvived()
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Flood_OfTwentyThousandOverRealSockets_IsSurvived(bool isProtected)
     {
-        FloodReport report = RealFlood.Run(30, 20_000, 1, null, CancellationToken.None);
+        FloodReport report = RealFlood.Run(30, 20_000, 1, isProtected, null, CancellationToken.None);
         Assert.True(report.Failure is null, report.Failure);
-        Assert.True(report.GarbageSent + report.ReplaysSent >= 20_000 && report.ReplaysSent > 5_000, $"{report}");
+        Assert.True(report.GarbageSent + report.ReplaysSent + report.JoinsSent >= 20_000 && report.ReplaysSent > 5_000, $"{report}");
         Assert.True(report.Malformed > 100 && report.Ignored > 1_000, $"{report}");
         Assert.Equal(report.EventsDone, report.EventsAgreed);
+        Assert.Equal(isProtected, report.Forged > 10);
+        Assert.NotNull(report.JoinSeconds);
         Assert.NotEqual(0, report.RetainedBytes); // it was looked at
     }
 
@@ -49,7 +53,7 @@ public sealed class SessionFuzzTests
     [Fact]
     public void Flood_OfPeersThatKeepSomethingOfEachDatagram_IsSeenToFail()
     {
-        FloodReport report = RealFlood.Run(30, 20_000, 1, null, port => new LeakingPort(port), CancellationToken.None);
+        FloodReport report = RealFlood.Run(30, 20_000, 1, isProtected: false, null, port => new LeakingPort(port), CancellationToken.None);
         Assert.Matches("^Memory grew by [0-9]{8,} bytes during the flood.$", report.Failure);
     }
 

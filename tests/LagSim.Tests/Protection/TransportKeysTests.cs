@@ -131,13 +131,16 @@ public sealed class TransportKeysTests
     }
 
     /// <summary>
-    /// Of two million changed datagrams not one is taken, and the link goes on: bits flipped, bytes set, cut, made longer, joined with
+    /// Of two million changed datagrams not one is taken, by host or client, and the link goes on: bits flipped, bytes set, cut, made longer, joined with
     /// others, at random and at each place.
     /// </summary>
-    [Fact]
-    public void Open_TwoMillionMutations_TakesNoneAndGoesOn()
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Open_TwoMillionMutations_TakesNoneAndGoesOn(bool atHost)
     {
-        (LinkSeal a, LinkSeal b) = Link();
+        (LinkSeal client, LinkSeal host) = Link();
+        (LinkSeal a, LinkSeal b) = atHost ? (client, host) : (host, client);
         Random random = new(20261127);
         byte[] buffer = new byte[WireFormat.MaxBytes], opened = new byte[WireFormat.MaxBytes], datagram = new byte[90];
         new LeaveDatagram(7, 1, LeaveReason.Left).Encode(datagram);

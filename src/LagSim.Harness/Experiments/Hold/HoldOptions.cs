@@ -54,6 +54,9 @@ public sealed record HoldOptions(HandMotion Motion)
     /// <summary>Whether it runs in virtual time; else over real UDP.</summary>
     public bool IsVirtual { get; init; } = true;
 
+    /// <summary>Whether the session is protected; in virtual time none is.</summary>
+    public bool IsProtected { get; init; } = true;
+
     /// <summary>The seed of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;
 

@@ -46,6 +46,7 @@ public static class HoldTest
         {
             DisplayDelay = options.DisplayDelay,
             Cancellation = options.Cancellation,
+            IsProtected = options.IsProtected,
             StartLead = StartLead,
         };
         Scene scene = HoldOptions.BuildScene();

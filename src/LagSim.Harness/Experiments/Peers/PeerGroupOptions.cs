@@ -33,6 +33,9 @@ public sealed record PeerGroupOptions(
     /// <summary>The carrier of datagrams in real time.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
 
+    /// <summary>Whether sessions in real time are protected; default true. In virtual time none is: its datagrams leave no process.</summary>
+    public bool IsProtected { get; init; } = true;
+
     /// <summary>
     /// Cancels a run in virtual time, in mid-step if need be, with an <see cref="System.OperationCanceledException"/>; default none. In
     /// real time the progress callback may end it with an exception.

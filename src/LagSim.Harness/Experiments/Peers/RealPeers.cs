@@ -7,6 +7,7 @@ using LagSim.Events;
 using LagSim.Harness.Relays;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
@@ -36,6 +37,7 @@ public sealed class RealPeers : PeerGroup
     private readonly CountingPort[] ports;
     private readonly DelayedPort[] delayed;
     private readonly PeerThread[] threads;
+    private readonly HostIdentity identity = HostIdentity.Draw();
     private volatile Exception? handlerFailure;
     private bool finished;
 
@@ -57,12 +59,16 @@ public sealed class RealPeers : PeerGroup
             ports[peer] = counting;
             int receiver = peer;
             DelayedPort port = delayed[peer] = new DelayedPort(counting, trueTime, from => LinkTo(receiver, from));
-            HostOptions session = options.ToHostOptions();
+            HostOptions session = options.ToHostOptions() with { Protection = options.IsProtected ? new SecureHost(identity) : null };
+            ClientOptions joining = ClientOptions.From(session) with
+            {
+                Protection = options.IsProtected ? new SecureClient(identity.Fingerprint) : null,
+            };
             ulong number = (ulong)Stopwatch.GetTimestamp();
             threads[peer] = new PeerThread(
                 peer == 0
                     ? new HostSession(scene, port, own, session, number)
-                    : new ClientSession(scene, port, own, ClientOptions.From(session), ports[0].LocalAddress, number),
+                    : new ClientSession(scene, port, own, joining, ports[0].LocalAddress, number),
                 port,
                 $"LagSim peer {peer}");
             threads[peer].Session.HandlerFailed += failure => handlerFailure ??= failure;
@@ -166,6 +172,8 @@ public sealed class RealPeers : PeerGroup
         {
             port.Dispose();
         }
+
+        identity.Dispose();
     }
 
     /// <summary>
