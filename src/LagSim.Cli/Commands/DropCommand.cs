@@ -56,8 +56,7 @@ internal static class DropCommand
                 DelayMilliseconds = parsed.GetValue(profile) is null ? parsed.GetValue(delay) ?? DefaultDelay : null,
                 Peers = parsed.GetValue(peers),
                 IsVirtual = parsed.GetValue(time) == "virtual",
-                Carrier = CarrierChoice.Of(parsed.GetValue(transport)!),
-                IsProtected = !parsed.GetValue(unprotected),
+                Carrier = CarrierChoice.Of(parsed.GetValue(transport)!) with { IsProtected = !parsed.GetValue(unprotected) },
                 HeightMetres = parsed.GetValue(height),
                 SecondHeightMetres = parsed.GetValue(second),
                 Restitution = parsed.GetValue(restitution),
@@ -76,7 +75,7 @@ internal static class DropCommand
             OutputFolder.ThrowIfNotWritable(folder); // report this before half a minute of work
         }
 
-        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier.Name}{ProtectionText.Of(options.IsProtected)}";
+        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier}";
         IReadOnlyList<DropRun> runs = console.WithProgress(
             title, options.Length.ToSeconds(), progress => DropTest.Run(options, done => progress(done.ToSeconds())));
 

@@ -6,6 +6,7 @@ using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Experiments.Hands;
 using LagSim.Harness.Experiments.Hold;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 using LagSim.Testing.Links;
@@ -73,7 +74,7 @@ internal static class HoldCommand
                 DisplayDelay = SimDuration.FromMilliseconds(parsed.GetValue(displayDelay)),
                 Peers = parsed.GetValue(peers),
                 IsVirtual = isVirtual,
-                IsProtected = !parsed.GetValue(unprotected),
+                Carrier = Carrier.Udp with { IsProtected = !parsed.GetValue(unprotected) },
                 Seed = seed,
                 Cancellation = console.Stop,
             };
@@ -98,7 +99,7 @@ internal static class HoldCommand
         double each = options[0].Length.ToSeconds();
         string title = options[0].IsVirtual
             ? $"hold, {motion.Name} motion, virtual time"
-            : string.Create(CultureInfo.InvariantCulture, $"hold, {motion.Name} motion, {each:0} s in real time over udp{ProtectionText.Of(options[0].IsProtected)}, {options[0].Link.Name} alone");
+            : string.Create(CultureInfo.InvariantCulture, $"hold, {motion.Name} motion, {each:0} s in real time over {options[0].Carrier}, {options[0].Link.Name} alone");
         List<HoldRun> runs = console.WithProgress(
             title,
             each * options.Length,

@@ -59,7 +59,7 @@ internal static class CompareJson
         MotionLaw[] laws = run.Options.Scene.Bodies.Select(body => body.Spec.Flight).Distinct().ToArray();
         json.WriteStartObject();
         RunJson.Setting(
-            json, "plan", run.Options.Strategy, laws.Length == 1 ? MotionNames.Of(laws[0]) : null, "virtual", "virtual", false, run.Options.Link.Name, null, run.Options.Peers);
+            json, "plan", run.Options.Strategy, laws.Length == 1 ? MotionNames.Of(laws[0]) : null, "virtual", "virtual", run.Options.Link.Name, null, run.Options.Peers);
         RunJson.Figures(json, run, null);
         RunJson.Percentiles(json, "time_to_heal_ms", run.TimeToHeal);
         RunJson.MeanAndTail(json, "events_rerun", run.EventsRerun);

@@ -21,7 +21,7 @@ internal static class DropTables
         console.Output.WriteLine($"lagsim {ToolVersion.Text}   drop   seed {options.Seed}   scene {JsonDocumentWriter.Hash(runs[0].SceneHash)}");
         console.Output.WriteLine(
             $"{options.Strategy}, {MotionNames.Of(options.Motion)}, {options.Peers} peers, {options.Link.Name},"
-                + $" {(options.IsVirtual ? "virtual time" : $"real time over {options.Carrier.Name}{ProtectionText.Of(options.IsProtected)}")}");
+                + $" {(options.IsVirtual ? "virtual time" : $"real time over {options.Carrier}")}");
         foreach (DropRun run in runs)
         {
             WritePicture(console, run);

@@ -42,7 +42,6 @@ internal static class HoldJson
         json.WriteStartObject();
         RunJson.Setting(
             json, "hold", run.Options.Strategy, MotionNames.Of(MotionLaw.RungeKutta4), HoldTables.Time(run.Options), HoldTables.Transport(run.Options),
-            run.Options.IsProtected && !run.Options.IsVirtual,
             run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null, run.Options.DelayMilliseconds, run.Options.Peers);
         RunJson.Figures(json, run, run.CpuCoresAtRest);
         json.WriteString("truth_state_hash", JsonDocumentWriter.Hash(run.TruthStateHash));

@@ -5,7 +5,6 @@ using System.Linq;
 using LagSim.Harness.Experiments.Hands;
 using LagSim.Harness.Experiments.Hold;
 using LagSim.Harness.Experiments.Metrics;
-using LagSim.Harness.Experiments.Peers;
 using LagSim.Harness.Reports;
 using LagSim.Net.Display;
 using LagSim.Net.Strategies;
@@ -54,7 +53,7 @@ internal static class HoldTables
     internal static string Introduction(HoldReport report)
     {
         HoldOptions options = report.Runs[0].Options;
-        string time = options.IsVirtual ? "virtual time" : $"real time over {Carrier.Udp.Name}{ProtectionText.Of(options.IsProtected)}, {options.Link.Name} alone";
+        string time = options.IsVirtual ? "virtual time" : $"real time over {options.Carrier}, {options.Link.Name} alone";
         string hand = FormattableString.Invariant($"{report.Motion.Name} motion of a hand, {report.Motion.Seconds:0.#} s, at most {NumberText.Short(report.Motion.LargestAcceleration())} m/s^2");
         return FormattableString.Invariant($"{hand}; {options.Strategy}, {options.Peers} peers, the ball is held for {options.HoldSeconds:0.##} s and thrown, {time}");
     }
@@ -111,7 +110,7 @@ internal static class HoldTables
     internal static string Time(HoldOptions options) => options.IsVirtual ? "virtual" : "real";
 
     /// <summary>The name of the carrier. In virtual time there is no socket.</summary>
-    internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : Carrier.Udp.Name;
+    internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : options.Carrier.Name;
 
     internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"client {place}");
 

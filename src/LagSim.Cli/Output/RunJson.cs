@@ -11,15 +11,13 @@ internal static class RunJson
 {
     /// <summary>The keys that every run begins with: what was run.</summary>
     internal static void Setting(
-        Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, bool isProtected, string? profile,
-        double? delay, int peers)
+        Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay, int peers)
     {
         json.WriteString("case", which);
         json.WriteString("strategy", strategy);
         json.WriteString("motion", motion);
         json.WriteString("time", time);
         json.WriteString("transport", transport);
-        json.WriteBoolean("protected", isProtected);
         json.WriteString("profile", profile);
         JsonDocumentWriter.Number(json, "delay_ms", delay);
         json.WriteNumber("peers", peers);

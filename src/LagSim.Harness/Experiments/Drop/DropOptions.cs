@@ -51,9 +51,6 @@ public sealed record DropOptions
     /// <summary>The carrier of datagrams in real time.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
 
-    /// <summary>Whether the session is protected; in virtual time none is.</summary>
-    public bool IsProtected { get; init; } = true;
-
     /// <summary>The height from which the ball's centre falls at first, in metres.</summary>
     public double HeightMetres { get; init; } = 10;
 

@@ -31,7 +31,6 @@ public static class DropTest
             Carrier = options.Carrier,
             DisplayDelay = options.DisplayDelay,
             Cancellation = options.Cancellation,
-            IsProtected = options.IsProtected,
         };
         using PeerGroup peers = options.IsVirtual ? new VirtualPeers(scene, group) : new RealPeers(scene, group);
         peers.Connect();

@@ -1,6 +1,7 @@
 using System;
 using System.Threading;
 using LagSim.Harness.Experiments.Hands;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 using LagSim.Scenes;
@@ -54,8 +55,8 @@ public sealed record HoldOptions(HandMotion Motion)
     /// <summary>Whether it runs in virtual time; else over real UDP.</summary>
     public bool IsVirtual { get; init; } = true;
 
-    /// <summary>Whether the session is protected; in virtual time none is.</summary>
-    public bool IsProtected { get; init; } = true;
+    /// <summary>The carrier of datagrams in real time.</summary>
+    public Carrier Carrier { get; init; } = Carrier.Udp;
 
     /// <summary>The seed of links and clocks.</summary>
     public ulong Seed { get; init; } = 1;

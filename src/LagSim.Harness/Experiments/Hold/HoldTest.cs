@@ -46,7 +46,7 @@ public static class HoldTest
         {
             DisplayDelay = options.DisplayDelay,
             Cancellation = options.Cancellation,
-            IsProtected = options.IsProtected,
+            Carrier = options.Carrier,
             StartLead = StartLead,
         };
         Scene scene = HoldOptions.BuildScene();

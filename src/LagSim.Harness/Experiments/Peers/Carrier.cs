@@ -11,4 +11,10 @@ public sealed record Carrier(string Name, Func<IPEndPoint, IDatagramPort> Open)
 {
     /// <summary>Plain UDP sockets.</summary>
     public static readonly Carrier Udp = new("udp", bind => new UdpPort(bind));
+
+    /// <summary>Whether the sessions over it are protected; default true.</summary>
+    public bool IsProtected { get; init; } = true;
+
+    /// <summary>Its name, and whether it is protected, for titles.</summary>
+    public override string ToString() => Name + (IsProtected ? ", protected" : ", NOT PROTECTED");
 }

@@ -30,11 +30,8 @@ public sealed record PeerGroupOptions(
     /// <summary>The bodies that players will spawn, which are compared in addition to the scene's own.</summary>
     public IReadOnlyList<BodyId> Spawned { get; init; } = [];
 
-    /// <summary>The carrier of datagrams in real time.</summary>
+    /// <summary>The carrier of datagrams in real time. In virtual time nothing is protected: no datagram leaves the process.</summary>
     public Carrier Carrier { get; init; } = Carrier.Udp;
-
-    /// <summary>Whether sessions in real time are protected; default true. In virtual time none is: its datagrams leave no process.</summary>
-    public bool IsProtected { get; init; } = true;
 
     /// <summary>
     /// Cancels a run in virtual time, in mid-step if need be, with an <see cref="System.OperationCanceledException"/>; default none. In

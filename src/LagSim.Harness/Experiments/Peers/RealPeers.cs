@@ -59,10 +59,10 @@ public sealed class RealPeers : PeerGroup
             ports[peer] = counting;
             int receiver = peer;
             DelayedPort port = delayed[peer] = new DelayedPort(counting, trueTime, from => LinkTo(receiver, from));
-            HostOptions session = options.ToHostOptions() with { Protection = options.IsProtected ? new SecureHost(identity) : null };
+            HostOptions session = options.ToHostOptions() with { Protection = options.Carrier.IsProtected ? new SecureHost(identity) : null };
             ClientOptions joining = ClientOptions.From(session) with
             {
-                Protection = options.IsProtected ? new SecureClient(identity.Fingerprint) : null,
+                Protection = options.Carrier.IsProtected ? new SecureClient(identity.Fingerprint) : null,
             };
             ulong number = (ulong)Stopwatch.GetTimestamp();
             threads[peer] = new PeerThread(
