@@ -71,7 +71,7 @@ public class ProtectionBenchmark
     [Benchmark(Baseline = true)]
     public bool RefuseMalformed() => update.TryDecode(mutated, out _);
 
-    /// <summary>What a host does for a join that it refuses: an agreement.</summary>
+    /// <summary>What a host does for a join of noise, and first for any: an agreement.</summary>
     [Benchmark]
     public void ReadJoin()
     {

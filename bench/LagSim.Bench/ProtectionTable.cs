@@ -23,7 +23,7 @@ internal static class ProtectionTable
 
     internal static void Print(bool isBrief)
     {
-        Console.WriteLine("Host and 3 clients on a lan in virtual time, plain and protected; time is the host's, CPU of one thread, the best of the rounds");
+        Console.WriteLine("Host and 3 clients on a lan in virtual time, plain and protected; time is that of the host's steps, the best of the rounds");
         Console.WriteLine("| what | plain | protected | ratio |");
         Console.WriteLine("|---|---|---|---|");
         (int rounds, double seconds, int joins) = isBrief ? (1, 5, 20) : (7, 60, 200);

@@ -12,6 +12,7 @@ internal sealed class Curve25519KeyPair : IDisposable
 
     private readonly byte[] privateKey;
     private readonly byte[] publicKey = new byte[Bytes];
+    private bool isWiped;
 
     /// <summary>Takes the private key of a pair.</summary>
     internal Curve25519KeyPair(ReadOnlySpan<byte> privateKey)
@@ -20,7 +21,8 @@ internal sealed class Curve25519KeyPair : IDisposable
         X25519.ScalarMultBase(this.privateKey, 0, publicKey, 0);
     }
 
-    internal ReadOnlySpan<byte> PrivateKey => privateKey;
+    /// <exception cref="ObjectDisposedException">It is wiped.</exception>
+    internal ReadOnlySpan<byte> PrivateKey => isWiped ? throw new ObjectDisposedException(nameof(Curve25519KeyPair)) : privateKey;
 
     internal ReadOnlySpan<byte> PublicKey => publicKey;
 
@@ -35,7 +37,11 @@ internal sealed class Curve25519KeyPair : IDisposable
     }
 
     /// <summary>Wipes the private key.</summary>
-    public void Dispose() => CryptographicOperations.ZeroMemory(privateKey);
+    public void Dispose()
+    {
+        isWiped = true;
+        CryptographicOperations.ZeroMemory(privateKey);
+    }
 
     /// <summary>
     /// Computes the secret that this pair shares with another. False if the other's key is one of the few that give everybody the same
@@ -43,6 +49,11 @@ internal sealed class Curve25519KeyPair : IDisposable
     /// </summary>
     internal bool TryAgree(ReadOnlySpan<byte> otherPublicKey, Span<byte> secret)
     {
+        if (isWiped)
+        {
+            throw new ObjectDisposedException(nameof(Curve25519KeyPair));
+        }
+
         byte[] agreed = new byte[Bytes];
         bool isSecret = X25519.CalculateAgreement(privateKey, 0, otherPublicKey.ToArray(), 0, agreed, 0);
         agreed.CopyTo(secret);

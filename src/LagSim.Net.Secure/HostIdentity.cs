@@ -41,6 +41,7 @@ public sealed class HostIdentity : IDisposable
     }
 
     /// <summary>The private key as 64 hexadecimal digits, for <see cref="TryParse"/>. Keep it like a password.</summary>
+    /// <exception cref="ObjectDisposedException">The key is wiped.</exception>
     public string ToSecretText() => HexText.Of(keys.PrivateKey);
 
     /// <summary>The fingerprint; never the secret.</summary>

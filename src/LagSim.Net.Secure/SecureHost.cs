@@ -20,7 +20,6 @@ namespace LagSim.Net.Protection;
 /// </example>
 public sealed class SecureHost : IHostProtection
 {
-    private readonly byte[] resetKey = new byte[Sha256.Bytes];
     private readonly UsedTokens used = new();
     private readonly TokenKey? tokens;
     private readonly Func<DateTimeOffset> clock;
@@ -39,9 +38,6 @@ public sealed class SecureHost : IHostProtection
         this.tokens = tokens;
         this.clock = clock;
         Identity = identity ?? throw new ArgumentNullException(nameof(identity));
-        byte[] secret = identity.Keys.PrivateKey.ToArray();
-        Sha256.Hmac(secret, "LagSim reset"u8, default, resetKey);
-        CryptographicOperations.ZeroMemory(secret);
     }
 
     /// <summary>The host's identity.</summary>
@@ -84,8 +80,12 @@ public sealed class SecureHost : IHostProtection
     /// <inheritdoc/>
     public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key)
     {
+        byte[] secret = Identity.Keys.PrivateKey.ToArray(), ofAll = new byte[Sha256.Bytes];
         Span<byte> hash = stackalloc byte[Sha256.Bytes];
-        Sha256.Hmac(resetKey, link, default, hash);
+        Sha256.Hmac(secret, "LagSim reset"u8, default, ofAll);
+        Sha256.Hmac(ofAll, link, default, hash);
         hash.Slice(0, IHostProtection.ResetKeyBytes).CopyTo(key);
+        CryptographicOperations.ZeroMemory(secret);
+        CryptographicOperations.ZeroMemory(ofAll);
     }
 }

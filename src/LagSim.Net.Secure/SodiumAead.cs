@@ -48,7 +48,8 @@ internal sealed class SodiumAead(ReadOnlySpan<byte> key) : Aead
         {
             return AeadAlgorithm.ChaCha20Poly1305.KeySize == KeyBytes; // the first use loads the library
         }
-        catch (Exception missing) when (missing is TypeInitializationException or DllNotFoundException or PlatformNotSupportedException)
+        catch (Exception missing) when (missing is TypeInitializationException or TypeLoadException // a library or a function is not there
+            or BadImageFormatException or InvalidOperationException or PlatformNotSupportedException) // or it is another version
         {
             return false;
         }

@@ -98,7 +98,8 @@ public sealed class TokenIssuer : IDisposable
     }
 
     /// <summary>The secret as 64 hexadecimal digits, for <see cref="TryParse"/>. Keep it like a password.</summary>
-    public string ToSecretText() => HexText.Of(secret);
+    /// <exception cref="ObjectDisposedException">The secret is wiped.</exception>
+    public string ToSecretText() => isWiped ? throw new ObjectDisposedException(nameof(TokenIssuer)) : HexText.Of(secret);
 
     /// <summary>The public key; never the secret.</summary>
     public override string ToString() => Key.ToString();

@@ -23,21 +23,22 @@ internal sealed class TransportKeys : IDisposable
     private ulong period; // of the key in use
     private Aead? before;
     private Aead current;
-    private Aead next;
+    private Aead? next; // made when first needed
 
     internal TransportKeys(ReadOnlySpan<byte> first)
     {
         current = Aead.Of(first);
         Rekey(current, after);
-        next = Aead.Of(after);
     }
+
+    private Aead Next => next ??= Aead.Of(after);
 
     /// <summary>Wipes the keys.</summary>
     public void Dispose()
     {
         before?.Dispose();
         current.Dispose();
-        next.Dispose();
+        next?.Dispose();
         CryptographicOperations.ZeroMemory(after);
     }
 
@@ -64,7 +65,7 @@ internal sealed class TransportKeys : IDisposable
             return before!.TryOpen(number, default, source, plain);
         }
 
-        if (wanted != period + 1 || !next.TryOpen(number, default, source, plain))
+        if (wanted != period + 1 || !Next.TryOpen(number, default, source, plain))
         {
             return false;
         }
@@ -77,10 +78,10 @@ internal sealed class TransportKeys : IDisposable
     {
         before?.Dispose();
         before = current;
-        current = next;
+        current = Next;
+        next = null;
         period++;
         Rekey(current, after);
-        next = Aead.Of(after);
     }
 
     /// <summary>

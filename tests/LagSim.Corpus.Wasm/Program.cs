@@ -43,11 +43,12 @@ internal static class Program
             return 1;
         }
 
+        long agreedBefore = client.Counters.StatesAgreed;
         client.Do(SecureSession.Kick);
-        await Run(client, () => SecureSession.IsEnough(client.Counters));
+        await Run(client, () => SecureSession.IsEnough(client.Counters, agreedBefore));
         client.Leave();
         await Run(client, () => client.State == SessionState.Ended);
-        return SecureSession.Judge(client.Counters, Console.Out);
+        return SecureSession.Judge(client.Counters, agreedBefore, Console.Out);
     }
 
     /// <summary>Steps a session from the one thread there is, until something holds; false if it ends or takes too long.</summary>

@@ -29,12 +29,13 @@ internal static class SecurePeers
     {
         HostAddress address = HostAddress.Parse(text);
         using ManualResetEventSlim enough = new();
+        long agreedBefore = -1; // written and read on the session's thread
         using PeerThread client = PeerThread.Join(SecureSession.EndPoint(address), SecureSession.Joining(address), setUp: session =>
         {
             SecureSession.Watch(session, output);
             session.StateCommitted += _ =>
             {
-                if (SecureSession.IsEnough(session.Counters))
+                if (agreedBefore >= 0 && SecureSession.IsEnough(session.Counters, agreedBefore))
                 {
                     enough.Set();
                 }
@@ -46,8 +47,12 @@ internal static class SecurePeers
             return 1;
         }
 
-        client.Do(SecureSession.Kick).AsTask().Wait();
+        client.Ask(session =>
+        {
+            agreedBefore = session.Counters.StatesAgreed;
+            return session.Do(SecureSession.Kick);
+        }).Wait();
         enough.Wait(SecureSession.Patience);
-        return SecureSession.Judge(client.Ask(session => session.Counters.Copy()).Result, output);
+        return SecureSession.Judge(client.Ask(session => session.Counters.Copy()).Result, agreedBefore, output);
     }
 }

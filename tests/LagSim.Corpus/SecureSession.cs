@@ -39,14 +39,15 @@ internal static class SecureSession
 
     internal static IPEndPoint EndPoint(HostAddress address) => new(IPAddress.Parse(address.Host), address.Port);
 
-    internal static bool IsEnough(SessionCounters counters) => counters.StatesAgreed >= StatesWanted;
+    /// <summary>Whether enough states agreed since a client's kick: the kicked world, too.</summary>
+    internal static bool IsEnough(SessionCounters counters, long agreedBefore) => counters.StatesAgreed >= agreedBefore + StatesWanted;
 
     /// <summary>Says how a client fared; 0 if enough states agreed, none differed, and its kick counted.</summary>
-    internal static int Judge(SessionCounters counters, TextWriter output)
+    internal static int Judge(SessionCounters counters, long agreedBefore, TextWriter output)
     {
         output.WriteLine(
             $"{counters.StatesAgreed} states agreed, {counters.StatesDiffered} differed, {counters.DatagramsForged} datagrams forged");
-        return IsEnough(counters) && counters.StatesDiffered == 0 && counters.EventsAccepted == 1 ? 0 : 1;
+        return IsEnough(counters, agreedBefore) && counters.StatesDiffered == 0 && counters.EventsAccepted == 1 ? 0 : 1;
     }
 
     internal static void Watch(Session session, TextWriter output)

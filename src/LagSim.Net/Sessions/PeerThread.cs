@@ -199,7 +199,6 @@ public sealed class PeerThread : IDisposable
         }
 
         isOwner = true;
-        Session.WarnIfUnprotected();
         try
         {
             thread.Start();

@@ -37,6 +37,7 @@ public abstract class Session
     private readonly ISessionProtocol protocol;
     private readonly SessionLoop loop;
     private readonly CancellationTokenRegistration watch;
+    private bool hasWarned;
     private readonly HandlerList<Action> begun;
     private readonly HandlerList<Action<string>> renewed;
     private readonly HandlerList<Action> ended;
@@ -303,18 +304,8 @@ public abstract class Session
     public SimDuration Step()
     {
         parts.Owner.ThrowIfForeign();
+        WarnOnceIfUnprotected();
         return loop.Step();
-    }
-
-    /// <summary>Says in <see cref="System.Diagnostics.Trace"/> that a session is not protected.</summary>
-    internal void WarnIfUnprotected()
-    {
-        if (!IsProtected)
-        {
-            HandlerFailures.Write(
-                "This session is not protected: anyone on the path can read it, act in any player's name, and be its host. Give its"
-                    + " options a protection, such as that of the package LagSim.Net.Secure.");
-        }
     }
 
     /// <summary>Wipes the keys of all links if the session has ended. Nothing can be sent over them any more.</summary>
@@ -324,6 +315,19 @@ public abstract class Session
         {
             protocol.WipeKeys();
         }
+    }
+
+    /// <summary>Says in <see cref="System.Diagnostics.Trace"/>, at the first step, that a session is not protected.</summary>
+    private void WarnOnceIfUnprotected()
+    {
+        if (!hasWarned && !IsProtected)
+        {
+            HandlerFailures.Write(
+                "This session is not protected: anyone on the path can read it, act in any player's name, and be its host. Give its"
+                    + " options a protection, such as that of the package LagSim.Net.Secure.");
+        }
+
+        hasWarned = true;
     }
 
     /// <summary>Ends the session, or asks for a fresh snapshot, because its world cannot be simulated any further.</summary>

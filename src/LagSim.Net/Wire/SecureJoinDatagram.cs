@@ -33,6 +33,9 @@ internal readonly ref struct SecureJoinDatagram
     /// <summary>The handshake message.</summary>
     public ReadOnlySpan<byte> Message { get; }
 
+    /// <summary>The first bytes of the message: of the public key that the client drew for this handshake.</summary>
+    internal Token128 Handshake => new(Message.Slice(0, Token128.Bytes));
+
     /// <summary>Writes the datagram, whose message the handshake writes.</summary>
     /// <param name="destination">
     /// At least <see cref="WireFormat.SecureJoinBytes"/>, and as many more as the token has.

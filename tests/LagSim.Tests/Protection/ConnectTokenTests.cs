@@ -163,6 +163,19 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.Contains("full", ninth.EndReason, StringComparison.Ordinal);
     }
 
+    /// <summary>A player who comes back by its pass, and with the key of another number, has that and no other.</summary>
+    [Fact]
+    public void Join_ByAPassAndTheKeyOfAnotherNumber_HasOnePlace()
+    {
+        SessionGroup group = Hosting();
+        ClientSession ada = Join(group, 1, issuer.Issue(Ada, identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3));
+        ClientSession again = group.Join(
+            2, 99, new ClientOptions { Protection = new SecureClient(identity.Fingerprint), Pass = ada.Pass!.Value, ConnectKey = "a key" });
+        Assert.True(group.RunUntil(() => again.State == SessionState.Running && ada.State == SessionState.Ended, 3), again.EndReason);
+        Assert.Equal((1, 8), (group.Host.ClientCount, again.Peer));
+    }
+
     /// <summary>A player with two good tokens who comes in twice at once has one place all the same.</summary>
     [Fact]
     public void Join_SamePlayerTwiceAtOnce_HasOnePlace()

@@ -6,6 +6,8 @@ using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
@@ -260,7 +262,8 @@ public sealed class PathAttackTests : IDisposable
     }
 
     /// <summary>
-    /// A client that is joining is told that it may not, that the host speaks another version, and is sent cookies that are none.
+    /// A client that is joining is told that it may not, that the host speaks another version, and is sent cookies that are none, as long as
+    /// it takes.
     /// </summary>
     [Theory]
     [InlineData(false)]
@@ -268,6 +271,7 @@ public sealed class PathAttackTests : IDisposable
     public void Refuse_AJoinAsTheHost_OnlyWithoutProtection(bool isProtected)
     {
         SessionGroup group = Group(isProtected);
+        Random random = new(4);
         attacker.Drops = (from, bytes) =>
         {
             if (from == 1 && bytes[3] is 1 or PathAttacker.Join or PathAttacker.SecureJoin)
@@ -283,17 +287,55 @@ public sealed class PathAttackTests : IDisposable
                 {
                     byte[] challenge = attacker.Last(0, 6); // the host's identity, a cookie of nobody's
                     bytes.AsSpan(4, 8).CopyTo(challenge.AsSpan(4));
-                    challenge[12] ^= 1;
-                    attacker.Send(0, 1, challenge);
+                    for (int n = 0; n < 3; n++)
+                    {
+                        random.NextBytes(challenge.AsSpan(12, 16));
+                        attacker.Send(0, 1, [.. challenge]);
+                    }
                 }
             }
 
             return false;
         };
-        group.Run(2);
-        Assert.Equal(isProtected, group.Client(1).State != SessionState.Ended);
-        attacker.Drops = (_, _) => false;
-        Assert.Equal(isProtected, group.RunUntil(() => group.Client(1).State == SessionState.Running, 5));
+        Assert.Equal(isProtected, group.RunUntil(() => group.Client(1).State == SessionState.Running, 4));
+    }
+
+    /// <summary>
+    /// Before each join of a client comes another to the host, with the same nonce and cookie and in the client's name: one that is in order,
+    /// of a key that the attacker drew. The client gets in all the same.
+    /// </summary>
+    [Fact]
+    public void Join_InTheNameOfAClientThatJoins_DoesNotKeepItOut()
+    {
+        SessionGroup group = new(
+            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(20), expected: 0, wrap: attacker.Wrap, options: _ => new HostOptions { Protection = new SecureHost(identity) });
+        group.Run(1);
+        int made = 0;
+        attacker.Drops = (from, bytes) =>
+        {
+            if (from == 1 && bytes[3] == PathAttacker.SecureJoin)
+            {
+                attacker.Send(1, 0, OfAnotherKey(bytes));
+                made++;
+            }
+
+            return false;
+        };
+        ClientSession client = group.Join(1, 7, new ClientOptions { Protection = new SecureClient(identity.Fingerprint) });
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 2));
+        Assert.True(made > 0);
+
+        byte[] OfAnotherKey(byte[] heard)
+        {
+            Assert.True(ChallengeDatagram.TryDecode(attacker.Last(0, 6), out ChallengeDatagram challenge, out _));
+            ulong nonce = BitConverter.ToUInt64(heard, 4);
+            JoinDatagram join = new(
+                nonce, challenge.Cookie, JoinCookies.Prove("", nonce, challenge.Cookie, challenge.Identity), 0, (uint)Simulation.FoldVersion);
+            byte[] forged = new byte[heard.Length];
+            Assert.NotNull(SecureJoinDatagram.Encode(forged, join, default, challenge.Identity, new SecureClient(identity.Fingerprint)));
+            Assert.Equal(heard[..28], forged[..28]);
+            return forged;
+        }
     }
 
     /// <summary>
@@ -327,13 +369,13 @@ public sealed class PathAttackTests : IDisposable
         Playing(isProtected);
         byte[] join = attacker.Last(1, isProtected ? PathAttacker.SecureJoin : PathAttacker.Join);
         byte[] whole = [.. attacker.Heard.SelectMany(h => h.Bytes)];
-        byte[] nonceAndCookie = join[4..28];
+        byte[] proved = isProtected ? [.. join[4..28], .. attacker.Last(0, 6)[28..60]] : join[4..28]; // nonce and cookie, and the host's key
         string? found = null;
         byte[] proof = new byte[32];
         for (int n = 0; n < 1_000_000 && found is null; n++)
         {
             string guess = $"k{n}";
-            HMACSHA256.HashData(Encoding.UTF8.GetBytes(guess), nonceAndCookie, proof);
+            HMACSHA256.HashData(Encoding.UTF8.GetBytes(guess), proved, proof);
             bool isIt = isProtected && n % 10_000 == 7777 % 10_000
                 ? whole.AsSpan().IndexOf(proof.AsSpan(0, 16)) >= 0 // the right one among them, against all that was ever sent
                 : join.AsSpan(28).IndexOf(proof.AsSpan(0, 16)) >= 0;

@@ -105,6 +105,10 @@ internal sealed class FloodedSession : IDisposable
         }
     }
 
+    /// <summary>How long the newcomer has waited, in seconds; 0 if it is in, or has not begun.</summary>
+    internal double WaitedSeconds =>
+        newcomer is null || JoinSeconds is not null ? 0 : Stopwatch.GetElapsedTime(joinBegan).TotalSeconds;
+
     /// <summary>Waits until all are in and have the same world. Returns a sentence for a failure.</summary>
     internal string? Settle()
     {

@@ -87,7 +87,7 @@ public sealed class HostileDatagrams
     {
         byte[] bytes = Noise();
         byte version = Below(8) == 0 ? (byte)Below(256) : WireFormat.Version;
-        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below(12)];
+        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below((int)DatagramType.Sealed + 2)];
         head.AsSpan(0, Math.Min(head.Length, bytes.Length)).CopyTo(bytes);
         return bytes;
     }

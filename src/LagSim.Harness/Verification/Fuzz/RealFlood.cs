@@ -22,6 +22,9 @@ public static class RealFlood
     /// </summary>
     private const long MaxGrowth = 12_000_000;
 
+    /// <summary>How long a client may take to join while the flood lasts: ten times what it takes.</summary>
+    private const double MaxJoinSeconds = 2;
+
     /// <summary>Floods until either limit is reached.</summary>
     /// <param name="seconds">The longest duration, in seconds, above zero.</param>
     /// <param name="packets">The most datagrams, at least 1.</param>
@@ -90,8 +93,11 @@ public static class RealFlood
         }
 
         double lasted = Elapsed();
+        double joinTook = Math.Max(flooded.JoinSeconds ?? 0, flooded.WaitedSeconds);
         long grown = memory == 0 ? 0 : LiveMemory.Read() - memory;
         string? failure = flooded.Settle();
+        failure ??= joinTook > MaxJoinSeconds
+            ? FormattableString.Invariant($"A client that joined during the flood was not in within {MaxJoinSeconds:0} s, but {joinTook:0.0} s.") : null;
         failure ??= grown > MaxGrowth ? $"Memory grew by {grown} bytes during the flood." : null;
         (SessionCounters host, SessionCounters client) = flooded.Counters();
         return new FloodReport

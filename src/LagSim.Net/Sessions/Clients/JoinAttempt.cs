@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Net.Clocks;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -23,8 +24,16 @@ internal sealed class JoinAttempt : IDisposable
     /// </summary>
     private const int RequestAfresh = 5;
 
+    /// <summary>
+    /// The most joins kept, each with a cookie of its own: a challenge may be anybody's on the path, so a new one must not undo what another
+    /// began. Fewer than <see cref="RequestAfresh"/>, so that each is sent again and again.
+    /// </summary>
+    private const int MostJoins = 4;
+
+    private readonly List<PreparedJoin> joins = new(); // the oldest first
+    private PreparedJoin? unsent;
     private SimDuration pace = Pace;
-    private int tries; // with this cookie
+    private int tries;
 
     /// <param name="nonce">An answer must carry it.</param>
     /// <param name="now">The time by the local clock.</param>
@@ -67,46 +76,77 @@ internal sealed class JoinAttempt : IDisposable
     /// <summary>The number that the host gave, and what comes with it; null before that.</summary>
     internal SeatDatagram? Seat { get; set; }
 
-    /// <summary>The join with the newest cookie; null before there is one.</summary>
-    internal PreparedJoin? Join { get; private set; }
+    /// <summary>The joins that may be answered yet, each with a cookie of its own.</summary>
+    internal IReadOnlyList<PreparedJoin> Joins => joins;
 
     /// <summary>Whether snapshot and clock are ready, so that at most the number is missing.</summary>
     internal bool IsReady => Snapshot is not null && Clock.IsReady;
 
     /// <summary>
-    /// Whether to send the join, whose cookie may still be good; otherwise another cookie is needed. Schedules the next try; the interval
-    /// doubles each time, up to <see cref="MaxPace"/>.
+    /// The join to send, whose cookie may still be good; null if another cookie is needed. Schedules the next try; the interval doubles each
+    /// time, up to <see cref="MaxPace"/>.
     /// </summary>
-    internal bool AsksToJoin(SimTime now)
+    internal PreparedJoin? Next(SimTime now)
     {
         Due = now + pace;
         pace = pace * 2 < MaxPace ? pace * 2 : MaxPace;
-        return Join?.IsFresh(now) == true && ++tries % RequestAfresh != 0;
+        while (joins.Count > 0 && !joins[0].IsFresh(now))
+        {
+            RemoveOldest();
+        }
+
+        if (joins.Count == 0 || ++tries % RequestAfresh == 0)
+        {
+            return null;
+        }
+
+        PreparedJoin join = unsent ?? joins[tries % joins.Count];
+        unsent = null;
+        return join;
     }
 
     /// <summary>Whether it has a join with that cookie already, and may still send it.</summary>
-    internal bool Has(Token128 cookie, SimTime now) => Join is PreparedJoin join && join.Cookie == cookie && join.IsFresh(now);
+    internal bool Has(Token128 cookie, SimTime now) => joins.Exists(join => join.Cookie == cookie && join.IsFresh(now));
 
-    /// <summary>Takes a join with another cookie.</summary>
+    /// <summary>Takes a join with another cookie, to be sent at once.</summary>
     internal void Take(PreparedJoin join, SimTime now)
     {
-        Join?.Dispose();
-        Join = join;
-        tries = 0;
+        int most = join.Handshake is null ? 1 : MostJoins; // without protection anybody's answer counts in any case
+        while (joins.Count >= most)
+        {
+            RemoveOldest();
+        }
+
+        joins.Add(join);
+        unsent = join;
         Due = now;
         pace = Pace;
+        tries = 0;
     }
 
-    /// <summary>Wipes the keys of the handshake, if it was not finished.</summary>
-    public void Dispose() => Join?.Dispose();
+    /// <summary>Wipes the keys of the handshakes that were not finished.</summary>
+    public void Dispose()
+    {
+        while (joins.Count > 0)
+        {
+            RemoveOldest();
+        }
+    }
 
-    internal void Take(in WelcomeDatagram welcome, SimTime now)
+    /// <summary>Takes the welcome that answers a join.</summary>
+    internal void Take(in WelcomeDatagram welcome, PreparedJoin? answered, SimTime now)
     {
         IsWelcome = true;
-        Join?.Dispose();
-        Took = Join is null ? SimDuration.Zero : now - Join.Made;
+        Took = answered is null ? SimDuration.Zero : now - answered.Made;
+        Dispose();
         LogStart = welcome.LogIndex;
         CopyHash = welcome.CopyHash;
         Download = new SnapshotDownload(welcome.CopyLength, now);
+    }
+
+    private void RemoveOldest()
+    {
+        joins[0].Dispose();
+        joins.RemoveAt(0);
     }
 }

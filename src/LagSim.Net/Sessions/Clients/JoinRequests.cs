@@ -14,12 +14,13 @@ internal sealed class JoinRequests(
     SessionStatus status, DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
     /// <summary>
-    /// How many handshake messages are made or read a second, and at once: each costs an agreement or two. Only somebody on the path can
-    /// make it more than a few.
+    /// How many joins are made a second, and how many answers tried, and at once: each costs an agreement or two. Only somebody on the path
+    /// can make it more than a few.
     /// </summary>
     private const int HandshakesPerSecond = 50;
 
-    private readonly RateLimit handshakes = new(HandshakesPerSecond, HandshakesPerSecond, clock.Now);
+    private readonly RateLimit joins = new(HandshakesPerSecond, HandshakesPerSecond, clock.Now);
+    private readonly RateLimit answers = new(HandshakesPerSecond, HandshakesPerSecond, clock.Now);
 
     /// <summary>Asks if it is time to.</summary>
     internal void Tend(SimTime now)
@@ -29,9 +30,9 @@ internal sealed class JoinRequests(
             return;
         }
 
-        if (attempt.AsksToJoin(now))
+        if (attempt.Next(now) is PreparedJoin join)
         {
-            sender.Send(attempt.Join!.Bytes, connection.Host);
+            sender.Send(join.Bytes, connection.Host);
         }
         else
         {
@@ -76,19 +77,27 @@ internal sealed class JoinRequests(
         }
         else if (!attempt.IsWelcome)
         {
-            Enter(attempt, welcome, null);
+            Enter(attempt, attempt.Joins.Count > 0 ? attempt.Joins[0] : null, welcome, null);
         }
     }
 
     internal void OnSecureWelcome(in SecureAnswerDatagram answer)
     {
-        if (!IsOfHandshake(answer, out JoinAttempt? attempt, out IClientHandshake? handshake))
+        if (!IsOfAttempt(answer, out JoinAttempt? attempt))
         {
             return;
         }
 
         Span<byte> payload = stackalloc byte[WireFormat.SecureWelcomePayloadBytes];
-        if (handshake.TryFinish(options.ConnectKey, answer.Message, payload) is not IDatagramCipher cipher)
+        IDatagramCipher? cipher = null;
+        PreparedJoin? answered = null;
+        for (int n = 0; cipher is null && n < attempt.Joins.Count && answers.TrySpend(clock.Now); n++)
+        {
+            answered = attempt.Joins[n];
+            cipher = answered.Handshake?.TryFinish(options.ConnectKey, answer.Message, payload);
+        }
+
+        if (cipher is null)
         {
             counters.DatagramsForged++;
             return;
@@ -99,7 +108,7 @@ internal sealed class JoinRequests(
         LinkSeal seal = new(cipher, Token128.Read(ref reader));
         if (counters.IsWellFormed(reader.Finish(out _)))
         {
-            Enter(attempt, welcome, seal);
+            Enter(attempt, answered, welcome, seal);
         }
         else
         {
@@ -109,25 +118,30 @@ internal sealed class JoinRequests(
 
     internal void OnSecureRefusal(in SecureAnswerDatagram answer)
     {
-        if (!IsOfHandshake(answer, out _, out IClientHandshake? handshake))
+        if (!IsOfAttempt(answer, out JoinAttempt? attempt))
         {
             return;
         }
 
         Span<byte> payload = stackalloc byte[WireFormat.SecureRefusalPayloadBytes];
-        if (!handshake.TryReadRefusal(answer.Message, payload))
+        bool isRead = false;
+        for (int n = 0; !isRead && n < attempt.Joins.Count && answers.TrySpend(clock.Now); n++)
+        {
+            isRead = attempt.Joins[n].Handshake?.TryReadRefusal(answer.Message, payload) == true;
+        }
+
+        if (!isRead)
         {
             counters.DatagramsForged++;
+            return;
         }
-        else
+
+        WireReader reader = new(payload);
+        RefusalReason reason = (RefusalReason)reader.ReadByte();
+        uint secondsOff = reader.ReadUInt32();
+        if (counters.IsWellFormed(RefusalDatagram.IsOne(reason)))
         {
-            WireReader reader = new(payload);
-            RefusalReason reason = (RefusalReason)reader.ReadByte();
-            uint secondsOff = reader.ReadUInt32();
-            if (counters.IsWellFormed(RefusalDatagram.IsOne(reason)))
-            {
-                End(reason, Sentence(reason, secondsOff));
-            }
+            End(reason, Sentence(reason, secondsOff));
         }
     }
 
@@ -164,7 +178,7 @@ internal sealed class JoinRequests(
         RefusalReason.TooManyFromOneAddress =>
             "as many as may join from one address have joined from this one (the host's MaxClientsPerAddress).",
         RefusalReason.ProtectedOnly =>
-            "its session is protected. Join with ClientOptions.Protection, and the address with the fingerprint that the host prints.",
+            "its session is protected, and this peer's is not. Join with protection, by the host's address with its fingerprint.",
         RefusalReason.TokenMissing => "it admits only players with a connect token. Ask the game's backend for one.",
         RefusalReason.TokenDamaged => "that is not a valid connect token, or it was altered. Ask for another.",
         RefusalReason.TokenOfOtherIssuer => "the connect token is from another backend than this host's.",
@@ -177,13 +191,11 @@ internal sealed class JoinRequests(
         _ => $"reason {(int)reason}.",
     };
 
-    /// <summary>Whether an answer may belong to the handshake that waits for one, and may be read now; if not, it is counted.</summary>
-    private bool IsOfHandshake(
-        in SecureAnswerDatagram answer, [NotNullWhen(true)] out JoinAttempt? attempt, [NotNullWhen(true)] out IClientHandshake? handshake)
+    /// <summary>Whether an answer may belong to a handshake that waits for one; if not, it is counted.</summary>
+    private bool IsOfAttempt(in SecureAnswerDatagram answer, [NotNullWhen(true)] out JoinAttempt? attempt)
     {
         attempt = attempts.Current;
-        handshake = attempt is { IsWelcome: false } && attempt.Nonce == answer.Nonce ? attempt.Join?.Handshake : null;
-        if (attempt is not null && handshake is not null && handshakes.TrySpend(clock.Now))
+        if (options.IsProtected && attempt is { IsWelcome: false } && attempt.Nonce == answer.Nonce && attempt.Joins.Count > 0)
         {
             return true;
         }
@@ -212,7 +224,7 @@ internal sealed class JoinRequests(
             counters.DatagramsIgnored++;
             unproven.NoteNoProtection();
         }
-        else if (!handshakes.TrySpend(now))
+        else if (!joins.TrySpend(now))
         {
             counters.DatagramsIgnored++;
         }
@@ -231,11 +243,11 @@ internal sealed class JoinRequests(
         }
     }
 
-    private void Enter(JoinAttempt attempt, in WelcomeDatagram welcome, LinkSeal? seal)
+    private void Enter(JoinAttempt attempt, PreparedJoin? answered, in WelcomeDatagram welcome, LinkSeal? seal)
     {
         SimTime now = clock.Now;
         unproven.Forget();
-        attempt.Take(welcome, now);
+        attempt.Take(welcome, answered, now);
         connection.Open(welcome, seal, now);
         status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;
     }

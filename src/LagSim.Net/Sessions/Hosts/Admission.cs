@@ -60,7 +60,7 @@ internal sealed class Admission(
         WelcomeDatagram terms = new(join.Nonce, session, options.Window.History, made.Bytes.Length, made.Hash, made.LogIndex);
         byte[] welcome = reply.Welcome(terms, who.Key!, out LinkSeal? seal);
         UpdateLink link = links.To(from, session, made.LogIndex, now, seal);
-        Client admitted = new(new JoinClaim(join, who, token, now + timeouts.TimeoutWithCopy(made)), link, made, welcome);
+        Client admitted = new(new JoinClaim(join, who, token, reply.Handshake, now + timeouts.TimeoutWithCopy(made)), link, made, welcome);
         roster.All.Add(admitted);
         return admitted;
     }

@@ -10,11 +10,13 @@ internal sealed class JoinClaim
     /// <param name="join">The join.</param>
     /// <param name="who">Who it proved to be.</param>
     /// <param name="token">The connect token that it sent; empty for none.</param>
+    /// <param name="handshake">Which handshake it began; default in a session without protection.</param>
     /// <param name="until">When it is given up if it has no number by then.</param>
-    internal JoinClaim(in JoinDatagram join, JoinIdentity who, ReadOnlySpan<byte> token, SimTime until)
+    internal JoinClaim(in JoinDatagram join, JoinIdentity who, ReadOnlySpan<byte> token, Token128 handshake, SimTime until)
     {
         Nonce = join.Nonce;
         Cookie = join.Cookie;
+        Handshake = handshake;
         Wanted = join.Player;
         Who = who;
         ClaimedPass = who.Claimed?.Pass;
@@ -25,6 +27,12 @@ internal sealed class JoinClaim
     internal ulong Nonce { get; }
 
     internal Token128 Cookie { get; }
+
+    /// <summary>
+    /// The first bytes of the handshake, which are of a key that the client drew: somebody on the path can join in its name with its nonce
+    /// and cookie, but not with this. Default in a session without protection.
+    /// </summary>
+    internal Token128 Handshake { get; }
 
     /// <summary>The number that it says it had; 0 for none.</summary>
     internal byte Wanted { get; }

@@ -51,7 +51,7 @@ internal sealed class JoinHandshake
             sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links,
             counters);
         intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
-        stray = new StrayReply(places, parts.Status, options.Protection, sender);
+        stray = new StrayReply(places, parts.Status, options.Protection, sender, parts.Clock);
     }
 
     /// <summary>The machines from which no client is let in.</summary>

@@ -23,7 +23,7 @@ internal sealed class JoinIntake(
     /// <summary>Takes a join in clear text.</summary>
     internal void OnJoin(in JoinDatagram join, PeerAddress from)
     {
-        if (!IsNew(join.Nonce, join.Cookie, from))
+        if (!IsNew(join.Nonce, join.Cookie, default, from))
         {
             return;
         }
@@ -47,7 +47,7 @@ internal sealed class JoinIntake(
         {
             counters.DatagramsIgnored++; // the client saw no identity of this host, so it is not one of LagSim's
         }
-        else if (IsNew(join.Nonce, join.Cookie, from))
+        else if (IsNew(join.Nonce, join.Cookie, join.Handshake, from))
         {
             Read(join, from, protection);
         }
@@ -61,7 +61,7 @@ internal sealed class JoinIntake(
     }
 
     /// <summary>Whether a join is to be decided on. If not, its address is not proved, or it was answered before and is again.</summary>
-    private bool IsNew(ulong nonce, Token128 cookie, PeerAddress from)
+    private bool IsNew(ulong nonce, Token128 cookie, Token128 handshake, PeerAddress from)
     {
         if (!challenge.IsMet(from, nonce, cookie))
         {
@@ -69,7 +69,8 @@ internal sealed class JoinIntake(
             return false;
         }
 
-        Client? known = roster.All.Find(j => j.Link.Other == from && j.Claim.Nonce == nonce && j.Claim.Cookie == cookie);
+        Client? known = roster.All.Find(
+            j => j.Link.Other == from && j.Claim.Nonce == nonce && j.Claim.Cookie == cookie && j.Claim.Handshake == handshake);
         if (known?.Snapshot is not null)
         {
             SendWelcome(known);
@@ -80,7 +81,7 @@ internal sealed class JoinIntake(
 
     private void Read(in SecureJoinDatagram join, PeerAddress from, IHostProtection by)
     {
-        if (!handshakes.TrySpend(from, clock.Now) || !ofAll.TrySpend(clock.Now))
+        if (!MayRead(from, clock.Now))
         {
             counters.DatagramsIgnored++; // it asks again
             return;
@@ -94,7 +95,7 @@ internal sealed class JoinIntake(
             return;
         }
 
-        using JoinReply reply = new(join.Nonce, from, by, handshake, sender);
+        using JoinReply reply = new(join.Nonce, from, by, handshake, sender) { Handshake = join.Handshake };
         bool isWellFormed = JoinDatagram.TryDecodeClaims(
             claims.Slice(0, WireFormat.JoinClaimBytes), join.Nonce, join.Cookie, out JoinDatagram claimed);
         if (counters.IsWellFormed(isWellFormed))
@@ -102,6 +103,13 @@ internal sealed class JoinIntake(
             Decide(claimed, claims.Slice(WireFormat.JoinClaimBytes), from, reply);
         }
     }
+
+    /// <summary>
+    /// Whether a handshake may be read, which is counted. Where half of what all may have is spent, only a machine that has had none for
+    /// long is read: so who comes for the first time gets in though thousands ask without end.
+    /// </summary>
+    private bool MayRead(PeerAddress from, SimTime now) =>
+        ofAll.Left(now) >= 1 && handshakes.TrySpend(from, now, onlyIfWhole: ofAll.Left(now) < ofAll.Most / 2) && ofAll.TrySpend(now);
 
     private void Decide(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply)
     {

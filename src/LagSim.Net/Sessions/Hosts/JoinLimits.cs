@@ -32,7 +32,7 @@ internal sealed class JoinLimits
     internal double ChunksPerSecond { get; set; } = 2000;
 
     /// <summary>
-    /// The rate at which handshakes are read from one machine, each of which costs up to three agreements: 0.4 ms (docs/SECURITY.md).
+    /// The rate at which handshakes are read from one machine, each of which costs up to 0.7 ms (bench/README.md).
     /// </summary>
     internal double HandshakesPerSecond { get; set; } = 1;
 
@@ -40,10 +40,10 @@ internal sealed class JoinLimits
     internal int HandshakeBurst { get; set; } = SessionOptions.MaxClients;
 
     /// <summary>
-    /// The rate at which handshakes are read from all machines together, and their burst: at most a fifth of a core, so that thousands of
-    /// machines can keep others from joining, but do not hold up those who play.
+    /// The rate at which handshakes are read from all machines together, and their burst: at most a fifth of a core, so that
+    /// thousands of machines do not hold up those who play.
     /// </summary>
-    internal double HandshakesPerSecondOfAll { get; set; } = 500;
+    internal double HandshakesPerSecondOfAll { get; set; } = 250;
 
     /// <summary>The burst of chunks after a pause: four windows.</summary>
     internal int ChunkBurst { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;

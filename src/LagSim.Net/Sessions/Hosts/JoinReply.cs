@@ -16,6 +16,9 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class JoinReply(
     ulong nonce, PeerAddress to, IHostProtection? protection, IHostHandshake? handshake, DatagramSender sender) : IDisposable
 {
+    /// <summary>Which handshake the join began (<see cref="JoinClaim.Handshake"/>).</summary>
+    internal Token128 Handshake { get; init; }
+
     /// <summary>Wipes the keys of the handshake.</summary>
     public void Dispose() => handshake?.Dispose();
 

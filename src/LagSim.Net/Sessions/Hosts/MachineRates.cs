@@ -14,16 +14,19 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class MachineRates
 {
     /// <summary>
-    /// The number of machines from which on those with a full limit are looked for; then at twice what is left of them, so that a flood
-    /// of machines costs little for each.
+    /// The number of machines from which on those with a full limit are looked for; then at twice what is left of them or after a pause,
+    /// so that a flood of machines costs little for each.
     /// </summary>
     private const int Many = 64;
+
+    private static readonly SimDuration Pause = SimDuration.FromSeconds(10);
 
     private readonly Dictionary<PeerAddress, RateLimit> limits = new();
     private readonly List<PeerAddress> rested = new();
     private readonly double perSecond;
     private readonly int burst;
     private int lookAt = Many;
+    private SimTime lookAfter = SimTime.MinValue;
 
     /// <param name="perSecond">How often a second.</param>
     /// <param name="burst">How often at once after a pause.</param>
@@ -37,7 +40,10 @@ internal sealed class MachineRates
     internal int Count => limits.Count;
 
     /// <summary>Whether it may be done once more now for an address; if so, it is counted.</summary>
-    internal bool TrySpend(PeerAddress to, SimTime now)
+    /// <param name="to">The address.</param>
+    /// <param name="now">The time.</param>
+    /// <param name="onlyIfWhole">Whether only a machine with its full limit may.</param>
+    internal bool TrySpend(PeerAddress to, SimTime now, bool onlyIfWhole = false)
     {
         PeerAddress machine = to.Machine;
         if (!limits.TryGetValue(machine, out RateLimit? limit))
@@ -46,12 +52,12 @@ internal sealed class MachineRates
             limits[machine] = limit = new RateLimit(perSecond, burst, now);
         }
 
-        return limit.TrySpend(now);
+        return (!onlyIfWhole || limit.IsWhole(now)) && limit.TrySpend(now);
     }
 
     private void Forget(SimTime now)
     {
-        if (limits.Count < lookAt)
+        if (limits.Count < lookAt && (limits.Count < Many || now < lookAfter))
         {
             return;
         }
@@ -71,5 +77,6 @@ internal sealed class MachineRates
         }
 
         lookAt = Math.Max(Many, 2 * limits.Count);
+        lookAfter = now + Pause;
     }
 }

@@ -77,9 +77,9 @@ internal sealed class Seating(
         }
 
         place ??= places[places.Free(now, claim.Wanted, address.Machine)];
-        if (who.IsByToken)
+        if (who.Admission is PlayerAdmission player)
         {
-            ReleaseOthers(who.Admission!, place);
+            ReleaseOthers(player, place);
         }
 
         MakeRoom(place);

@@ -3,7 +3,9 @@ using System.Buffers.Binary;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
+using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
@@ -15,8 +17,15 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="status">Whether the session has ended.</param>
 /// <param name="protection">Proves the host to the sender; null in a session without protection.</param>
 /// <param name="sender">Sends the reply.</param>
-internal sealed class StrayReply(PlayerPlaces places, SessionStatus status, IHostProtection? protection, DatagramSender sender)
+/// <param name="clock">The local clock.</param>
+internal sealed class StrayReply(
+    PlayerPlaces places, SessionStatus status, IHostProtection? protection, DatagramSender sender, IClock clock)
 {
+    /// <summary>The rate of replies that prove the host, and their burst: each takes 4 us. Peers without one wait for their timeout.</summary>
+    private const int ProofsPerSecond = 1000;
+
+    private readonly RateLimit proofs = new(ProofsPerSecond, ProofsPerSecond, clock.Now);
+
     internal void Send(PeerAddress to, ulong sessionId)
     {
         LeaveReason reason = status.HasEnded ? LeaveReason.HostEnded : places.WhyGone(sessionId);
@@ -24,6 +33,11 @@ internal sealed class StrayReply(PlayerPlaces places, SessionStatus status, IHos
         if (protection is null)
         {
             sender.Send(bytes.Slice(0, new LeaveDatagram(sessionId, 0, reason).Encode(bytes)), to);
+            return;
+        }
+
+        if (!proofs.TrySpend(clock.Now))
+        {
             return;
         }
 

@@ -7,23 +7,32 @@ namespace LagSim.Net.Sessions.Links;
 internal sealed class RateLimit
 {
     private readonly double perSecond;
-    private readonly double most;
     private double left;
     private SimTime counted;
 
     internal RateLimit(double perSecond, double atOnce, SimTime now)
     {
         this.perSecond = perSecond;
-        most = atOnce;
+        Most = atOnce;
         left = atOnce;
         counted = now;
     }
+
+    /// <summary>The most at once.</summary>
+    internal double Most { get; }
 
     /// <summary>Whether it is full, like a new one.</summary>
     internal bool IsWhole(SimTime now)
     {
         Count(now);
-        return left >= most;
+        return left >= Most;
+    }
+
+    /// <summary>How many are left.</summary>
+    internal double Left(SimTime now)
+    {
+        Count(now);
+        return left;
     }
 
     internal bool TrySpend(SimTime now)
@@ -40,7 +49,7 @@ internal sealed class RateLimit
 
     private void Count(SimTime now)
     {
-        left = Math.Min(most, left + ((now - counted).ToSeconds() * perSecond));
+        left = Math.Min(Most, left + ((now - counted).ToSeconds() * perSecond));
         counted = now;
     }
 }
