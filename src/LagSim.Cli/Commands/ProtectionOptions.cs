@@ -32,6 +32,7 @@ internal static class ProtectionOptions
     /// <exception cref="UsageException">The text begins like an address with a fingerprint, and is none.</exception>
     internal static HostFingerprint? ReadFingerprint(string text, out string place)
     {
+        text = text.Trim(); // as it was pasted
         if (!text.Contains("://", System.StringComparison.Ordinal) && !text.Contains('#', System.StringComparison.Ordinal))
         {
             place = text;

@@ -38,13 +38,12 @@ internal static class SecretFile
     {
         if (Read(file) is string text)
         {
-            return parse(text) ?? throw new InputException($"{option} is '{file}', which does not hold {what}: 64 hexadecimal digits.");
+            return parse(text) ?? throw new InputException($"{option} is '{file}', which does not hold {what}: 64 hexadecimal digits in lower case.");
         }
 
         ThrowIfNotWritable(option, file, what);
         (T drawn, string drawnText) = draw();
-        Write(file, drawnText);
-        return drawn;
+        return Write(file, drawnText, overwrite: false) ? drawn : ReadOrDraw(option, file, what, parse, draw); // another process was first
     }
 
     /// <summary>Checks that the file could be written, and changes nothing.</summary>
@@ -75,8 +74,10 @@ internal static class SecretFile
         }
     }
 
-    /// <summary>Writes the line.</summary>
-    internal static void Write(string file, string secret)
+    /// <summary>Writes the line, over another.</summary>
+    internal static void Write(string file, string secret) => Write(file, secret, overwrite: true);
+
+    private static bool Write(string file, string secret, bool overwrite)
     {
         string draft = DraftOf(file); // moved into place afterwards, so that a kill in between leaves the old file whole
         File.Delete(draft); // a leftover may be readable by others
@@ -91,8 +92,17 @@ internal static class SecretFile
             writer.WriteLine(secret);
         }
 
-        File.Move(draft, file, overwrite: true);
+        try
+        {
+            File.Move(draft, file, overwrite);
+            return true;
+        }
+        catch (IOException) when (!overwrite && File.Exists(file))
+        {
+            File.Delete(draft);
+            return false;
+        }
     }
 
-    private static string DraftOf(string file) => file + ".new";
+    private static string DraftOf(string file) => $"{file}.{Environment.ProcessId}.new";
 }

@@ -39,7 +39,7 @@ internal static class TokenCommand
             "--number", "The player's number; 0 for any that is free", 0, 0, SessionOptions.MaxClients);
         Option<PlayerRights> rights = new("--rights")
         {
-            Description = "What the player may do: all, act, spawn or none (default all).",
+            Description = "What the player may do: all, act, spawn or none.",
             DefaultValueFactory = _ => PlayerRights.All,
             HelpName = "RIGHTS",
             CustomParser = result => result.Tokens[0].Value switch

@@ -65,6 +65,14 @@ public sealed class PlayerAdmission
             throw new ArgumentException("The text holds half a surrogate pair, which is no character.", parameter);
         }
 
+        foreach (char one in text)
+        {
+            if (char.IsControl(one))
+            {
+                throw new ArgumentException($"The text holds the control character U+{(int)one:X4}, which could change what a terminal shows.", parameter);
+            }
+        }
+
         return bytes <= MaxTextBytes
             ? text
             : throw new ArgumentException($"'{text}' has {bytes} bytes of UTF-8; at most {MaxTextBytes} are allowed.", parameter);

@@ -151,15 +151,15 @@ public sealed class SessionCommandTests
     }
 
     [Theory]
-    [InlineData(true, "1.6")]
-    [InlineData(false, "0.8")] // the control: without a pass the time-out is all there is
+    [InlineData(true, "2.4")]
+    [InlineData(false, "1.8")] // the control: without a pass the time-out is all there is
     public void Join_NobodyThere_SaysAtOnceForHowLongItAsksAndNamesThatTimeAtTheEnd(bool hasPass, string seconds)
     {
         using TemporaryFolder folder = new();
         File.WriteAllText(folder["pass"], $"1-{new string('0', 31)}7");
         using UdpPort silent = new(new IPEndPoint(IPAddress.Loopback, 0));
         string[] pass = hasPass ? ["--pass", folder["pass"]] : [];
-        Tool tool = Tool.Run(["join", $"{silent.LocalAddress}", "--timeout-s", "0.8", "--rejoin-s", "1.6", .. pass]);
+        Tool tool = Tool.Run(["join", $"{silent.LocalAddress}", "--timeout-s", "1.8", "--rejoin-s", "2.4", .. pass]);
         Assert.Equal(3, tool.ExitCode);
         Assert.Equal(
             [$"No host answers at {silent.LocalAddress} yet; asking for up to {seconds} s. Ctrl-C ends it.", $"No answer from {silent.LocalAddress} within {seconds} s."],

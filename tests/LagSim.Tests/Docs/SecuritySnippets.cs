@@ -18,7 +18,7 @@ internal static class SecuritySnippets
         // on another machine, given that line
         HostAddress address = HostAddress.Parse(line);
         ClientOptions options = new() { Protection = new SecureClient(address.Fingerprint) };
-        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse(address.Host), address.Port), options);
+        using PeerThread client = PeerThread.Join(new IPEndPoint(Dns.GetHostAddresses(address.Host)[0], address.Port), options);
     }
 
     internal static void Tokens(TokenIssuer issuer, HostAddress hostAddress, HostIdentity identity, HostAddress address)
