@@ -29,12 +29,16 @@ internal static class SecureSession
 
     internal static HostOptions Hosting(HostIdentity identity) => new()
     {
-        Protection = new SecureHost(identity), ConnectKey = Key, Timeout = Silence,
+        Protection = new SecureHost(identity),
+        ConnectKey = Key,
+        Timeout = Silence,
     };
 
     internal static ClientOptions Joining(HostAddress address) => new()
     {
-        Protection = new SecureClient(address.Fingerprint), ConnectKey = Key, Timeout = Silence,
+        Protection = new SecureClient(address.Fingerprint),
+        ConnectKey = Key,
+        Timeout = Silence,
     };
 
     internal static IPEndPoint EndPoint(HostAddress address) => new(IPAddress.Parse(address.Host), address.Port);

@@ -37,7 +37,7 @@ internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
     /// <inheritdoc/>
     public override int GetHashCode() => words.GetHashCode();
 
-    internal static PublicIdentity Read(ref WireReader reader) => 
+    internal static PublicIdentity Read(ref WireReader reader) =>
         new((reader.ReadUInt64(), reader.ReadUInt64(), reader.ReadUInt64(), reader.ReadUInt64()));
 
     internal void Write(ref WireWriter writer)

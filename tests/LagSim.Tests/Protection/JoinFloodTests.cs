@@ -114,7 +114,8 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
             SessionGroup group = new(
                 ScriptedActions.Box(), 1, LinkProfiles.PureDelay(10), expected: 0, options: _ => new HostOptions
                 {
-                    Protection = protection, JoinLimits = new() { HandshakesPerSecondOfAll = ofAll },
+                    Protection = protection,
+                    JoinLimits = new() { HandshakesPerSecondOfAll = ofAll },
                 });
             group.Run(1);
             Attacker[] attackers = [.. Enumerable.Range(0, machines).Select(n => new Attacker(group, 500 + n))];

@@ -39,7 +39,10 @@ internal sealed class FloodedSession : IDisposable
             .Build();
         HostOptions hosting = new()
         {
-            ConnectKey = "flood", PlayerBudget = null, ExtraHistory = SimDuration.FromSeconds(5), MaxClientsPerAddress = 2,
+            ConnectKey = "flood",
+            PlayerBudget = null,
+            ExtraHistory = SimDuration.FromSeconds(5),
+            MaxClientsPerAddress = 2,
             Protection = isProtected ? new SecureHost(identity) : null,
         };
         joining = ClientOptions.From(hosting) with { Protection = isProtected ? new SecureClient(identity.Fingerprint) : null };
