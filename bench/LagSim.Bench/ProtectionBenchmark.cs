@@ -28,6 +28,7 @@ public class ProtectionBenchmark
     private BouncyCastleAead castle = null!;
     private byte[] genuine = null!;
     private byte[] forged = null!;
+    private byte[] forgedForCastle = null!;
     private byte[] mutated = null!;
     private ulong number;
 
@@ -41,6 +42,9 @@ public class ProtectionBenchmark
         cipher = read.Accept("", terms, welcome);
         sender = new LinkSeal(client.TryFinish("", welcome, terms)!);
         castle = new BouncyCastleAead(shown);
+        forgedForCastle = new byte[plain.Length + IDatagramCipher.TagBytes];
+        castle.Seal(0, default, plain, forgedForCastle);
+        forgedForCastle[^1] ^= 1;
         new LeaveDatagram(7, 1, LeaveReason.Left).Encode(datagram);
         genuine = sealing.AsSpan(0, sender.Seal(datagram, sealing)).ToArray();
         forged = [.. genuine];
@@ -60,6 +64,9 @@ public class ProtectionBenchmark
     /// <summary>The cipher alone, by Bouncy Castle, as on Mono and in browsers.</summary>
     [Benchmark]
     public void SealByBouncyCastle() => castle.Seal(++number, default, plain, sealing);
+
+    [Benchmark]
+    public bool OpenForgedByBouncyCastle() => castle.TryOpen(0, default, forgedForCastle, opened);
 
     [Benchmark]
     public bool Open() => SealedDatagram.TryDecode(genuine, out SealedDatagram one, out _) && one.TryOpen(cipher, opened, out _);
