@@ -23,7 +23,7 @@ internal static class ProtectionTable
 
     internal static void Print(bool isBrief)
     {
-        Console.WriteLine("Host and 3 clients on a lan in virtual time, plain and protected; time is that of the host's steps, the best of the rounds");
+        Console.WriteLine("Host and 3 clients on a lan in virtual time, plain and protected; time is that of the host's steps, the best round");
         Console.WriteLine("| what | plain | protected | ratio |");
         Console.WriteLine("|---|---|---|---|");
         (int rounds, double seconds, int joins) = isBrief ? (1, 5, 20) : (7, 60, 200);
@@ -55,8 +55,10 @@ internal static class ProtectionTable
     }
 
     private static void Row(string what, double plain, double sealedOnes, string format)
-        => Console.WriteLine(string.Create(
-            CultureInfo.InvariantCulture, $"| {what} | {plain.ToString(format)} | {sealedOnes.ToString(format)} | {sealedOnes / plain:0.00} |"));
+    {
+        (string one, string other) = (plain.ToString(format, CultureInfo.InvariantCulture), sealedOnes.ToString(format, CultureInfo.InvariantCulture));
+        Console.WriteLine(FormattableString.Invariant($"| {what} | {one} | {other} | {sealedOnes / plain:0.00} |"));
+    }
 
     /// <summary>Lets all clients act for a while.</summary>
     private static Load Play(HostIdentity? identity, double rate, double seconds)

@@ -8,11 +8,11 @@ using Org.BouncyCastle.Crypto.Parameters;
 namespace LagSim.Net.Protection;
 
 /// <summary>
-/// Bouncy Castle's ChaCha20 and Poly1305, put together as RFC 8439, section 2.8, says; for runtimes without libsodium: Mono, Unity, browsers.
+/// Bouncy Castle's ChaCha20 and Poly1305, combined as RFC 8439, section 2.8, says; for runtimes without libsodium: Mono, Unity, browsers.
 /// </summary>
 /// <remarks>
-/// Not by its own ChaCha20Poly1305, which refuses by an exception (6.7 us and 680 bytes), so that a flood of forgeries would be dear. Allocates
-/// 80 bytes for each text: Poly1305 takes its key, of which every text has another, as an object only.
+/// Bouncy Castle's own combination is not used, since it refuses a text by an exception, which makes a flood of forgeries expensive.
+/// Allocates 80 bytes for each text: Poly1305 needs a new key for each, and takes it as an object only.
 /// </remarks>
 internal sealed class BouncyCastleAead : Aead
 {

@@ -6,7 +6,7 @@ namespace LagSim.Net.Protection;
 /// <summary>A host's key pair, by which clients know that they are talking to this host and no other.</summary>
 /// <remarks>
 /// <para>A program that hosts again and again draws one once, keeps <see cref="ToSecretText"/> in a file that only it can read, and
-/// publishes the <see cref="Fingerprint"/>. Whoever has the secret can impersonate this host, and read what clients said in joins that were
+/// publishes the <see cref="Fingerprint"/>. With the secret anyone can pose as this host, and read what clients said in joins that they
 /// recorded; what was said in sessions stays unreadable.</para>
 /// <para>Safe on any thread. Disposing it wipes the key; dispose it after the sessions that use it.</para>
 /// </remarks>

@@ -6,7 +6,7 @@ namespace LagSim.Net.Protection;
 /// <summary>The SymmetricState of the Noise protocol framework (revision 34, section 5.2), for ChaChaPoly and SHA256.</summary>
 /// <remarks>
 /// It follows that section name by name, so that the two can be read side by side. For one thread. Disposing it wipes all of it.
-/// Its ciphers are Bouncy Castle's, for a key here is good for one message, and libsodium takes 35 us to lock the memory of each.
+/// Its ciphers are Bouncy Castle's: a key is for one message here, and libsodium takes longer to lock a key's memory than to encrypt one.
 /// </remarks>
 internal sealed class NoiseSymmetricState : IDisposable
 {

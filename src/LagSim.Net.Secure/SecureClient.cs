@@ -11,7 +11,7 @@ namespace LagSim.Net.Protection;
 /// <code>
 /// HostAddress address = HostAddress.Parse("lagsim://192.168.0.7:5000#6f1c8a0b2d3e4f5061728394a5b6c7d8");
 /// ClientOptions options = new() { Protection = new SecureClient(address.Fingerprint) };
-/// using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse(address.Host), address.Port), options);
+/// using PeerThread client = PeerThread.Join(new IPEndPoint(Dns.GetHostAddresses(address.Host)[0], address.Port), options);
 /// </code>
 /// </example>
 public sealed class SecureClient : IClientProtection

@@ -6,7 +6,10 @@ using NSec.Cryptography;
 namespace LagSim.Net.Protection;
 
 /// <summary>libsodium's ChaCha20-Poly1305 by NSec, which allocates nothing for a datagram, and refuses one without an exception.</summary>
-/// <remarks>Not the system's own: its way to refuse is an exception, which costs a host more than all else it does for a forged datagram.</remarks>
+/// <remarks>
+/// The system's own cipher is not used, since it refuses a datagram by an exception, which costs more than all else that a host does for a
+/// forged one.
+/// </remarks>
 internal sealed class SodiumAead(ReadOnlySpan<byte> key) : Aead
 {
     private readonly Key key = Key.Import(AeadAlgorithm.ChaCha20Poly1305, key, KeyBlobFormat.RawSymmetricKey);

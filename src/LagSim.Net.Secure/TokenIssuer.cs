@@ -6,8 +6,8 @@ namespace LagSim.Net.Protection;
 
 /// <summary>Issues connect tokens: for a backend that knows its players, and decides who may join which host.</summary>
 /// <remarks>
-/// <para>The backend keeps <see cref="ToSecretText"/> where only it can read it, and gives hosts the <see cref="Key"/>. Whoever has the
-/// secret can admit anyone.</para>
+/// <para>The backend keeps <see cref="ToSecretText"/> where only it can read it, and gives hosts the <see cref="Key"/>. With the
+/// secret anyone can admit players.</para>
 /// <para>Safe on any thread. Disposing it wipes the secret.</para>
 /// </remarks>
 /// <example>

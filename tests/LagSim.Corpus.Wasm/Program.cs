@@ -1,6 +1,7 @@
 using System;
 using System.Threading.Tasks;
 using LagSim.Hosting;
+using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 
@@ -35,8 +36,8 @@ internal static class Program
     private static async Task<int> Join(HostAddress address)
     {
         using NodePort port = new();
-        ClientSession client = new(
-            null, port, new StopwatchClock(), SecureSession.Joining(address), Net.Carriers.PeerAddress.From(SecureSession.EndPoint(address)), 1);
+        PeerAddress there = PeerAddress.From(SecureSession.EndPoint(address));
+        ClientSession client = new(null, port, new StopwatchClock(), SecureSession.Joining(address), there, 1);
         SecureSession.Watch(client, Console.Out);
         if (!await Run(client, () => client.State == SessionState.Running))
         {
@@ -63,7 +64,7 @@ internal static class Program
             }
 
             session.Step();
-            await Task.Delay(1);
+            await Task.Delay(1); // as a frame would: the one thread serves the socket meanwhile
         }
 
         return true;

@@ -75,7 +75,9 @@ internal static class DropCommand
             OutputFolder.ThrowIfNotWritable(folder); // report this before half a minute of work
         }
 
-        string title = options.IsVirtual ? "drop, virtual time" : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier}";
+        string title = options.IsVirtual
+            ? "drop, virtual time"
+            : $"drop, {options.Length.ToSeconds():0} s in real time over {options.Carrier}";
         IReadOnlyList<DropRun> runs = console.WithProgress(
             title, options.Length.ToSeconds(), progress => DropTest.Run(options, done => progress(done.ToSeconds())));
 

@@ -82,8 +82,8 @@ internal static class FuzzCommand
                 + $" {report.Seconds:0.0} s at a host and a client, and {report.JoinsSent:N0} of joins at the host"));
             console.Output.WriteLine(string.Create(culture, $"taken in {report.Received:N0}, refused by a decoder {report.Malformed:N0}, ignored"
                 + $" {report.Ignored:N0}, forged {report.Forged:N0}"));
-            console.Output.WriteLine(string.Create(
-                culture, $"a client that joined meanwhile {(report.JoinSeconds is double took ? $"was in after {took:0.00} s" : "did not get in")}"));
+            string joined = report.JoinSeconds is double took ? string.Create(culture, $"was in after {took:0.00} s") : "did not get in";
+            console.Output.WriteLine($"a client that joined meanwhile {joined}");
             console.Output.WriteLine(string.Create(culture, $"{report.EventsAgreed} of {report.EventsDone} events that the two did meanwhile are on both;"
                 + $" memory grew by {report.RetainedBytes:N0} bytes; a world was at most {report.MaxLatenessMilliseconds:0.0} ms behind"));
             console.Output.WriteLine(report.Failure ?? "The session went on, and both have the same world.");

@@ -99,7 +99,9 @@ internal static class HoldCommand
         double each = options[0].Length.ToSeconds();
         string title = options[0].IsVirtual
             ? $"hold, {motion.Name} motion, virtual time"
-            : string.Create(CultureInfo.InvariantCulture, $"hold, {motion.Name} motion, {each:0} s in real time over {options[0].Carrier}, {options[0].Link.Name} alone");
+            : string.Create(
+                CultureInfo.InvariantCulture,
+                $"hold, {motion.Name} motion, {each:0} s in real time over {options[0].Carrier}, {options[0].Link.Name} alone");
         List<HoldRun> runs = console.WithProgress(
             title,
             each * options.Length,

@@ -41,7 +41,7 @@ internal static class HostCommand
             1, 0, 1000);
         Option<string?> identity = CommonOptions.File(
             "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing."
-                + " Keep it secret: whoever has it can impersonate this host. By default the host has a new identity each time.");
+                + " Keep it secret: with it anyone can pose as this host. By default the host has a new identity each time.");
         Option<string?> tokens = new("--tokens")
         {
             Description = "Let in only who has a connect token of the issuer with this public key, the 64 digits that lagsim token prints.",

@@ -128,18 +128,19 @@ internal static class JoinCommand
         return Convert.TryFromBase64String(text, token, out int length) && length is > 0 and <= IHostProtection.MaxTokenBytes
             ? token[..length]
             : throw new UsageException(
-                $"--token is not a connect token: it has {text.Length} characters, and must be 1 to {IHostProtection.MaxTokenBytes} bytes in"
-                    + " base64.");
+                $"--token is not a connect token: it has {text.Length} characters, and must be 1 to {IHostProtection.MaxTokenBytes} bytes"
+                    + " in base64.");
     }
 
     /// <summary>
-    /// Reads a line with a token alone, or what <c>lagsim token</c> prints, where it stands behind a word of that name. No more than that is
-    /// read.
+    /// Reads a line with a token alone, or what <c>lagsim token</c> prints, where the token comes after that word. Reads no more than that,
+    /// as the input may have no end.
     /// </summary>
     private static string ReadToken(TextReader input)
     {
         char[] read = new char[1_000]; // twice what that prints
-        string[] lines = new string(read, 0, input.ReadBlock(read)).Split('\n', StringSplitOptions.TrimEntries | StringSplitOptions.RemoveEmptyEntries);
+        string[] lines = new string(read, 0, input.ReadBlock(read))
+            .Split('\n', StringSplitOptions.TrimEntries | StringSplitOptions.RemoveEmptyEntries);
         const string word = "token ";
         return Array.Find(lines, line => line.StartsWith(word, StringComparison.Ordinal)) is string named ? named[word.Length..]
             : lines.Length > 0 ? lines[0]

@@ -10,14 +10,14 @@ internal static class ProtectionOptions
     /// <summary>The option that turns protection off.</summary>
     internal static Option<bool> Unprotected() => new("--unprotected")
     {
-        Description = "Encrypt and authenticate nothing. Anyone on the path can then read, change and forge what is sent. Both ends must say"
-            + " so.",
+        Description = "Encrypt and authenticate nothing. Anyone on the path can then read, change and forge what is sent. Both ends must"
+            + " say so.",
     };
 
     /// <summary>The same for experiments that have both ends in this process.</summary>
     internal static Option<bool> UnprotectedExperiment() => new("--unprotected")
     {
-        Description = "In real time: encrypt and authenticate nothing, to compare what protection costs. In virtual time nothing is in any case.",
+        Description = "In real time: encrypt and authenticate nothing, to compare what protection costs. In virtual time nothing ever is.",
     };
 
     /// <summary>Says loudly that a session is not protected.</summary>

@@ -38,7 +38,8 @@ internal static class SecretFile
     {
         if (Read(file) is string text)
         {
-            return parse(text) ?? throw new InputException($"{option} is '{file}', which does not hold {what}: 64 hexadecimal digits in lower case.");
+            return parse(text) ?? throw new InputException(
+                $"{option} is '{file}', which does not hold {what}: 64 hexadecimal digits in lower case.");
         }
 
         ThrowIfNotWritable(option, file, what);

@@ -10,7 +10,9 @@ namespace LagSim.Cli.Commands;
 /// <remarks>Methods are for the printing thread. Results from the session's thread arrive through the queue.</remarks>
 internal sealed class SessionWatch
 {
-    /// <summary>The time without an answer after which a client reports that no host answers: more than a first join takes to compile.</summary>
+    /// <summary>
+    /// The time without an answer after which a client reports that no host answers: more than a first join takes to compile.
+    /// </summary>
     private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(1450);
 
     private readonly Session session;

@@ -14,7 +14,7 @@ internal static class TokenCommand
         CommonOptions common = new();
         Option<string> secret = new("--secret")
         {
-            Description = "The file of the issuer's secret key, created if it is missing. Whoever has it can admit anyone.",
+            Description = "The file of the issuer's secret key, created if it is missing. With it anyone can admit players.",
             HelpName = "FILE",
             Required = true,
         };

@@ -69,7 +69,8 @@ public sealed class PlayerAdmission
         {
             if (char.IsControl(one))
             {
-                throw new ArgumentException($"The text holds the control character U+{(int)one:X4}, which could change what a terminal shows.", parameter);
+                throw new ArgumentException(
+                    $"The text holds the control character U+{(int)one:X4}, which could change what a terminal shows.", parameter);
             }
         }
 

@@ -290,6 +290,7 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.Throws<ArgumentException>(() => new PlayerAdmission(""));
         Assert.Throws<ArgumentException>(() => new PlayerAdmission(new string('é', 33)));
         Assert.Throws<ArgumentException>(() => new PlayerAdmission("\ud800"));
+        Assert.Throws<ArgumentException>(() => new PlayerAdmission("a", "\u001b[2J"));
         Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", number: 9));
         Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", rights: (PlayerRights)4));
         Assert.True(TokenIssuer.TryParse(issuer.ToSecretText(), out TokenIssuer? again));

@@ -152,9 +152,9 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
             for (int n = 0; n < aMillisecond; n++)
             {
                 attackers[random.Next(machines)].Send(random, "joins of machines that are there");
+                group.Run(0.001 / aMillisecond); // spread, so that nothing wins by the order within an instant
             }
 
-            group.Run(0.001);
             if (ms == 1500) // the burst of all is spent
             {
                 Assert.InRange(protection.Reads, 250, 700);
@@ -166,6 +166,23 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
         output.WriteLine(FormattableString.Invariant($"in after {group.Clock.Now.ToSeconds() - began:0.00} s, {protection.Reads} handshakes read"));
         Assert.Equal(SessionState.Running, honest!.State);
         Assert.InRange(group.Clock.Now.ToSeconds() - began, 0, 2);
+    }
+
+    /// <summary>Sealed datagrams of no link are answered with the proof of a host, but not without end.</summary>
+    [Fact]
+    public void Resets_AskedForByAFlood_AreLimited()
+    {
+        SessionGroup group = new(
+            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(10), expected: 0, options: _ => new HostOptions { Protection = new SecureHost(identity) });
+        group.Run(1);
+        Attacker attacker = new(group, 500);
+        for (int n = 0; n < 3000; n++)
+        {
+            attacker.SendStray((ulong)n);
+        }
+
+        group.Run(0.1);
+        Assert.Equal(1000, attacker.DatagramsIn);
     }
 
     private sealed class Attacker
@@ -185,6 +202,7 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
                 while (port.TryReceive(buffer, out int length, out _))
                 {
                     BytesIn += length;
+                    DatagramsIn++;
                     cookie = ChallengeDatagram.TryDecode(buffer.AsSpan(0, length), out ChallengeDatagram challenge, out _) ? challenge.Cookie : cookie;
                 }
             };
@@ -193,6 +211,18 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
         internal long BytesIn { get; private set; }
 
         internal long BytesOut { get; private set; }
+
+        internal int DatagramsIn { get; private set; }
+
+        internal void SendStray(ulong session)
+        {
+            byte[] bytes = new byte[80];
+            WireWriter writer = new(bytes);
+            writer.WriteHeader(DatagramType.Sealed);
+            writer.WriteUInt64(session);
+            writer.WriteUInt32(1); // the rest is a seal of nobody's
+            Send(bytes);
+        }
 
         internal void AskForACookie() => Send(AnyDatagramBytes(new ConnectRequestDatagram(nonce).Encode));
 

@@ -44,5 +44,33 @@ public sealed class MachineRatesTests
         }
     }
 
+    /// <summary>A flood of machines that nobody hears of again is forgotten by the next one that asks after a while.</summary>
+    [Fact]
+    public void Machines_OfAFloodThatIsOver_AreForgotten()
+    {
+        MachineRates rates = new(perSecond: 1, burst: 8);
+        SimTime now = SimTime.FromSeconds(1);
+        for (int n = 0; n < 1000; n++)
+        {
+            Assert.True(rates.TrySpend(NatPort.Address(n, 1000), now));
+        }
+
+        Assert.Equal(1000, rates.Count);
+        Assert.True(rates.TrySpend(NatPort.Address(1000, 1000), now + SimDuration.FromSeconds(20)));
+        Assert.Equal(1, rates.Count);
+    }
+
+    [Fact]
+    public void TrySpend_OnlyIfWhole_IsForWhoHasSpentNothing()
+    {
+        MachineRates rates = new(perSecond: 1, burst: 8);
+        PeerAddress machine = NatPort.Address(1, 1000);
+        SimTime now = SimTime.FromSeconds(1);
+        Assert.True(rates.TrySpend(machine, now, onlyIfWhole: true));
+        Assert.False(rates.TrySpend(machine, now, onlyIfWhole: true));
+        Assert.True(rates.TrySpend(machine, now));
+        Assert.True(rates.TrySpend(machine, now + SimDuration.FromSeconds(3), onlyIfWhole: true));
+    }
+
     private static PeerAddress Address(string address, int port) => PeerAddress.From(new IPEndPoint(IPAddress.Parse(address), port));
 }

@@ -37,7 +37,7 @@ public sealed class RealPeers : PeerGroup
     private readonly CountingPort[] ports;
     private readonly DelayedPort[] delayed;
     private readonly PeerThread[] threads;
-    private readonly HostIdentity identity = HostIdentity.Draw();
+    private readonly HostIdentity? identity; // null in sessions without protection
     private volatile Exception? handlerFailure;
     private bool finished;
 
@@ -46,6 +46,7 @@ public sealed class RealPeers : PeerGroup
         : base(scene, options)
     {
         this.options = options;
+        identity = options.Carrier.IsProtected ? HostIdentity.Draw() : null;
         ports = new CountingPort[PeerCount];
         delayed = new DelayedPort[PeerCount];
         threads = new PeerThread[PeerCount];
@@ -59,15 +60,11 @@ public sealed class RealPeers : PeerGroup
             ports[peer] = counting;
             int receiver = peer;
             DelayedPort port = delayed[peer] = new DelayedPort(counting, trueTime, from => LinkTo(receiver, from));
-            HostOptions session = options.ToHostOptions() with { Protection = options.Carrier.IsProtected ? new SecureHost(identity) : null };
-            ClientOptions joining = ClientOptions.From(session) with
-            {
-                Protection = options.Carrier.IsProtected ? new SecureClient(identity.Fingerprint) : null,
-            };
+            (HostOptions hosting, ClientOptions joining) = ProtectedOptions.Of(options.ToHostOptions(), identity);
             ulong number = (ulong)Stopwatch.GetTimestamp();
             threads[peer] = new PeerThread(
                 peer == 0
-                    ? new HostSession(scene, port, own, session, number)
+                    ? new HostSession(scene, port, own, hosting, number)
                     : new ClientSession(scene, port, own, joining, ports[0].LocalAddress, number),
                 port,
                 $"LagSim peer {peer}");
@@ -173,7 +170,7 @@ public sealed class RealPeers : PeerGroup
             port.Dispose();
         }
 
-        identity.Dispose();
+        identity?.Dispose();
     }
 
     /// <summary>

@@ -4,6 +4,7 @@ using System.Net;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
@@ -13,12 +14,14 @@ using LagSim.Time;
 
 namespace LagSim.Harness.Verification.Fuzz;
 
-/// <summary>A host and a client over real UDP sockets that can be flooded while they act, and a second client that joins meanwhile.</summary>
+/// <summary>
+/// A host and a client over real UDP sockets that can be flooded while they act, and a second client, the newcomer, that joins meanwhile.
+/// </summary>
 internal sealed class FloodedSession : IDisposable
 {
     private static readonly TimeSpan Timeout = TimeSpan.FromSeconds(20);
 
-    private readonly HostIdentity identity = HostIdentity.Draw();
+    private readonly HostIdentity? identity; // null in a session without protection
     private readonly UdpPort newcomerPort = Open();
     private readonly ClientOptions joining;
     private readonly PeerThread host;
@@ -37,15 +40,15 @@ internal sealed class FloodedSession : IDisposable
             .AddPlane("floor", Vector3D.Up, Vector3D.Zero, 0.9)
             .AddBody("ball", new BodySpec(0.3, 1, 0.9), new Vector3D(0, 3, 0))
             .Build();
-        HostOptions hosting = new()
+        identity = isProtected ? HostIdentity.Draw() : null;
+        HostOptions options = new()
         {
             ConnectKey = "flood",
             PlayerBudget = null,
             ExtraHistory = SimDuration.FromSeconds(5),
             MaxClientsPerAddress = 2,
-            Protection = isProtected ? new SecureHost(identity) : null,
         };
-        joining = ClientOptions.From(hosting) with { Protection = isProtected ? new SecureClient(identity.Fingerprint) : null };
+        (HostOptions hosting, joining) = ProtectedOptions.Of(options, identity);
         HostSession session = new(scene, HostPort, new StopwatchClock(), hosting, (ulong)Stopwatch.GetTimestamp());
         host = new PeerThread(session, HostPort, "LagSim flooded host");
         client = Client(ClientPort, "LagSim flooded client");
@@ -74,7 +77,7 @@ internal sealed class FloodedSession : IDisposable
         newcomerPort.Dispose();
         ClientPort.Dispose();
         HostPort.Dispose();
-        identity.Dispose();
+        identity?.Dispose();
     }
 
     /// <summary>Starts host and client. Returns a sentence if they do not come together.</summary>
@@ -94,7 +97,7 @@ internal sealed class FloodedSession : IDisposable
     }
 
     /// <summary>Starts the newcomer the first time, and then looks whether it is in.</summary>
-    internal void LetNewcomerJoin()
+    internal void TendNewcomer()
     {
         if (newcomer is null)
         {
@@ -117,15 +120,15 @@ internal sealed class FloodedSession : IDisposable
     {
         for (long began = Stopwatch.GetTimestamp(); Stopwatch.GetElapsedTime(began) < Timeout; Thread.Sleep(10))
         {
-            LetNewcomerJoin();
+            TendNewcomer();
             PeerThread[] peers = [host, client, newcomer!];
             if (Array.Exists(peers, peer => peer.State == SessionState.Ended))
             {
                 break;
             }
 
-            bool isComplete = Ask(host, s => s.Counters.EventsAccepted) == EventsDone && Ask(client, s => s.Counters.EventsAccepted) == EventsDone;
-            if (isComplete && JoinSeconds is not null && HaveTheSameWorld(peers))
+            bool haveAll = Array.TrueForAll([host, client], peer => Ask(peer, s => s.Counters.EventsAccepted) == EventsDone);
+            if (haveAll && JoinSeconds is not null && HaveTheSameWorld(peers))
             {
                 return null;
             }
@@ -135,7 +138,8 @@ internal sealed class FloodedSession : IDisposable
     }
 
     /// <summary>The counters of host and client.</summary>
-    internal (SessionCounters Host, SessionCounters Client) Counters() => (Ask(host, s => s.Counters.Copy()), Ask(client, s => s.Counters.Copy()));
+    internal (SessionCounters Host, SessionCounters Client) Counters() =>
+        (Ask(host, s => s.Counters.Copy()), Ask(client, s => s.Counters.Copy()));
 
     private static bool HaveTheSameWorld(PeerThread[] peers)
     {
@@ -149,14 +153,17 @@ internal sealed class FloodedSession : IDisposable
         return Array.TrueForAll(hashes, hash => hash == hashes[0]);
     }
 
-    private static string Words(PeerThread peer) => peer.Session.EndReason is string reason ? $"{peer.State} ({reason})" : peer.State.ToString();
+    private static string Words(PeerThread peer) =>
+        peer.Session.EndReason is string reason ? $"{peer.State} ({reason})" : peer.State.ToString();
 
     private static UdpPort Open() => new(new IPEndPoint(IPAddress.Loopback, 0));
 
     private static T Ask<T>(PeerThread peer, Func<Session, T> question)
     {
         Task<T> answer = peer.Ask(question);
-        return answer.Wait(Timeout) ? answer.Result : throw new Experiments.Peers.PeerGroupException($"A peer did not answer within {Timeout.TotalSeconds} s.");
+        return answer.Wait(Timeout)
+            ? answer.Result
+            : throw new PeerGroupException($"A peer did not answer within {Timeout.TotalSeconds} s.");
     }
 
     private PeerThread Client(IDatagramPort port, string name)

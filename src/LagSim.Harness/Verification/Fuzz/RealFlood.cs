@@ -77,7 +77,7 @@ public static class RealFlood
 
             if (Done() > 0.1)
             {
-                flooded.LetNewcomerJoin();
+                flooded.TendNewcomer();
             }
 
             if (memory == 0 && Done() > 0.2)
@@ -97,7 +97,9 @@ public static class RealFlood
         long grown = memory == 0 ? 0 : LiveMemory.Read() - memory;
         string? failure = flooded.Settle();
         failure ??= joinTook > MaxJoinSeconds
-            ? FormattableString.Invariant($"A client that joined during the flood was not in within {MaxJoinSeconds:0} s, but {joinTook:0.0} s.") : null;
+            ? FormattableString.Invariant(
+                $"A client that joined during the flood was not in within {MaxJoinSeconds:0} s, but {joinTook:0.0} s.")
+            : null;
         failure ??= grown > MaxGrowth ? $"Memory grew by {grown} bytes during the flood." : null;
         (SessionCounters host, SessionCounters client) = flooded.Counters();
         return new FloodReport

@@ -2,6 +2,7 @@ using System;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
@@ -128,18 +129,10 @@ public static class SessionFuzz
             {
                 ports[peer] = between(network.CreatePort(peer));
                 HostOptions options = new() { ExpectedClients = Peers - 1, ConnectKey = "fuzz", PlayerBudget = null };
-                if (identity is not null)
-                {
-                    options = options with { Protection = new SecureHost(identity) };
-                }
-
-                ClientOptions joining = ClientOptions.From(options) with
-                {
-                    Protection = identity is null ? null : new SecureClient(identity.Fingerprint),
-                };
+                (HostOptions hosting, ClientOptions joining) = ProtectedOptions.Of(options, identity);
                 SkewedClock own = new(clock, 5 * peer, SimDuration.FromSeconds(peer));
                 sessions[peer] = peer == 0
-                    ? new HostSession(scene, ports[0], own, options, random.NextUInt64())
+                    ? new HostSession(scene, ports[0], own, hosting, random.NextUInt64())
                     : new ClientSession(null, ports[peer], own, joining, PeerAddress.Virtual(0), random.NextUInt64());
                 steps.Add(sessions[peer], ports[peer]);
             }

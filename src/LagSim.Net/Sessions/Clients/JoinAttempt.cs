@@ -25,8 +25,8 @@ internal sealed class JoinAttempt : IDisposable
     private const int RequestAfresh = 5;
 
     /// <summary>
-    /// The most joins kept, each with a cookie of its own: a challenge may be anybody's on the path, so a new one must not undo what another
-    /// began. Fewer than <see cref="RequestAfresh"/>, so that each is sent again and again.
+    /// The most joins kept, each with a cookie of its own: a challenge may be anybody's on the path, so a new one must not undo what
+    /// another began. Fewer than <see cref="RequestAfresh"/>, so that each is sent again and again.
     /// </summary>
     private const int MostJoins = 4;
 
@@ -83,8 +83,8 @@ internal sealed class JoinAttempt : IDisposable
     internal bool IsReady => Snapshot is not null && Clock.IsReady;
 
     /// <summary>
-    /// The join to send, whose cookie may still be good; null if another cookie is needed. Schedules the next try; the interval doubles each
-    /// time, up to <see cref="MaxPace"/>.
+    /// The join to send, whose cookie may still be good; null if another cookie is needed. Schedules the next try; the interval doubles
+    /// each time, up to <see cref="MaxPace"/>.
     /// </summary>
     internal PreparedJoin? Next(SimTime now)
     {
@@ -117,11 +117,15 @@ internal sealed class JoinAttempt : IDisposable
             RemoveOldest();
         }
 
+        if (joins.Count == 0)
+        {
+            pace = Pace; // not for each: else who sends one cookie after another would keep the older joins from being sent again
+            tries = 0;
+        }
+
         joins.Add(join);
         unsent = join;
         Due = now;
-        pace = Pace;
-        tries = 0;
     }
 
     /// <summary>Wipes the keys of the handshakes that were not finished.</summary>
@@ -146,6 +150,7 @@ internal sealed class JoinAttempt : IDisposable
 
     private void RemoveOldest()
     {
+        unsent = unsent == joins[0] ? null : unsent;
         joins[0].Dispose();
         joins.RemoveAt(0);
     }

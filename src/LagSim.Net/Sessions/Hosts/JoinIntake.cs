@@ -17,8 +17,9 @@ internal sealed class JoinIntake(
     SessionCounters counters, IClock clock)
 {
     private readonly IHostProtection? protection = options.Protection;
-    private readonly MachineRates handshakes = new(options.JoinLimits.HandshakesPerSecond, options.JoinLimits.HandshakeBurst);
-    private readonly RateLimit ofAll = new(options.JoinLimits.HandshakesPerSecondOfAll, options.JoinLimits.HandshakesPerSecondOfAll, clock.Now);
+    private readonly MachineRates handshakesOfOne = new(options.JoinLimits.HandshakesPerSecond, options.JoinLimits.HandshakeBurst);
+    private readonly RateLimit handshakesOfAll = new(
+        options.JoinLimits.HandshakesPerSecondOfAll, options.JoinLimits.HandshakesPerSecondOfAll, clock.Now);
 
     /// <summary>Takes a join in clear text.</summary>
     internal void OnJoin(in JoinDatagram join, PeerAddress from)
@@ -105,11 +106,16 @@ internal sealed class JoinIntake(
     }
 
     /// <summary>
-    /// Whether a handshake may be read, which is counted. Where half of what all may have is spent, only a machine that has had none for
-    /// long is read: so who comes for the first time gets in though thousands ask without end.
+    /// Whether a handshake may be read, which is counted. Once half of what all machines may have is spent, only one that has its full
+    /// limit is read: so a client that comes for the first time gets in, though thousands of others ask without end.
     /// </summary>
-    private bool MayRead(PeerAddress from, SimTime now) =>
-        ofAll.Left(now) >= 1 && handshakes.TrySpend(from, now, onlyIfWhole: ofAll.Left(now) < ofAll.Most / 2) && ofAll.TrySpend(now);
+    private bool MayRead(PeerAddress from, SimTime now)
+    {
+        double left = handshakesOfAll.Left(now);
+        return left >= 1
+            && handshakesOfOne.TrySpend(from, now, onlyIfWhole: left < handshakesOfAll.Most / 2)
+            && handshakesOfAll.TrySpend(now);
+    }
 
     private void Decide(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply)
     {

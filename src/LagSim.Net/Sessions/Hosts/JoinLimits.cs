@@ -32,7 +32,7 @@ internal sealed class JoinLimits
     internal double ChunksPerSecond { get; set; } = 2000;
 
     /// <summary>
-    /// The rate at which handshakes are read from one machine, each of which costs up to 0.7 ms (bench/README.md).
+    /// The rate at which handshakes are read from one machine, each of which costs up to 0.6 ms (bench/README.md).
     /// </summary>
     internal double HandshakesPerSecond { get; set; } = 1;
 

@@ -14,8 +14,8 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class MachineRates
 {
     /// <summary>
-    /// The number of machines from which on those with a full limit are looked for; then at twice what is left of them or after a pause,
-    /// so that a flood of machines costs little for each.
+    /// The number of machines from which on those with a full limit are forgotten; after that when there are twice as many, or after a
+    /// pause, so that a flood of machines costs little for each.
     /// </summary>
     private const int Many = 64;
 
@@ -25,8 +25,8 @@ internal sealed class MachineRates
     private readonly List<PeerAddress> rested = new();
     private readonly double perSecond;
     private readonly int burst;
-    private int lookAt = Many;
-    private SimTime lookAfter = SimTime.MinValue;
+    private int forgetAt = Many;
+    private SimTime forgetAfter = SimTime.MinValue;
 
     /// <param name="perSecond">How often a second.</param>
     /// <param name="burst">How often at once after a pause.</param>
@@ -57,7 +57,7 @@ internal sealed class MachineRates
 
     private void Forget(SimTime now)
     {
-        if (limits.Count < lookAt && (limits.Count < Many || now < lookAfter))
+        if (limits.Count < forgetAt && (limits.Count < Many || now < forgetAfter))
         {
             return;
         }
@@ -76,7 +76,7 @@ internal sealed class MachineRates
             limits.Remove(machine);
         }
 
-        lookAt = Math.Max(Many, 2 * limits.Count);
-        lookAfter = now + Pause;
+        forgetAt = Math.Max(Many, 2 * limits.Count);
+        forgetAfter = now + Pause;
     }
 }

@@ -21,7 +21,10 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class StrayReply(
     PlayerPlaces places, SessionStatus status, IHostProtection? protection, DatagramSender sender, IClock clock)
 {
-    /// <summary>The rate of replies that prove the host, and their burst: each takes 4 us. Peers without one wait for their timeout.</summary>
+    /// <summary>
+    /// The rate of replies that prove the host, and their burst: each takes three hashes and some memory, and anybody can ask for them. Who
+    /// gets none waits for the timeout.
+    /// </summary>
     private const int ProofsPerSecond = 1000;
 
     private readonly RateLimit proofs = new(ProofsPerSecond, ProofsPerSecond, clock.Now);
