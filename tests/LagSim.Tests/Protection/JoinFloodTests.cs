@@ -132,42 +132,6 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
         }
     }
 
-    /// <summary>Two thousand machines ask without end, more than are read: one that comes for the first time gets in all the same.</summary>
-    [Fact]
-    public void Join_WhileThousandsOfMachinesAsk_TakesNoLonger()
-    {
-        const int machines = 2000, aMillisecond = 20;
-        CountingProtection protection = new(new SecureHost(identity));
-        SessionGroup group = new(
-            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(10), expected: 0, options: _ => new HostOptions { Protection = protection });
-        group.Run(1);
-        Attacker[] attackers = [.. Enumerable.Range(0, machines).Select(n => new Attacker(group, 500 + n))];
-        Array.ForEach(attackers, attacker => attacker.AskForACookie());
-        group.Run(0.2);
-        Random random = new(5);
-        ClientSession? honest = null;
-        double began = double.MaxValue;
-        for (int ms = 0; ms < 4000 && honest?.State != SessionState.Running; ms++)
-        {
-            for (int n = 0; n < aMillisecond; n++)
-            {
-                attackers[random.Next(machines)].Send(random, "joins of machines that are there");
-                group.Run(0.001 / aMillisecond); // spread, so that nothing wins by the order within an instant
-            }
-
-            if (ms == 1500) // the burst of all is spent
-            {
-                Assert.InRange(protection.Reads, 250, 700);
-                honest = group.Join(1, 7, new ClientOptions { Protection = new SecureClient(identity.Fingerprint) });
-                began = group.Clock.Now.ToSeconds();
-            }
-        }
-
-        output.WriteLine(FormattableString.Invariant($"in after {group.Clock.Now.ToSeconds() - began:0.00} s, {protection.Reads} handshakes read"));
-        Assert.Equal(SessionState.Running, honest!.State);
-        Assert.InRange(group.Clock.Now.ToSeconds() - began, 0, 2);
-    }
-
     /// <summary>Sealed datagrams of no link are answered with the proof of a host, but not without end.</summary>
     [Fact]
     public void Resets_AskedForByAFlood_AreLimited()

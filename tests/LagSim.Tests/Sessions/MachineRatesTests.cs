@@ -60,17 +60,5 @@ public sealed class MachineRatesTests
         Assert.Equal(1, rates.Count);
     }
 
-    [Fact]
-    public void TrySpend_OnlyIfWhole_IsForWhoHasSpentNothing()
-    {
-        MachineRates rates = new(perSecond: 1, burst: 8);
-        PeerAddress machine = NatPort.Address(1, 1000);
-        SimTime now = SimTime.FromSeconds(1);
-        Assert.True(rates.TrySpend(machine, now, onlyIfWhole: true));
-        Assert.False(rates.TrySpend(machine, now, onlyIfWhole: true));
-        Assert.True(rates.TrySpend(machine, now));
-        Assert.True(rates.TrySpend(machine, now + SimDuration.FromSeconds(3), onlyIfWhole: true));
-    }
-
     private static PeerAddress Address(string address, int port) => PeerAddress.From(new IPEndPoint(IPAddress.Parse(address), port));
 }

@@ -105,17 +105,9 @@ internal sealed class JoinIntake(
         }
     }
 
-    /// <summary>
-    /// Whether a handshake may be read, which is counted. Once half of what all machines may have is spent, only one that has its full
-    /// limit is read: so a client that comes for the first time gets in, though thousands of others ask without end.
-    /// </summary>
-    private bool MayRead(PeerAddress from, SimTime now)
-    {
-        double left = handshakesOfAll.Left(now);
-        return left >= 1
-            && handshakesOfOne.TrySpend(from, now, onlyIfWhole: left < handshakesOfAll.Most / 2)
-            && handshakesOfAll.TrySpend(now);
-    }
+    /// <summary>Whether a handshake may be read, which is counted for its machine and for all.</summary>
+    private bool MayRead(PeerAddress from, SimTime now) =>
+        handshakesOfAll.Left(now) >= 1 && handshakesOfOne.TrySpend(from, now) && handshakesOfAll.TrySpend(now);
 
     private void Decide(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply)
     {

@@ -40,10 +40,7 @@ internal sealed class MachineRates
     internal int Count => limits.Count;
 
     /// <summary>Whether it may be done once more now for an address; if so, it is counted.</summary>
-    /// <param name="to">The address.</param>
-    /// <param name="now">The time.</param>
-    /// <param name="onlyIfWhole">Whether only a machine with its full limit may.</param>
-    internal bool TrySpend(PeerAddress to, SimTime now, bool onlyIfWhole = false)
+    internal bool TrySpend(PeerAddress to, SimTime now)
     {
         PeerAddress machine = to.Machine;
         if (!limits.TryGetValue(machine, out RateLimit? limit))
@@ -52,7 +49,7 @@ internal sealed class MachineRates
             limits[machine] = limit = new RateLimit(perSecond, burst, now);
         }
 
-        return (!onlyIfWhole || limit.IsWhole(now)) && limit.TrySpend(now);
+        return limit.TrySpend(now);
     }
 
     private void Forget(SimTime now)

@@ -7,25 +7,23 @@ namespace LagSim.Net.Sessions.Links;
 internal sealed class RateLimit
 {
     private readonly double perSecond;
+    private readonly double most;
     private double left;
     private SimTime counted;
 
     internal RateLimit(double perSecond, double atOnce, SimTime now)
     {
         this.perSecond = perSecond;
-        Most = atOnce;
+        most = atOnce;
         left = atOnce;
         counted = now;
     }
-
-    /// <summary>The most at once.</summary>
-    internal double Most { get; }
 
     /// <summary>Whether it is full, like a new one.</summary>
     internal bool IsWhole(SimTime now)
     {
         Count(now);
-        return left >= Most;
+        return left >= most;
     }
 
     /// <summary>How many are left.</summary>
@@ -49,7 +47,7 @@ internal sealed class RateLimit
 
     private void Count(SimTime now)
     {
-        left = Math.Min(Most, left + ((now - counted).ToSeconds() * perSecond));
+        left = Math.Min(most, left + ((now - counted).ToSeconds() * perSecond));
         counted = now;
     }
 }
