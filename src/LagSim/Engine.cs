@@ -7,6 +7,7 @@ using LagSim.Islands;
 using LagSim.Motion;
 using LagSim.Response;
 using LagSim.Rollback;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -24,9 +25,16 @@ internal sealed class Engine
     private readonly EventScheduler scheduler;
     private readonly RollbackState rollback = new();
     private readonly EventPredictor predictor;
+    private readonly Agenda agenda;
 
     /// <summary>A world without bodies, with room for as many as are expected.</summary>
-    internal Engine(Scene scene, SimulationOptions options, SimTime start, SimTime from, int expected)
+    /// <param name="scene">The scene.</param>
+    /// <param name="options">How it is run.</param>
+    /// <param name="start">When the scene began.</param>
+    /// <param name="from">From when the world is simulated.</param>
+    /// <param name="expected">How many bodies are expected.</param>
+    /// <param name="ruleState">The state of its rules, encoded; null for that at the start.</param>
+    internal Engine(Scene scene, SimulationOptions options, SimTime start, SimTime from, int expected, byte[]? ruleState = null)
     {
         EngineParts parts = options.Parts;
         Scene = scene;
@@ -38,7 +46,10 @@ internal sealed class Engine
         FreeFlights flights = new(scene.Gravity, scene.RestitutionThreshold, scene.Box, expected, 0.5 * scene.ContactTolerance);
         Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, parts.TimelineGrowthPolicy(start, options.History));
         Timelines.ForgetBefore(from);
-        Reader = new StateReader(scene.Box, Bodies, Timelines, Progress);
+        RuleMemory? ruleMemory = scene.Rules is null ? null : new RuleMemory(scene.Rules);
+        Rules = ruleMemory is null ? null : parts.RuleLog((GameRules)scene.Rules!, start, ruleState ?? ruleMemory.Begin());
+        Timelines.Triggers = Rules;
+        Reader = new StateReader(scene.Box, Bodies, Timelines, Progress, Rules);
 
         // The laws that bodies follow, and where contact is.
         Forces forces = new(scene, start);
@@ -64,8 +75,10 @@ internal sealed class Engine
         Reconvergence = new Reconvergence(Bodies, Timelines, log, scheduler, Progress, rollback, BroadPhase, predictor, parts.CutPaths())
         {
             Observer = options.Observer,
+            Rules = Rules,
         };
         Rewinder = parts.Rewinder(Bodies, Timelines, log, scheduler, Progress, rollback, Reconvergence, predictor, options.Healing);
+        Rewinder.Rules = Rules;
 
         // Islands.
         Partners partners = new(Bodies, Timelines, view, rewinds);
@@ -98,14 +111,24 @@ internal sealed class Engine
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath);
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
-        Loop = new EventLoop(
-            Progress, Timelines, scheduler, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures,
-            options.Cancellation);
 
-        // What comes from outside.
+        // What comes from outside, and what rules do.
         Roster = new BodyRoster(
             scene, Bodies, Timelines, log, scheduler, Progress, rollback, flights, BroadPhase, trajectories, collapse);
-        Intake = new EventIntake(Roster, Bodies, log, Progress, rollback, BroadPhase, predictor, Rewinder, Loop);
+        BroadPhaseGrowth growth = new(Bodies, Progress, rollback, BroadPhase, predictor);
+        if (Rules is not null)
+        {
+            RuleView ruleView = new(scene, Bodies, Timelines);
+            RuleWorld ruleWorld = new(scene, (GameRules)scene.Rules!, ruleMemory!, ruleView, start);
+            RuleActs acts = new(Roster, Bodies, log, growth, predictor, Rewinder);
+            Caller = parts.RuleCaller((GameRules)scene.Rules!, Rules, ruleMemory!, ruleWorld, ruleView, acts, options.Healing);
+        }
+
+        agenda = new Agenda(scheduler, Rules);
+        Loop = new EventLoop(
+            Progress, Timelines, agenda, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures, Rules, Caller,
+            options.Cancellation);
+        Intake = new EventIntake(Roster, Bodies, log, Progress, growth, predictor, Rewinder, Loop, Rules);
     }
 
     internal Scene Scene { get; }
@@ -138,13 +161,24 @@ internal sealed class Engine
 
     internal EventIntake Intake { get; }
 
+    /// <summary>The calls of the scene's rules, and their state; null where it has none.</summary>
+    internal RuleLog? Rules { get; }
+
+    /// <summary>Makes the calls of rules; null where there are none.</summary>
+    internal RuleCaller? Caller { get; }
+
     /// <summary>How far a rollback has come, and what rollbacks have done so far.</summary>
     internal RollbackState Rollback => rollback;
 
     /// <summary>The last instant that can be read: nothing happens between what is simulated and here.</summary>
-    internal SimTime Horizon => scheduler.Count == 0
-        ? SimTime.MaxValue
-        : SimTime.Max(Progress.SimulatedTo, scheduler.MinKey.Time - SimDuration.OneTick);
+    internal SimTime Horizon
+    {
+        get
+        {
+            SimTime next = agenda.NextTime;
+            return next == SimTime.MaxValue ? next : SimTime.Max(Progress.SimulatedTo, next - SimDuration.OneTick);
+        }
+    }
 
     /// <summary>All bodies that are there at first have been added: what they meet is predicted.</summary>
     internal void Begin()
@@ -163,5 +197,6 @@ internal sealed class Engine
         Progress.ForgetBefore(SimTime.Min(time, Progress.SimulatedTo));
         Timelines.ForgetBefore(Progress.HistoryEdge);
         BroadPhase.Current.DropBefore(Progress.HistoryEdge);
+        Rules?.DropBefore(Progress.HistoryEdge);
     }
 }

@@ -1,3 +1,4 @@
+using System;
 using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Contacts;
@@ -5,6 +6,7 @@ using LagSim.Events;
 using LagSim.Islands;
 using LagSim.Response;
 using LagSim.Rollback;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -75,4 +77,10 @@ internal class EngineParts
         Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
         new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph);
+
+    internal virtual RuleLog RuleLog(GameRules rules, SimTime start, ReadOnlySpan<byte> state) => new(rules, start, state);
+
+    internal virtual RuleCaller RuleCaller(
+        GameRules rules, RuleLog log, RuleMemory memory, RuleWorld world, RuleView view, RuleActs acts, HealingMode mode) =>
+        new(rules, log, memory, world, view, acts, mode);
 }

@@ -1,16 +1,15 @@
-using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Events;
 using LagSim.Rollback;
-using LagSim.Time;
+using LagSim.Rules;
 using LagSim.Timelines;
 
 namespace LagSim;
 
 /// <summary>Adds external events to the world, and retracts them. Paths that are known beyond such an event are rewound.</summary>
 internal sealed class EventIntake(
-    BodyRoster roster, BodyTable bodies, EventLog log, Progress progress, RollbackState rollback,
-    AdaptiveBroadPhase broadPhase, EventPredictor predictor, Rewinder rewinder, EventLoop loop)
+    BodyRoster roster, BodyTable bodies, EventLog log, Progress progress, BroadPhaseGrowth growth, EventPredictor predictor,
+    Rewinder rewinder, EventLoop loop, RuleLog? rules)
 {
     /// <summary>Adds an external event at a key, and marks what it changes of what is known already.</summary>
     internal SubmitResult Insert(in ExternalEvent external, in EventKey key, bool isForwarded)
@@ -20,11 +19,16 @@ internal sealed class EventIntake(
             return SubmitResult.TooOld;
         }
 
+        if (external.Kind == EventKind.Command)
+        {
+            return InsertCommand(external, key);
+        }
+
         int slot = bodies.SlotOf(external.Body);
         if (slot < 0)
         {
             slot = roster.AddAbsent(external.Body);
-            FitBroadPhase();
+            growth.Fit();
         }
 
         log.DropBefore(slot, progress.HistoryEdge);
@@ -53,6 +57,11 @@ internal sealed class EventIntake(
     /// <summary>Retracts an external event; false if it is not there (any more).</summary>
     internal bool Retract(in ExternalEvent external)
     {
+        if (external.Kind == EventKind.Command)
+        {
+            return RetractCommand(external);
+        }
+
         int slot = bodies.SlotOf(external.Body);
         if (slot < 0)
         {
@@ -85,23 +94,38 @@ internal sealed class EventIntake(
         return true;
     }
 
-    private void FitBroadPhase()
+    private SubmitResult InsertCommand(in ExternalEvent external, in EventKey key)
     {
-        if (!broadPhase.IsOutgrown)
+        if (rules!.Has(key))
         {
-            return;
+            return SubmitResult.Duplicate;
         }
 
-        if (!rollback.IsActive && rollback.Cursor.Time <= progress.SimulatedTo)
+        loop.Reconsider(key.Time);
+        bool isKnown = rewinder.IsKnown(key);
+        if (isKnown)
         {
-            // The cursor is at the last event, which may be long ago, and no body would be listed between then and now.
-            rollback.Cursor = EventKey.Before(progress.SimulatedTo + SimDuration.OneTick);
+            rewinder.MarkRules(key);
         }
 
-        broadPhase.Rebuild(progress.HistoryEdge, rollback.Cursor.Time);
-        foreach (int slot in bodies)
+        rules.Add(key, new RuleTrigger(external.Command));
+        return isKnown ? SubmitResult.RolledBack : SubmitResult.Queued;
+    }
+
+    private bool RetractCommand(in ExternalEvent external)
+    {
+        if (!rules!.TryFindCommand(external.Key.Origin, out EventKey key) || key.Time < progress.HistoryEdge)
         {
-            predictor.Predict(slot);
+            return false;
         }
+
+        loop.Reconsider(key.Time);
+        if (rewinder.IsKnown(key))
+        {
+            rewinder.MarkRules(key);
+        }
+
+        rules.Retract(key);
+        return true;
     }
 }

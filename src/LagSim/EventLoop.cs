@@ -4,21 +4,22 @@ using LagSim.BroadPhase;
 using LagSim.Events;
 using LagSim.Handlers;
 using LagSim.Rollback;
+using LagSim.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 using LagSim.Trajectories;
 
 namespace LagSim;
 
-/// <summary>The event loop: takes the least event that is due, has it processed, and moves on how far the world is simulated.</summary>
+/// <summary>The event loop: takes the least event that is due, or call of rules, has it processed, and moves on how far the world is simulated.</summary>
 /// <remarks>
 /// An instant happens as a whole. In a session's world an advance may stop within one that takes long, and one that has no end blocks the
 /// world until an event removes the cause.
 /// </remarks>
 internal sealed class EventLoop(
-    Progress progress, TimelineStore timelines, EventScheduler scheduler, RollbackState rollback, Rewinder rewinder,
+    Progress progress, TimelineStore timelines, Agenda agenda, RollbackState rollback, Rewinder rewinder,
     EventDispatcher dispatcher, AdaptiveBroadPhase broadPhase, WorkMeter meter, ForceFailures failures,
-    CancellationToken cancellation)
+    RuleLog? rules, RuleCaller? caller, CancellationToken cancellation)
 {
     private Exception? fault;
     private SimTime? partDone; // the instant that has happened only in part
@@ -30,7 +31,7 @@ internal sealed class EventLoop(
     internal bool WaitsForLateEvents { get; set; }
 
     /// <summary>The instant that blocks the world, and why; null if none does.</summary>
-    internal EndlessInstantException? Blocked { get; private set; }
+    internal InstantException? Blocked { get; private set; }
 
     /// <summary>The instant that blocks the world; the latest time there is if none does.</summary>
     internal SimTime BlockedAt => Blocked?.At ?? SimTime.MaxValue;
@@ -55,9 +56,9 @@ internal sealed class EventLoop(
     /// </summary>
     internal void ThrowIfBlockedAt(SimTime time)
     {
-        if (Blocked is EndlessInstantException endless && endless.At <= time)
+        if (Blocked is InstantException endless && endless.At <= time)
         {
-            throw new SimulationException(endless.Message);
+            throw new SimulationException(endless.Message, endless.InnerException!);
         }
     }
 
@@ -80,7 +81,7 @@ internal sealed class EventLoop(
         {
             stop = Run(until, time, ref events, ref reached);
         }
-        catch (EndlessInstantException endless) when (MayWaitBefore(endless.At))
+        catch (InstantException endless) when (MayWaitBefore(endless.At))
         {
             Blocked = endless;
             RewindInstant(endless.At);
@@ -131,7 +132,7 @@ internal sealed class EventLoop(
     private Stop Run(SimTime until, SimTime asked, ref long events, ref SimTime reached)
     {
         WorkVerdict verdict = WorkVerdict.GoOn;
-        while (scheduler.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
+        while (agenda.TryGetLeast(out int slot, out EventKey least) && least.Time <= until)
         {
             if (least.Time > reached)
             {
@@ -158,6 +159,12 @@ internal sealed class EventLoop(
             }
 
             events--;
+            if (slot == Agenda.Rules)
+            {
+                CallRules(least);
+                continue;
+            }
+
             rollback.Cursor = least;
             if (meter.Observer is null)
             {
@@ -173,6 +180,21 @@ internal sealed class EventLoop(
         }
 
         return Stop.None;
+    }
+
+    /// <summary>
+    /// Rules may hear of an impact by a key that comes before the one by which it was scheduled, that of all who take part; the cursor never
+    /// goes back for it.
+    /// </summary>
+    private void CallRules(in EventKey key)
+    {
+        if (EventKey.Compare(key, rollback.Cursor) > 0)
+        {
+            rollback.Cursor = key;
+        }
+
+        caller!.Process();
+        progress.EventsProcessed++;
     }
 
     /// <summary>Not before the first instant that is kept: nothing could be read then.</summary>
@@ -194,13 +216,14 @@ internal sealed class EventLoop(
             progress.ForgetBefore(now - progress.History);
             timelines.ForgetBefore(progress.HistoryEdge);
             broadPhase.Current.DropBefore(progress.HistoryEdge);
+            rules?.DropBefore(progress.HistoryEdge);
         }
     }
 
     /// <summary>With what a failure ends the simulation: in the one way that callers know.</summary>
     private SimulationException Ending(Exception failure, SimTime reached) => failure switch
     {
-        EndlessInstantException endless => new SimulationException(endless.Message),
+        InstantException instant => new SimulationException(instant.Message, instant.InnerException!),
         TimelinesFullException full => new TimelinesFullException($"{full.Message}{failures.OfFullTimelines(progress.History)}", full),
         _ => new SimulationException($"The simulation failed at or after {reached.ToShortString()}: {failure.Message}", failure),
     };

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Events;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -254,6 +255,30 @@ public sealed class Simulation
         return Engine.Reader.TryReadHold(Engine.Bodies.SlotOf(body), time, out hold);
     }
 
+    /// <summary>The world's state of the rules at an instant that can be read.</summary>
+    /// <typeparam name="T">The type that the scene's rules declare.</typeparam>
+    /// <returns>False, and the default, if the scene has no rules or they declare another type.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public bool TryReadRules<T>(SimTime time, out T state)
+        where T : unmanaged
+    {
+        CheckReadable(time);
+        state = default;
+        return Engine.Rules is not null && RuleStateReader.TryRead(Scene, Engine.Rules.StateAt(time).Bytes, out state);
+    }
+
+    /// <summary>A body's state of the rules at an instant that can be read.</summary>
+    /// <typeparam name="T">The type that the scene's rules declare for bodies.</typeparam>
+    /// <returns>False, and the default, if the body has none, or as above.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    public bool TryReadRules<T>(BodyId body, SimTime time, out T state)
+        where T : unmanaged
+    {
+        CheckReadable(time);
+        state = default;
+        return Engine.Rules is not null && RuleStateReader.TryRead(Scene, Engine.Rules.StateAt(time).Bytes, body, out state);
+    }
+
     /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
     /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of
     /// day.</remarks>
@@ -334,6 +359,8 @@ public sealed class Simulation
             engine.Roster.AddFromScene(i);
         }
 
+        BodyId last = BodyId.FromPacked(ulong.MaxValue); // after the start of every body
+        engine.Rules?.Add(new EventKey(options.Start, 0, EventKind.Start, last, last, 0, 0), default);
         engine.Begin();
         return engine;
     }
@@ -342,7 +369,7 @@ public sealed class Simulation
     {
         _ = scene ?? throw new ArgumentNullException(nameof(scene));
         SnapshotCheck.Throw(snapshot ?? throw new ArgumentNullException(nameof(snapshot)), scene);
-        Engine engine = new(scene, options, snapshot.Start, snapshot.Time, snapshot.BodyArray.Length);
+        Engine engine = new(scene, options, snapshot.Start, snapshot.Time, snapshot.BodyArray.Length, snapshot.RuleStateArray);
         foreach (ref readonly BodySnapshot body in snapshot.BodyArray.AsSpan())
         {
             engine.Roster.AddFromSnapshot(body);

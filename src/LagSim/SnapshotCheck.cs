@@ -1,6 +1,7 @@
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Motion;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -25,6 +26,7 @@ internal static class SnapshotCheck
                 + " days from the origin, and the first comes after the second.");
         }
 
+        StateLayout.Check(snapshot.RuleStateArray, scene.Rules, (snapshot.Time - snapshot.Start).Ticks);
         BodySnapshot[] bodies = snapshot.BodyArray;
         for (int i = 0; i < bodies.Length; i++)
         {

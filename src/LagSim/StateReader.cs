@@ -1,7 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Motion;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -9,23 +9,15 @@ using LagSim.Timelines;
 namespace LagSim;
 
 /// <summary>Reads the world at any instant that is kept: pure functions of the timelines, which change nothing.</summary>
-internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineStore timelines, Progress progress)
+internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineStore timelines, Progress progress, RuleLog? rules)
 {
     private readonly Paths paths = new(timelines);
-
-    /// <summary>The state of a body so many seconds into a segment.</summary>
-    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin) =>
-        segment.IsPresent
-            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds))
-            : default;
 
     /// <summary>A body's state; the default if it is not there.</summary>
     internal BodyState StateAt(int slot, SimTime time)
     {
         int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
-        return at == TimelineStore.None
-            ? default
-            : StateOf(timelines.Segment(at), paths.SecondsInto(at, time), timelines.Dense(at), box, timelines.SpinOf(at));
+        return at == TimelineStore.None ? default : paths.StateAt(at, time, box);
     }
 
     /// <summary>The hold on a body; false if no peer holds it.</summary>
@@ -63,13 +55,18 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
             }
         }
 
+        if (rules is not null)
+        {
+            RuleLog.AddTo(ref hash, rules.StateAt(time).Bytes);
+        }
+
         return hash.Value;
     }
 
     /// <summary>A hash of every event up to and including a time.</summary>
     internal ulong EventHash(SimTime time)
     {
-        ulong sum = timelines.EventHash;
+        ulong sum = timelines.EventHash + (rules?.EventHash(time) ?? 0);
         foreach (int slot in bodies)
         {
             for (int at = timelines.Last(slot); at != TimelineStore.None && timelines.Key(at).Time > time; at = timelines.Previous(at))
@@ -96,8 +93,7 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
             }
 
             ref readonly EventKey key = ref timelines.Key(at);
-            BodyState state = StateOf(timelines.Segment(at), paths.SecondsInto(at, key.Time), timelines.Dense(at), box, timelines.SpinOf(at));
-            entries.Add(new TimelineEntry(key, state));
+            entries.Add(new TimelineEntry(key, paths.StateAt(at, key.Time, box)));
             isBefore = key.Time <= from;
         }
 
@@ -138,6 +134,6 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
             }
         }
 
-        return new WorldSnapshot(progress.Start, time, EventHash(last), there.ToArray());
+        return new WorldSnapshot(progress.Start, time, EventHash(last), there.ToArray(), rules is null ? Array.Empty<byte>() : rules.StateAt(last).Bytes.ToArray());
     }
 }

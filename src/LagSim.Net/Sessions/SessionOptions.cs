@@ -128,6 +128,11 @@ public abstract record SessionOptions
     public ContactNotices? Contacts { get; init; }
 
     /// <summary>
+    /// Receives what the scene's rules tell; null, the default, for none. An instance serves one session only. Confirmed as contacts are.
+    /// </summary>
+    public RuleNotices? RuleNotices { get; init; }
+
+    /// <summary>
     /// How late events are handled; default <see cref="LateEventStrategy.Healing"/>. Peers with <see cref="LateEventStrategy.Healing"/>,
     /// <see cref="LateEventStrategy.FullRollback"/> and <see cref="LateEventStrategy.Interpolation"/> agree bit for bit, so these may be
     /// mixed; a peer with another agrees with no other peer.

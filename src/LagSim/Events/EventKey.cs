@@ -26,6 +26,12 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
         Origin = ((ulong)peer << 32) | sequence;
     }
 
+    private EventKey(in EventKey like, ulong origin)
+    {
+        this = like;
+        Origin = origin;
+    }
+
     /// <summary>When it happens.</summary>
     public SimTime Time { get; }
 
@@ -51,6 +57,9 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     public uint Sequence => (uint)Origin;
 
     internal ulong Origin { get; }
+
+    /// <summary>The least key after this one, of no event: what is keyed before it has happened once this event has.</summary>
+    internal EventKey JustAfter => new(this, Origin + 1);
 
     /// <summary>The key before every event at or after <paramref name="time"/>.</summary>
     public static EventKey Before(SimTime time) => new(time, 0, EventKind.None, default, default, 0, 0);

@@ -40,6 +40,12 @@ public enum EventKind : byte
     /// <summary>External: a body disappears.</summary>
     Remove = 15,
 
+    /// <summary>External: a player tells the game's rules something.</summary>
+    Command = 17,
+
+    /// <summary>A timer that the game's rules have set is due.</summary>
+    Timer = 24,
+
     /// <summary>Segments touch.</summary>
     Impact = 32,
 

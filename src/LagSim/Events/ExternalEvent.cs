@@ -15,8 +15,10 @@ namespace LagSim.Events;
 public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 {
     private ExternalEvent(
-        EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default)
+        EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
+        GameCommand? command = null)
     {
+        Command = command;
         Kind = kind;
         Time = time;
         Peer = peer;
@@ -40,7 +42,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>The number of the event at its peer, counted from 1.</summary>
     public uint Sequence { get; }
 
-    /// <summary>The body it is done to.</summary>
+    /// <summary>The body it is done to; for a command, which is done to none, the identity (peer, sequence, 0), of no body.</summary>
     public BodyId Body { get; }
 
     /// <summary>
@@ -59,6 +61,9 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>The spin of a spawned body, in radians per second about the vector; zero for any other event.</summary>
     public Vector3D Spin { get; }
+
+    /// <summary>What a <see cref="EventKind.Command"/> tells the game's rules; null for any other.</summary>
+    public GameCommand? Command { get; }
 
     /// <summary>Its place in the canonical order.</summary>
     public EventKey Key => new(Time, 0, Kind, Body, Body, Peer, Sequence);
@@ -108,13 +113,18 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     internal static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
+    /// <summary>The peer tells the game's rules something.</summary>
+    internal static ExternalEvent Tell(SimTime time, byte peer, uint sequence, GameCommand command) =>
+        new(EventKind.Command, time, peer, sequence, new BodyId(peer, sequence, 0), default, default, default, default, command);
+
     /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>
-    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin);
+    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Command);
 
     /// <inheritdoc/>
     public bool Equals(ExternalEvent other) =>
         Kind == other.Kind && Time == other.Time && Peer == other.Peer && Sequence == other.Sequence && Body == other.Body
-        && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin);
+        && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin)
+        && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is ExternalEvent other && Equals(other);
@@ -123,6 +133,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public override int GetHashCode() => Time.GetHashCode() ^ ((int)Sequence * 397) ^ (Peer << 24);
 
     /// <summary>Kind, body, time and origin, for logs and error messages.</summary>
-    public override string ToString() =>
-        string.Format(CultureInfo.InvariantCulture, "{0} of body {1} at {2} by {3}.{4}", Kind, Body, Time.ToShortString(), Peer, Sequence);
+    public override string ToString() => Command is not null
+        ? string.Format(CultureInfo.InvariantCulture, "{0} at {1} by {2}.{3}", Command, Time.ToShortString(), Peer, Sequence)
+        : string.Format(CultureInfo.InvariantCulture, "{0} of body {1} at {2} by {3}.{4}", Kind, Body, Time.ToShortString(), Peer, Sequence);
 }

@@ -17,7 +17,24 @@ public static class ExternalEventCheck
             throw new System.ArgumentNullException(nameof(scene));
         }
 
+        if (external.Peer == 0 && scene.Rules is not null)
+        {
+            throw new SceneException($"{external} is of peer 0; in a scene with rules that is what they do, and peers count from 1.");
+        }
+
+        ThrowIfUnfit(external, scene);
+    }
+
+    /// <summary>Throws if the values of an event, or of what rules do, may not enter a world of this scene.</summary>
+    internal static void ThrowIfUnfit(in ExternalEvent external, Scene scene)
+    {
         Subject whose = new(external);
+        if (external.Kind == EventKind.Command)
+        {
+            CheckCommand(external, scene);
+            return;
+        }
+
         if (external.Kind is < EventKind.Spawn or > EventKind.Remove)
         {
             throw new SceneException($"{external.Kind} is not an external event.");
@@ -56,6 +73,19 @@ public static class ExternalEventCheck
         else if (external.Kind == EventKind.Teleport)
         {
             CheckPlace(external.Position, scene.SmallestRadius, scene, whose);
+        }
+    }
+
+    private static void CheckCommand(in ExternalEvent external, Scene scene)
+    {
+        if (scene.Rules is null)
+        {
+            throw new SceneException($"{external} is no event of this scene: it has no rules that could hear it.");
+        }
+
+        if (external.Sequence == 0)
+        {
+            throw new SceneException($"The sequence number of {external.Command} is 0; a peer counts its events from 1.");
         }
     }
 

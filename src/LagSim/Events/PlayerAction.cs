@@ -5,7 +5,7 @@ using LagSim.Time;
 namespace LagSim.Events;
 
 /// <summary>
-/// A player's action on a body, before it is stamped with time, peer and sequence and so becomes an <see cref="ExternalEvent"/>.
+/// A player's action on a body, or a command to the game's rules, before it is stamped with time, peer and sequence and so becomes an <see cref="ExternalEvent"/>.
 /// </summary>
 /// <remarks>Immutable, safe on any thread. <c>default</c> is no action and cannot be stamped.</remarks>
 /// <example>
@@ -23,8 +23,11 @@ public readonly struct PlayerAction
     private readonly BodySpec spec;
     private readonly Vector3D spin;
 
+    private readonly GameCommand? command;
+
     private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default)
     {
+        command = null;
         Kind = kind;
         this.body = body;
         this.position = position;
@@ -32,6 +35,9 @@ public readonly struct PlayerAction
         this.spec = spec;
         this.spin = spin;
     }
+
+    private PlayerAction(GameCommand command)
+        : this(EventKind.Command, default, default, default, default) => this.command = command;
 
     /// <summary>The kind of the action; <see cref="EventKind.None"/> for the default.</summary>
     public EventKind Kind { get; }
@@ -74,6 +80,10 @@ public readonly struct PlayerAction
     /// <summary>The hand that holds the body releases it. The body continues with this velocity (m/s).</summary>
     public static PlayerAction Release(BodyId body, Vector3D velocity = default) => new(EventKind.Release, body, default, velocity, default);
 
+    /// <summary>The player tells the game's rules something (<see cref="Rules.GameRules.OnCommand"/>). For scenes that have rules.</summary>
+    /// <exception cref="ArgumentNullException">There is no command.</exception>
+    public static PlayerAction Command(GameCommand command) => new(command ?? throw new ArgumentNullException(nameof(command)));
+
     /// <summary>
     /// The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.
     /// </summary>
@@ -88,11 +98,12 @@ public readonly struct PlayerAction
         EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
         EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
         EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
+        EventKind.Command => ExternalEvent.Tell(time, peer, sequence, command!),
         _ => throw new InvalidOperationException("The default PlayerAction is no action."),
     };
 
     /// <summary>
     /// The kind and the body, such as <c>Grab of body 0.0.3</c>; the kind alone for a spawn, whose body gets its identity later.
     /// </summary>
-    public override string ToString() => Kind is EventKind.None or EventKind.Spawn ? Kind.ToString() : $"{Kind} of body {body}";
+    public override string ToString() => command is not null ? command.ToString() : Kind is EventKind.None or EventKind.Spawn ? Kind.ToString() : $"{Kind} of body {body}";
 }

@@ -53,7 +53,7 @@ public sealed class ContactNotices : IImpactObserver
     private const int MinCapacity = 16;
     private const int FewChanges = 1024;
 
-    private readonly ContactQueue queue;
+    private readonly NoticeQueue<ContactNotice> queue;
     private readonly List<ContactNotice> tail = new(); // the known contacts, while they are merged with the changes
     private List<Change> changes = new(); // since the last step that was reported, in the order in which they came
     private List<Change> spare = new();
@@ -85,7 +85,7 @@ public sealed class ContactNotices : IImpactObserver
         }
 
         MinClosingSpeed = minClosingSpeed;
-        queue = new ContactQueue(capacity);
+        queue = new NoticeQueue<ContactNotice>(capacity);
     }
 
     /// <summary>

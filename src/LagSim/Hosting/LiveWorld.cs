@@ -44,10 +44,11 @@ public sealed class LiveWorld
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
+    /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
-    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null)
-        : this(new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts)), lookAhead, renderedPast, contacts)
+    /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
+    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null, RuleNotices? notices = null)
+        : this(new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, notices)), lookAhead, renderedPast, contacts, notices)
     {
     }
 
@@ -58,18 +59,26 @@ public sealed class LiveWorld
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
+    /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
-    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
+    /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
         Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
-        ContactNotices? contacts = null)
-        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts)), lookAhead, renderedPast, contacts)
+        ContactNotices? contacts = null, RuleNotices? notices = null)
+        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, notices)), lookAhead, renderedPast, contacts, notices)
     {
     }
 
-    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts)
+    private LiveWorld(
+        Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, RuleNotices? notices)
     {
+        Notices = notices;
+        if (notices is not null)
+        {
+            simulation.Engine.Rules?.Listen();
+        }
+
         Simulation = simulation;
         Contacts = contacts;
         events = EventsAStep;
@@ -85,6 +94,9 @@ public sealed class LiveWorld
 
     /// <summary>Receives its contacts; null for none.</summary>
     public ContactNotices? Contacts { get; }
+
+    /// <summary>Receives what its rules tell; null for none.</summary>
+    public RuleNotices? Notices { get; }
 
     /// <summary>
     /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a
@@ -132,10 +144,14 @@ public sealed class LiveWorld
     private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.UsualCandidates) + 8));
 
     /// <summary>
-    /// Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to
+    /// Gives the notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to
     /// be stepped again.
     /// </summary>
-    public void Retire() => Contacts?.Restart();
+    public void Retire()
+    {
+        Contacts?.Restart();
+        Notices?.Restart();
+    }
 
     /// <summary>
     /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an
@@ -241,9 +257,12 @@ public sealed class LiveWorld
         if (!Simulation.Engine.Loop.IsPartDone)
         {
             Contacts?.Tell(Simulation);
+            Notices?.Tell(Simulation);
         }
 
-        SimTime confirmation = Contacts?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue;
+        SimTime confirmation = SimTime.Min(
+            Contacts?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue,
+            Notices?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue);
         if (Simulation.Engine.Loop.Blocked is not null)
         {
             return SimTime.Min(confirmation, now + LookAhead); // there is nothing to do before an event comes
@@ -253,7 +272,8 @@ public sealed class LiveWorld
     }
 
     /// <summary>The options, if they and the spans go together.</summary>
-    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts)
+    private static SimulationOptions Checked(
+        SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, RuleNotices? notices)
     {
         if (options is null)
         {
@@ -279,6 +299,7 @@ public sealed class LiveWorld
         }
 
         contacts?.Follow();
+        notices?.Follow();
         return contacts is null ? options : options.WithObserver(contacts);
     }
 

@@ -118,7 +118,7 @@ internal sealed class RenderTimeline
     }
 
     private static BodyState State(in Entry entry, SimTime time, in PeriodicBox box) =>
-        StateReader.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
+        Paths.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
 
     private void Reserve(int fresh)
     {

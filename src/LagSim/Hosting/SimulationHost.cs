@@ -41,12 +41,13 @@ public sealed class SimulationHost : IDisposable
     /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
+    /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none. As above.</param>
     /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null)
+    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, RuleNotices? notices = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
         SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token);
-        world = new LiveWorld(scene, options, lookAhead, contacts: contacts);
+        world = new LiveWorld(scene, options, lookAhead, contacts: contacts, notices: notices);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 

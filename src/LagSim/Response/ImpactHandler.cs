@@ -19,7 +19,7 @@ internal sealed class ImpactHandler(
     private const uint MaxRounds = 1 << 16;
 
     /// <summary>Opens the segments after an impact; the graph then has their bodies. False if a body has to be rewound first.</summary>
-    /// <exception cref="EndlessInstantException">The instant does not end.</exception>
+    /// <exception cref="InstantException">The instant does not end.</exception>
     internal bool TryHandle(int slot, in EventKey key)
     {
         if (isolated.TryHandle(slot, key))
@@ -70,7 +70,7 @@ internal sealed class ImpactHandler(
         }
     }
 
-    private EndlessInstantException Endless(int slot, SimTime time) => new(
+    private InstantException Endless(int slot, SimTime time) => new(
         $"At {time.ToShortString()} the impacts of {scene.Describe(bodies.Id(slot))} have no end: {MaxRounds} in one instant. What is squeezed between others and loses no energy is struck for ever:"
         + " give it, or what squeezes it, a restitution below 1, a mass that is less unlike, or room.", time);
 }

@@ -11,7 +11,7 @@ internal sealed class ImpactNotifier(BodyTable bodies, TimelineStore timelines, 
     /// <summary>Reports the contacts of the graph that close, as they are before the impact is solved.</summary>
     internal void Tell(in EventKey key)
     {
-        if (timelines.Observer is not IImpactObserver observer)
+        if (timelines.Observer is null && timelines.Triggers is null)
         {
             return;
         }
@@ -27,7 +27,9 @@ internal sealed class ImpactNotifier(BodyTable bodies, TimelineStore timelines, 
                 BodyId second = c.Second == ContactPoint.Static ? first : bodies.Id(graph.Slots[c.Second]);
                 Vector3D position = graph.Positions[c.First] - (c.Normal * bodies.Spec(graph.Slots[c.First]).Radius);
                 int surface = c.Second == ContactPoint.Static ? c.Surface : ImpactContact.NoSurface;
-                observer.OnContact(canonical, new ImpactContact(first, second, surface, position, closing));
+                ImpactContact contact = new(first, second, surface, position, closing);
+                timelines.Observer?.OnContact(canonical, contact);
+                timelines.Triggers?.OnContact(canonical, contact);
             }
         }
     }

@@ -1,6 +1,7 @@
 using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Events;
+using LagSim.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -15,6 +16,9 @@ internal sealed class Reconvergence(
     AdaptiveBroadPhase broadPhase, EventPredictor predictor, CutPaths cut)
 {
     private readonly HeldBackImpacts heldBack = new();
+
+    /// <summary>The calls of rules; null, the default, where there are none.</summary>
+    internal RuleLog? Rules { get; set; }
 
     /// <summary>The observer of impacts made and cut; null, the default, for none.</summary>
     internal IImpactObserver? Observer
@@ -62,7 +66,7 @@ internal sealed class Reconvergence(
             return false;
         }
 
-        return mayBe && cut.HaveReconverged(timelines, at);
+        return mayBe && cut.HaveReconverged(timelines, at) && (Rules is null || Rules.HaveReconverged());
     }
 
     /// <summary>
@@ -84,6 +88,7 @@ internal sealed class Reconvergence(
             broadPhase.List(cut.SlotAt(n), at, next);
         }
 
+        Rules?.PutBack(to);
         progress.SimulatedTo = to;
         rollback.End(); // no body is ahead of another
         rollback.Cursor = EventKey.Before(next);

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using LagSim.Collisions;
 using LagSim.Events;
+using LagSim.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -49,6 +50,10 @@ internal class Rewinder : ISegmentOpenedObserver
         this.mode = mode;
     }
 
+    /// <summary>The calls of rules, which are looked at again from where bodies are rewound; null, the default, where there are
+    /// none.</summary>
+    internal RuleLog? Rules { get; set; }
+
     /// <summary>Raised once per rollback, when the world is again where it was.</summary>
     internal event Action<HealReport>? Healed;
 
@@ -84,14 +89,28 @@ internal class Rewinder : ISegmentOpenedObserver
     /// </summary>
     internal virtual void Mark(int slot, in EventKey key)
     {
+        if (!IsBegunAt(key))
+        {
+            Rewind(slot, key);
+        }
+    }
+
+    /// <summary>At a key a command has come or gone: the calls of rules are looked at again from there on, and the world is simulated no
+    /// further than to before it.</summary>
+    internal virtual void MarkRules(in EventKey key) => IsBegunAt(key);
+
+    /// <summary>Begins a rollback to a key, or has the one that is under way include it; true if that has rewound all bodies.</summary>
+    private bool IsBegunAt(in EventKey key)
+    {
         Begin(key.Time);
         if (mode == HealingMode.FullRollback)
         {
             progress.SimulatedTo = key.Time - SimDuration.OneTick;
             RewindAll(key);
-            return;
+            return true;
         }
 
+        Rules?.RewindTo(key);
         if (key.Time <= progress.SimulatedTo)
         {
             rollback.Cursor = key;
@@ -103,7 +122,7 @@ internal class Rewinder : ISegmentOpenedObserver
             rollback.Cursor = EventKey.Before(progress.SimulatedTo + SimDuration.OneTick);
         }
 
-        Rewind(slot, key);
+        return false;
     }
 
     /// <summary>
@@ -165,6 +184,7 @@ internal class Rewinder : ISegmentOpenedObserver
         {
             rollback.Begin(mode == HealingMode.FullRollback ? RollbackKind.Full : RollbackKind.CausalCone, progress.SimulatedTo);
             timelines.Openings = this;
+            Rules?.BeginRollback();
             report = new HealReport(time, rollback.Horizon, 1, 0, rollback.SegmentsCut, progress.EventsProcessed);
             if (mode != HealingMode.FullRollback)
             {
@@ -253,6 +273,7 @@ internal class Rewinder : ISegmentOpenedObserver
     {
         rollback.Cursor = key;
         rollback.BecomeFull();
+        Rules?.RewindTo(key);
         EventKey from = CutsAllFrom(key);
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {

@@ -27,8 +27,12 @@ public sealed class Scene
         Force[] forces,
         double smallestRadius,
         PeerSet spawners,
-        PeriodicBox box)
+        PeriodicBox box,
+        SceneRules? rules = null,
+        ulong seed = 0)
     {
+        Rules = rules;
+        Seed = seed;
         Name = name;
         Gravity = gravity;
         RestitutionThreshold = restitutionThreshold;
@@ -83,6 +87,12 @@ public sealed class Scene
 
     /// <summary>The periodic box that everything is in; none by default.</summary>
     public PeriodicBox Box { get; }
+
+    /// <summary>The game's rules; null, the default, for none.</summary>
+    public SceneRules? Rules { get; }
+
+    /// <summary>What the random numbers of the rules begin with; default 0.</summary>
+    public ulong Seed { get; }
 
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
     public ulong Hash { get; }
@@ -144,6 +154,12 @@ public sealed class Scene
         new(
             Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray,
             SmallestRadius, Spawners, Box);
+
+    /// <summary>The same scene with these rules and this seed.</summary>
+    internal Scene With(SceneRules? rules, ulong seed) =>
+        new(
+            Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, BodyArray, ForceArray, SmallestRadius, Spawners,
+            Box, rules, seed);
 
     private static void ThrowIfNull(string name)
     {
@@ -216,7 +232,27 @@ public sealed class Scene
             hash.Add(ContactTolerance);
         }
 
+        AddRules(ref hash);
         return hash.Value;
+    }
+
+    // As below: a scene without has the hash it always had.
+    private void AddRules(ref StableHash hash)
+    {
+        if (Rules is not null)
+        {
+            hash.Add(1UL << 57);
+            hash.Add(Rules.Name);
+            hash.Add((long)Rules.Version);
+            hash.Add((long)Rules.WorldBytes);
+            hash.Add((long)Rules.BodyBytes);
+        }
+
+        if (Seed != 0)
+        {
+            hash.Add(1UL << 56);
+            hash.Add(Seed);
+        }
     }
 
     // Only where the scene sets it, so that any other scene has the hash it always had.

@@ -40,6 +40,8 @@ public sealed class SceneBuilder
     private double? contactTolerance;
     private double? smallestSpawn;
     private int? threads;
+    private SceneRules? rules;
+    private ulong seed;
 
     /// <summary>Starts a scene of that name with default gravity and nothing in it. The name is for people, no part of
     /// <see cref="Scene.Hash"/>.</summary>
@@ -202,6 +204,22 @@ public sealed class SceneBuilder
         return this;
     }
 
+    /// <summary>Gives the scene the rules of a game; see <see cref="Rules.GameRules"/>. A scene has one object of rules, default
+    /// none.</summary>
+    /// <exception cref="ArgumentNullException">There are no rules.</exception>
+    public SceneBuilder WithRules(SceneRules ofGame)
+    {
+        rules = ofGame ?? throw new ArgumentNullException(nameof(ofGame));
+        return this;
+    }
+
+    /// <summary>Sets what the random numbers of the rules begin with, any value; default 0. Another gives another game.</summary>
+    public SceneBuilder WithSeed(ulong value)
+    {
+        seed = value;
+        return this;
+    }
+
     /// <summary>Checks everything and makes the scene. Cost: O(n log n) in the bodies, on several threads if they are many
     /// (<see cref="WithThreads"/>).</summary>
     /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
@@ -242,7 +260,7 @@ public sealed class SceneBuilder
             CheckNames();
             scene = new Scene(
                 name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest),
-                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box);
+                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box, rules, seed);
         }
     }
 

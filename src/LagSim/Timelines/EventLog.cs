@@ -124,6 +124,23 @@ internal sealed class EventLog
         return false;
     }
 
+    /// <summary>Removes a body's event of a key, if it is there; if it was due, the one after it is due now.</summary>
+    internal void Remove(int slot, in EventKey key)
+    {
+        int at = FirstFrom(slot, key);
+        if (at == None || entries[at].Key != key)
+        {
+            return;
+        }
+
+        if (due[slot] == at)
+        {
+            due[slot] = entries[at].Next;
+        }
+
+        Remove(slot, at);
+    }
+
     /// <summary>Whether no event of a body is kept.</summary>
     internal bool IsEmpty(int slot) => first[slot] == None;
 

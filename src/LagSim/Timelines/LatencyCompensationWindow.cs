@@ -53,7 +53,7 @@ public sealed class LatencyCompensationWindow
     /// everything it needs to cover no network.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public LatencyCompensationWindow(SimDuration? history = null, SimDuration? lookAhead = null)
-        : this(history ?? DefaultHistory, lookAhead ?? DefaultLookAhead, new SimDuration[EventKind.Remove - EventKind.Spawn + 1])
+        : this(history ?? DefaultHistory, lookAhead ?? DefaultLookAhead, new SimDuration[EventKind.Command - EventKind.Spawn + 1])
     {
     }
 
@@ -106,7 +106,7 @@ public sealed class LatencyCompensationWindow
         {
             throw new ArgumentOutOfRangeException(
                 nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a keyframe of a hand, a release, a"
-                    + " removal.");
+                    + " removal, a command.");
         }
 
         SimDuration[] changed = (SimDuration[])lags.Clone();
@@ -148,7 +148,7 @@ public sealed class LatencyCompensationWindow
         return measured < MinMeasuredHistory ? MinMeasuredHistory : measured > MaxHistory ? MaxHistory : measured;
     }
 
-    private static bool IsOfPlayers(EventKind kind) => kind is >= EventKind.Spawn and <= EventKind.Remove;
+    private static bool IsOfPlayers(EventKind kind) => kind is >= EventKind.Spawn and <= EventKind.Remove or EventKind.Command;
 
     private void ThrowIfNot(SimDuration lag)
     {

@@ -1,4 +1,5 @@
 using LagSim.Events;
+using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -17,6 +18,16 @@ internal readonly struct Paths(TimelineStore timelines)
 
     /// <summary>How long after the beginning of a segment's law an instant is.</summary>
     internal double SecondsInto(int segment, SimTime time) => time.SecondsSince(timelines.Segment(segment).Epoch);
+
+    /// <summary>The state of a body so many seconds into a segment; absent on one on which it is not there.</summary>
+    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin) =>
+        segment.IsPresent
+            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds))
+            : default;
+
+    /// <summary>The state of a body on a segment at an instant.</summary>
+    internal BodyState StateAt(int segment, SimTime time, in PeriodicBox box) =>
+        StateOf(timelines.Segment(segment), SecondsInto(segment, time), timelines.Dense(segment), box, timelines.SpinOf(segment));
 
     internal Vector3D PositionAt(int segment, SimTime time) =>
         timelines.Segment(segment).PositionAt(SecondsInto(segment, time), timelines.Dense(segment));

@@ -59,6 +59,9 @@ internal sealed class TimelineStore
     /// <summary>Notified of impacts that are cut; null for none.</summary>
     internal IImpactObserver? Observer { get; set; }
 
+    /// <summary>Notified of what rules may hear of; null, the default, where there are none.</summary>
+    internal IRuleTriggers? Triggers { get; set; }
+
     /// <summary>Notified of segments that are opened; null for none.</summary>
     internal ISegmentOpenedObserver? Openings { get; set; }
 
@@ -137,6 +140,7 @@ internal sealed class TimelineStore
         in Spin spin = default)
     {
         Openings?.OnOpened(slot, key);
+        Triggers?.OnOpened(body, key);
         int at = TakeRoom(key.Time);
         extras.Set(at, segment, output, hold, spin, segments.Length);
         int before = ends[slot].Last;
@@ -200,6 +204,8 @@ internal sealed class TimelineStore
         {
             Observer.OnCut(segments[at].Key);
         }
+
+        Triggers?.OnCut(body, segments[at].Key);
 
         ends[slot].Last = links[at].Previous;
         if (ends[slot].Last == None)

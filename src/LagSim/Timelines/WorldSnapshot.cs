@@ -17,13 +17,16 @@ public sealed class WorldSnapshot
     /// <param name="time">See <see cref="Time"/>.</param>
     /// <param name="eventHash">See <see cref="EventHash"/>.</param>
     /// <param name="bodies">The bodies that exist, by ascending identity; copied.</param>
-    public WorldSnapshot(SimTime start, SimTime time, ulong eventHash, ReadOnlySpan<BodySnapshot> bodies)
-        : this(start, time, eventHash, bodies.ToArray())
+    /// <param name="ruleState">See <see cref="RuleState"/>; copied.</param>
+    public WorldSnapshot(
+        SimTime start, SimTime time, ulong eventHash, ReadOnlySpan<BodySnapshot> bodies, ReadOnlySpan<byte> ruleState = default)
+        : this(start, time, eventHash, bodies.ToArray(), ruleState.ToArray())
     {
     }
 
-    internal WorldSnapshot(SimTime start, SimTime time, ulong eventHash, BodySnapshot[] bodies)
+    internal WorldSnapshot(SimTime start, SimTime time, ulong eventHash, BodySnapshot[] bodies, byte[] ruleState)
     {
+        RuleStateArray = ruleState;
         Start = start;
         Time = time;
         EventHash = eventHash;
@@ -41,6 +44,11 @@ public sealed class WorldSnapshot
 
     /// <summary>The bodies that exist, by ascending identity.</summary>
     public IReadOnlyList<BodySnapshot> Bodies => bodies;
+
+    /// <summary>The state of the rules, encoded; empty for a scene without.</summary>
+    public ReadOnlySpan<byte> RuleState => RuleStateArray;
+
+    internal byte[] RuleStateArray { get; }
 
     internal BodySnapshot[] BodyArray => bodies;
 }

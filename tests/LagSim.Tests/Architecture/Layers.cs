@@ -74,7 +74,7 @@ internal static class Layers
     internal static readonly PlacedType[] Placed =
     [
         new("LagSim.BodyState", EngineWords, ForUsers),
-        new("LagSim.EndlessInstantException", EngineWords, ForUsers),
+        new("LagSim.InstantException", EngineWords, ForUsers),
         new("LagSim.HealingMode", EngineWords, ForUsers),
         new("LagSim.HealReport", EngineWords, ForUsers),
         new("LagSim.Hold", EngineWords, ForUsers),

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Harness.Verification.Check;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -21,11 +22,13 @@ internal sealed class RandomWorld
     private readonly Random random;
     private readonly double[] masses;
     private readonly bool forced;
+    private readonly int firstPeer; // with rules peer 0 is theirs
 
     /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control, friction and spin.</summary>
-    internal RandomWorld(int seed, bool hands = false, bool forced = false)
+    internal RandomWorld(int seed, bool hands = false, bool forced = false, bool rules = false)
     {
         this.forced = forced;
+        firstPeer = rules ? 1 : 0;
         random = new Random(seed);
         masses = seed % 4 == 3 ? ExtremeMasses : Masses;
         Scene = DrawScene();
@@ -35,9 +38,25 @@ internal sealed class RandomWorld
         {
             DrawHands(new Random(seed + 1_000_000));
         }
+
+        if (rules)
+        {
+            Scene = Scene.With(new DrawnRules((ulong)seed), (ulong)seed);
+            DrawCommands(new Random(seed + 2_000_000));
+        }
     }
 
     internal bool HasHands { get; }
+
+    private void DrawCommands(Random draws)
+    {
+        for (uint n = 1; n <= 6; n++)
+        {
+            byte[] data = new byte[draws.Next(4)];
+            draws.NextBytes(data);
+            Events.Insert(0, PlayerAction.Command(new GameCommand(draws.Next(3), data)).Stamp(At(End * draws.Next(11) / 10), (byte)(1 + draws.Next(3)), 10_000 + n));
+        }
+    }
 
     /// <summary>How often an event came while the world of the last <see cref="Shuffled"/> had done a part of an instant.</summary>
     internal int PartDoneStops { get; private set; }
@@ -235,12 +254,12 @@ internal sealed class RandomWorld
         times.AddRange(busy.Select(time => time + SimDuration.OneTick));
         times.AddRange(busy.Select(time => time - SimDuration.OneTick));
         List<BodyId> known = Bodies(quiet).ToList();
-        uint[] sequences = new uint[4];
+        uint[] sequences = new uint[5];
         List<ExternalEvent> events = [];
         int count = random.Next(3, 9);
         for (int i = 0; i < count; i++)
         {
-            byte peer = (byte)random.Next(0, 4);
+            byte peer = (byte)(firstPeer + random.Next(0, 4));
             uint sequence = ++sequences[peer];
             SimTime time = times[random.Next(times.Count)];
             BodyId body = known[random.Next(known.Count)];
@@ -269,7 +288,7 @@ internal sealed class RandomWorld
         int hands = from.Next(1, 5);
         for (int hand = 0; hand < hands; hand++)
         {
-            byte peer = (byte)from.Next(0, 4);
+            byte peer = (byte)(firstPeer + from.Next(0, 4));
             uint sequence = 100u + ((uint)hand * 100);
             BodyId body = from.Next(3) > 0 ? favourite : known[from.Next(known.Count)];
             SimTime time = times[from.Next(times.Length)];
@@ -307,6 +326,11 @@ internal sealed class RandomWorld
     private ExternalEvent Decoy(Random arrivals, int i)
     {
         SimTime time = Events.Count > 0 && arrivals.Next(2) == 0 ? Events[arrivals.Next(Events.Count)].Time : At(arrivals.NextDouble() * End);
+        if (Scene.Rules is not null && arrivals.Next(3) == 0)
+        {
+            return PlayerAction.Command(new GameCommand(7)).Stamp(time, 9, (uint)i + 1);
+        }
+
         if (HasHands && arrivals.Next(2) == 0)
         {
             // Of a body that hands are at: one that took it first, or let go of it for another.

@@ -1,0 +1,205 @@
+using System;
+using LagSim.Events;
+using LagSim.Rules;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Harness.Verification.Check;
+
+/// <summary>Rules drawn by a seed: they hear of some contacts, of commands, timers and bodies, read bodies and regions, draw random
+/// numbers, and act on bodies; everything that they come to know goes into a digest in their state.</summary>
+internal sealed class DrawnRules : GameRules
+{
+    /// <summary>The most bodies that they spawn.</summary>
+    internal const int MaxSpawns = 6;
+
+    private const int Timers = 4;
+
+    private readonly ulong seed;
+    private readonly int contacts; // of how many pairs one is heard
+    private readonly int acts; // of how many calls for a contact one acts
+    private readonly bool hearsBodies;
+
+    /// <summary>The rules of a seed.</summary>
+    internal DrawnRules(ulong seed)
+        : base("drawn", unchecked((int)seed))
+    {
+        this.seed = seed;
+        contacts = 1 + (int)(Mix(seed, 1) % 3);
+        acts = 2 + (int)(Mix(seed, 2) % 5);
+        hearsBodies = Mix(seed, 3) % 2 == 0;
+        WithWorldState<Total>();
+        if (Mix(seed, 4) % 4 != 0)
+        {
+            WithBodyState<OfBody>();
+        }
+    }
+
+    /// <inheritdoc/>
+    protected internal override bool HearsBodies => hearsBodies;
+
+    /// <inheritdoc/>
+    protected internal override bool HearsContact(BodyId first, BodyId second, int surface) =>
+        Mix(Mix(first.Packed, second.Packed), (ulong)(surface + 2)) % (ulong)contacts == 0;
+
+    /// <inheritdoc/>
+    protected internal override void OnStart(RuleWorld world)
+    {
+        for (int n = 0; n < Timers; n++)
+        {
+            world.SetTimer(n, SimDuration.FromMilliseconds(20 + (int)(Mix(seed, (ulong)(10 + n)) % 300)));
+        }
+    }
+
+    /// <inheritdoc/>
+    protected internal override void OnCommand(RuleWorld world, byte player, GameCommand command)
+    {
+        Note(world, (ulong)command.Number);
+        Note(world, (ulong)command.Length);
+        Act(world, Any(world));
+    }
+
+    /// <inheritdoc/>
+    protected internal override void OnContact(RuleWorld world, in RuleContact contact)
+    {
+        Note(world, Bits(contact.ClosingSpeed));
+        Note(world, Bits(contact.Position.X));
+        Count(world, contact.First);
+        Count(world, contact.Second);
+        if (world.Random(acts) == 0)
+        {
+            Act(world, world.Random(2) == 0 ? contact.First : contact.Second);
+        }
+    }
+
+    /// <inheritdoc/>
+    protected internal override void OnTimer(RuleWorld world, int timer)
+    {
+        Note(world, (ulong)timer);
+        if (timer < Timers)
+        {
+            world.SetTimer(timer, SimDuration.FromMilliseconds(30 + world.Random(200)));
+        }
+
+        BodyId body = Any(world);
+        if (world.TryRead(body, out BodyState state))
+        {
+            Note(world, Bits(state.Position.X));
+            Note(world, Bits(state.Velocity.Y));
+        }
+
+        if (timer == 0)
+        {
+            Span<BodyId> near = stackalloc BodyId[8];
+            int count = world.Within(state.Position, 1.5, near);
+            Note(world, (ulong)count);
+            body = count > 0 ? near[world.Random(Math.Min(count, near.Length))] : body;
+        }
+
+        Act(world, body);
+    }
+
+    /// <inheritdoc/>
+    protected internal override void OnSpawned(RuleWorld world, BodyId body)
+    {
+        Note(world, body.Packed);
+        world.Tell(1, body.Index);
+    }
+
+    /// <inheritdoc/>
+    protected internal override void OnRemoved(RuleWorld world, BodyId body) => Note(world, ~body.Packed);
+
+    private static ulong Bits(double value) => (ulong)BitConverter.DoubleToInt64Bits(value);
+
+    private static ulong Mix(ulong a, ulong b)
+    {
+        StableHash hash = default;
+        hash.Add(a);
+        hash.Add(b);
+        return hash.Value;
+    }
+
+    private static void Note(RuleWorld world, ulong what)
+    {
+        ref Total total = ref world.State<Total>();
+        total.Digest = Mix(total.Digest, what);
+        total.Calls++;
+    }
+
+    private static BodyId Any(RuleWorld world) => world.Scene.Bodies.Count == 0 ? default : BodyId.OfScene(world.Random(world.Scene.Bodies.Count));
+
+    private void Count(RuleWorld world, BodyId body)
+    {
+        if (BodyBytes > 0 && world.TryRead(body, out _))
+        {
+            world.State<OfBody>(body).Hits++;
+        }
+    }
+
+    private void Act(RuleWorld world, BodyId body)
+    {
+        Vector3D some = new((4 * world.RandomFraction()) - 2, (4 * world.RandomFraction()) - 2, (4 * world.RandomFraction()) - 2);
+        ref Total total = ref world.State<Total>();
+        switch (world.Random(12))
+        {
+            case 0:
+            case 1:
+            case 2:
+                world.SetVelocity(body, some);
+                break;
+            case 3:
+            case 4:
+                world.Impulse(body, some * world.SpecOf(body).Mass);
+                break;
+            case 5 when body.Sequence == 0 && body.Peer == 0:
+                world.Teleport(body, world.Scene.Bodies[body.Index].Position, some);
+                break;
+            case 6 when total.Spawns < MaxSpawns && world.Scene.Bodies.Count > 0:
+                total.Spawns++;
+                SceneBody like = world.Scene.Bodies[world.Random(world.Scene.Bodies.Count)];
+                total.Last = world.Spawn(like.Spec, like.Position, some).Packed;
+                break;
+            case 7 when total.Last != 0:
+                world.Remove(BodyId.FromPacked(total.Last));
+                break;
+            case 8:
+                world.SetTimer(Timers + world.Random(3), SimDuration.FromMilliseconds(world.Random(100)));
+                break;
+            case 9:
+                world.CancelTimer(Timers + world.Random(3));
+                break;
+            case 10:
+                world.Tell(2, (long)(total.Digest >> 8));
+                break;
+            default:
+                total.Score++;
+                break;
+        }
+    }
+
+    /// <summary>The state of the world.</summary>
+    internal struct Total
+    {
+        /// <summary>Everything that was heard, read and drawn.</summary>
+        internal ulong Digest;
+
+        /// <summary>The last body that was spawned.</summary>
+        internal ulong Last;
+
+        /// <summary>How often something was noted.</summary>
+        internal long Calls;
+
+        /// <summary>How often nothing else was done.</summary>
+        internal int Score;
+
+        /// <summary>How many bodies were spawned.</summary>
+        internal int Spawns;
+    }
+
+    /// <summary>The state of a body.</summary>
+    private struct OfBody
+    {
+        /// <summary>How often it was in a contact that was heard.</summary>
+        internal long Hits;
+    }
+}

@@ -1,0 +1,70 @@
+using System;
+using System.Globalization;
+using LagSim.Events;
+using LagSim.Rules;
+using LagSim.Time;
+
+namespace LagSim.Hosting;
+
+/// <summary>Something that the rules of a game told, predicted, confirmed or retracted.</summary>
+/// <remarks>Immutable, safe on any thread. Key, place and notice are the same on every peer; <see cref="Number"/>, and which come as
+/// predicted, are each peer's own.</remarks>
+public readonly struct RuleEvent : IEquatable<RuleEvent>
+{
+    internal RuleEvent(ContactNoticeKind kind, long number, in EventKey key, int place, RuleNotice notice)
+    {
+        Kind = kind;
+        Number = number;
+        Key = key;
+        Place = place;
+        Notice = notice;
+    }
+
+    /// <summary>Whether it is predicted, confirmed or retracted.</summary>
+    public ContactNoticeKind Kind { get; }
+
+    /// <summary>Counts those of this peer from 1, lost ones included; see <see cref="RuleNotices.Lost"/>.</summary>
+    public long Number { get; }
+
+    /// <summary>The event for which the rules were called.</summary>
+    public EventKey Key { get; }
+
+    /// <summary>When the rules told it, in shared simulation time.</summary>
+    public SimTime Time => Key.Time;
+
+    /// <summary>Which it is of those that the rules told for that event, from 0.</summary>
+    public int Place { get; }
+
+    /// <summary>What they told.</summary>
+    public RuleNotice Notice { get; }
+
+    /// <summary>Whether it is about the same, whatever its kind.</summary>
+    public bool IsSameNotice(in RuleEvent other) => Key == other.Key && Place == other.Place && Notice == other.Notice;
+
+    /// <inheritdoc/>
+    public bool Equals(RuleEvent other) => Kind == other.Kind && Number == other.Number && IsSameNotice(other);
+
+    /// <inheritdoc/>
+    public override bool Equals(object? obj) => obj is RuleEvent other && Equals(other);
+
+    /// <inheritdoc/>
+    public override int GetHashCode() => Key.GetHashCode() ^ Place;
+
+    /// <summary>Same in every part.</summary>
+    public static bool operator ==(in RuleEvent a, in RuleEvent b) => a.Equals(b);
+
+    /// <summary>Different in some part.</summary>
+    public static bool operator !=(in RuleEvent a, in RuleEvent b) => !a.Equals(b);
+
+    /// <summary>Kind, notice and time, for logs.</summary>
+    public override string ToString() => string.Format(CultureInfo.InvariantCulture, "{0} {1} at {2}", Kind, Notice, Time);
+
+    /// <summary>The order in which the rules told them.</summary>
+    internal static int Compare(in RuleEvent a, in RuleEvent b)
+    {
+        int byKey = EventKey.Compare(a.Key, b.Key);
+        return byKey != 0 ? byKey : a.Place.CompareTo(b.Place);
+    }
+
+    internal RuleEvent As(ContactNoticeKind kind, long number) => new(kind, number, Key, Place, Notice);
+}

@@ -1,0 +1,179 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Rules;
+using LagSim.Scenes;
+using LagSim.Timelines;
+
+namespace LagSim;
+
+/// <summary>Makes the calls of rules, or finds that one made before stands.</summary>
+internal class RuleCaller
+{
+    /// <summary>How many rounds of one tick rules may cause: 64. What bounces between rules and itself needs a few.</summary>
+    internal const int MaxRounds = 64;
+
+    private readonly GameRules rules;
+    private readonly RuleLog log;
+    private readonly RuleMemory memory;
+    private readonly RuleWorld world;
+    private readonly RuleView view;
+    private readonly RuleActs acts;
+    private readonly HealingMode mode;
+    private readonly List<RuleRead> spare = new();
+    private StateVersion? loaded; // what the memory holds
+
+    /// <summary>Calls these rules in one world.</summary>
+    internal RuleCaller(
+        GameRules rules, RuleLog log, RuleMemory memory, RuleWorld world, RuleView view, RuleActs acts, HealingMode mode)
+    {
+        this.rules = rules;
+        this.log = log;
+        this.memory = memory;
+        this.world = world;
+        this.view = view;
+        this.acts = acts;
+        this.mode = mode;
+    }
+
+    /// <summary>How many calls were made, those made again included.</summary>
+    internal long Made { get; private set; }
+
+    /// <summary>Deals with the call that is next. What follows from it is scheduled.</summary>
+    /// <exception cref="InstantException">The rules failed.</exception>
+    internal void Process()
+    {
+        RuleCall call = log.Next();
+        if (call.IsGone)
+        {
+            acts.TakeBack(call);
+            log.Drop();
+            acts.Follow();
+            return;
+        }
+
+        uint first = FirstAct(call, out int place, out int rounds);
+        if (Stands(call, first))
+        {
+            log.Stand();
+            return;
+        }
+
+        Make(call, first, place);
+        if (world.Chains && rounds >= MaxRounds)
+        {
+            throw Failed(call, $"caused more than {MaxRounds} rounds of events in one tick", null);
+        }
+
+        acts.Exchange(call, world.Acts);
+        call.FirstAct = first;
+        call.Chains = world.Chains;
+        Copy(world.Reads, call.Reads);
+        if (call.Notices.Count + world.Notices.Count > 0)
+        {
+            log.NoteNotices(call.Key);
+            Copy(world.Notices, call.Notices);
+        }
+
+        log.Stand(memory.Encode());
+        loaded = log.Current;
+        acts.Follow();
+    }
+
+    /// <summary>Whether a call that was made before would be made with the same, and so do the same.</summary>
+    private protected virtual bool Stands(RuleCall call, uint first) =>
+        call.IsMade && mode != HealingMode.FullRollback && call.FirstAct == first && call.Before!.IsSameAs(log.Current) && ReadsTheSame(call);
+
+    /// <summary>Whether a call would read what it read.</summary>
+    private protected virtual bool ReadsTheSame(RuleCall call) => view.IsUnchanged(call.Reads, call.Key, spare);
+
+    private static void Copy<T>(List<T> from, List<T> to)
+    {
+        to.Clear();
+        to.AddRange(from);
+    }
+
+    private void Make(RuleCall call, uint first, int place)
+    {
+        Load();
+        world.Begin(call, first, place);
+        loaded = null; // until it is known what the call leaves
+        Made++;
+        try
+        {
+            Dispatch(call);
+        }
+        catch (Exception failure)
+        {
+            throw Failed(call, failure.Message, failure);
+        }
+        finally
+        {
+            world.End();
+        }
+    }
+
+    private void Dispatch(RuleCall call)
+    {
+        switch (call.Key.Kind)
+        {
+            case EventKind.Start:
+                rules.OnStart(world);
+                break;
+            case EventKind.Command:
+                rules.OnCommand(world, call.Key.Peer, call.Trigger.Command!);
+                break;
+            case EventKind.Timer:
+                memory.Cancel(unchecked((int)call.Key.Sequence));
+                rules.OnTimer(world, unchecked((int)call.Key.Sequence));
+                break;
+            case EventKind.Impact:
+                rules.OnContact(world, new RuleContact(call.Trigger.Contact));
+                break;
+            case EventKind.Spawn when rules.HearsBodies:
+                rules.OnSpawned(world, call.Key.Body);
+                break;
+            case EventKind.Remove when rules.HearsBodies:
+                rules.OnRemoved(world, call.Key.Body);
+                memory.Forget(call.Key.Body);
+                break;
+            default:
+                memory.Forget(call.Key.Body); // a body that is spawned begins without a state, and one that is removed has none
+                break;
+        }
+    }
+
+    private void Load()
+    {
+        if (!ReferenceEquals(loaded, log.Current))
+        {
+            memory.Load(log.Current.Bytes);
+        }
+    }
+
+    /// <summary>The number of the first act of the next call, which of the calls of its key it is, and how many rounds rules have caused
+    /// at its tick.</summary>
+    private uint FirstAct(RuleCall call, out int place, out int rounds)
+    {
+        uint first = 0;
+        place = 0;
+        rounds = 0;
+        uint round = uint.MaxValue;
+        for (int n = log.Position - 1; n >= 0 && log[n].Key.Time == call.Key.Time; n--)
+        {
+            RuleCall before = log[n];
+            place += before.Key == call.Key ? 1 : 0;
+            first += before.Key.Round == call.Key.Round ? (uint)before.Acts.Count : 0;
+            if (before.Chains && before.Key.Round != round)
+            {
+                round = before.Key.Round;
+                rounds++;
+            }
+        }
+
+        return first;
+    }
+
+    private InstantException Failed(RuleCall call, string why, Exception? cause) => new(
+        $"The rules '{rules}' failed at {call.Key.Time.ToShortString()} in their call for {call.Key}: {why}", call.Key.Time, cause);
+}

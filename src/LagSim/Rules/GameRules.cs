@@ -1,0 +1,118 @@
+using System.Diagnostics.CodeAnalysis;
+using LagSim.Events;
+using LagSim.Scenes;
+
+namespace LagSim.Rules;
+
+/// <summary>The rules of a game: called for what happens in the world, they change their own state and act on bodies.</summary>
+/// <remarks>
+/// <para>What rules do is part of the world. They are called in the canonical order of events, on every peer alike; a late event has the
+/// calls made again that it can have touched, and only those. So their state heals as the motion does, and is the same on all peers, to the
+/// bit.</para>
+/// <para>A call must follow from what it is given alone: the world's and the bodies' state, what it reads of the world, and the random
+/// numbers that it draws. It may keep nothing in fields, and ask no clock, no random numbers but the world's, no function of
+/// <see cref="System.Math"/> but the square root, absolute values and comparison, and no order of a hash set or a dictionary.
+/// <see cref="HealingMode.SyncTest"/> finds rules that do.</para>
+/// <para>Calls are made on the simulation's thread; one object serves many worlds, so it must be immutable. They cost what they do, a copy
+/// of the whole state where they change it, and the same again whenever a late event has them made again.</para>
+/// <para>An exception out of a call ends the world with a <see cref="SimulationException"/> that names the rules, the call and the instant;
+/// in a session it first waits for a late event that removes the cause, as long as one may come.</para>
+/// </remarks>
+/// <example>
+/// A score that counts how often a ball hits a plane, and a countdown:
+/// <code>
+/// public sealed class Squash : GameRules
+/// {
+///     public Squash() : base("squash", version: 1) =&gt; WithWorldState&lt;Score&gt;();
+///
+///     protected override bool HearsContact(BodyId first, BodyId second, int surface) =&gt; surface == 0;
+///
+///     protected override void OnStart(RuleWorld world) =&gt; world.SetTimer(1, SimDuration.FromSeconds(60));
+///
+///     protected override void OnContact(RuleWorld world, in RuleContact contact) =&gt; world.State&lt;Score&gt;().Hits++;
+///
+///     protected override void OnTimer(RuleWorld world, int timer) =&gt; world.State&lt;Score&gt;().IsOver = 1;
+/// }
+/// </code>
+/// </example>
+public abstract class GameRules : SceneRules
+{
+    /// <summary>Rules of that name and version. A peer that has not the same ones is refused.</summary>
+    /// <param name="name">1 to 64 characters, no control characters and no half of a surrogate pair.</param>
+    /// <param name="version">The author's version, raised with every change of what the rules do.</param>
+    /// <exception cref="System.ArgumentNullException">There is no name.</exception>
+    /// <exception cref="SceneException">It is no name; the sentence says why.</exception>
+    protected GameRules(string name, int version)
+        : base(name, version)
+    {
+    }
+
+    /// <summary>Whether <see cref="OnSpawned"/> and <see cref="OnRemoved"/> are called; default no. Must always give the same.</summary>
+    protected internal virtual bool HearsBodies => false;
+
+    /// <summary>The world's state is a value of this type, at first all zero. For the constructor.</summary>
+    /// <typeparam name="T">A struct without references and without padding between its fields, of at most
+    /// <see cref="SceneRules.MaxWorldBytes"/>.</typeparam>
+    /// <exception cref="SceneException">The type is too large, or has padding.</exception>
+    protected void WithWorldState<[DynamicallyAccessedMembers(StateType.Fields)] T>()
+        where T : unmanaged
+    {
+        WorldBytes = StateType.SizeOf<T>(MaxWorldBytes, "the world");
+        WorldType = typeof(T);
+    }
+
+    /// <summary>The state of a body that has one is a value of this type, at first all zero. For the constructor.</summary>
+    /// <typeparam name="T">A struct without references and without padding between its fields, of at most
+    /// <see cref="SceneRules.MaxBodyBytes"/>.</typeparam>
+    /// <exception cref="SceneException">The type is too large, or has padding.</exception>
+    protected void WithBodyState<[DynamicallyAccessedMembers(StateType.Fields)] T>()
+        where T : unmanaged
+    {
+        BodyBytes = StateType.SizeOf<T>(MaxBodyBytes, "a body");
+        BodyType = typeof(T);
+    }
+
+    /// <summary>The type of the world's state; null for none.</summary>
+    internal System.Type? WorldType { get; private set; }
+
+    /// <summary>The type of a body's state; null for none.</summary>
+    internal System.Type? BodyType { get; private set; }
+
+    /// <summary>Whether <see cref="OnContact"/> is called for impacts of two, or of one and a surface; default for none.</summary>
+    /// <param name="first">The body, of two the one of lesser identity.</param>
+    /// <param name="second">The other body; <paramref name="first"/> again where it met a surface.</param>
+    /// <param name="surface">Planes by index, static spheres after them, or -1 where two bodies met.</param>
+    /// <remarks>Must follow from these three alone. It is asked for every impact of the world.</remarks>
+    protected internal virtual bool HearsContact(BodyId first, BodyId second, int surface) => false;
+
+    /// <summary>The scene begins: all its bodies are there, and nothing has happened yet.</summary>
+    protected internal virtual void OnStart(RuleWorld world)
+    {
+    }
+
+    /// <summary>A player tells something (<see cref="PlayerAction.Command"/>). The rules decide whether he may: anybody may send any
+    /// command with any bytes.</summary>
+    protected internal virtual void OnCommand(RuleWorld world, byte player, GameCommand command)
+    {
+    }
+
+    /// <summary>An impact that the rules hear; the bodies already move as they do after it.</summary>
+    protected internal virtual void OnContact(RuleWorld world, in RuleContact contact)
+    {
+    }
+
+    /// <summary>A timer is due. It is set no more, unless this sets it again.</summary>
+    protected internal virtual void OnTimer(RuleWorld world, int timer)
+    {
+    }
+
+    /// <summary>A body has appeared, spawned by a player or by these rules. Only if <see cref="HearsBodies"/>.</summary>
+    protected internal virtual void OnSpawned(RuleWorld world, BodyId body)
+    {
+    }
+
+    /// <summary>A body has disappeared; its state can be read here for the last time. Only if <see cref="HearsBodies"/>.</summary>
+    protected internal virtual void OnRemoved(RuleWorld world, BodyId body)
+    {
+    }
+}

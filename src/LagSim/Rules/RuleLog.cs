@@ -1,0 +1,379 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Rules;
+
+/// <summary>The calls of rules inside the window, in canonical order, and the state after each: the timeline of a game's own state.</summary>
+/// <remarks>
+/// <para>Calls up to <see cref="Position"/> stand. Those from there on are still to be made, or to be looked at again because the world was
+/// rewound: a call that would be made with the same state, and would read the same, stands without being made again.</para>
+/// <para>A call whose event was cut off stays as gone until the world comes there. Most events that a heal cuts happen again.</para>
+/// </remarks>
+internal class RuleLog : IRuleTriggers
+{
+    private readonly GameRules rules;
+    private readonly SimTime start;
+    private readonly List<RuleCall> calls = new();
+    private readonly Stack<RuleCall> free = new();
+    private readonly StateVersions versions = new();
+    private StateVersion? first; // the state before the calls that are kept
+    private StateVersion? current; // the state at the position
+    private StateVersion? beforeRollback; // the newest state when the rollback began
+    private ulong forgotten; // hashes of calls that are no longer kept
+    private EventKey? changed; // from where on what rules tell may have changed, since the listener last asked
+    private bool isListenedTo;
+
+    /// <summary>Of a world that continues from an encoded state.</summary>
+    internal RuleLog(GameRules rules, SimTime start, ReadOnlySpan<byte> state)
+    {
+        this.rules = rules;
+        this.start = start;
+        first = versions.Add(state);
+        versions.Replace(ref current, first);
+        versions.Replace(ref beforeRollback, first);
+    }
+
+    /// <summary>How many calls stand; the call at this place is the next.</summary>
+    internal int Position { get; private set; }
+
+    /// <summary>How many calls are kept, those that do not stand included.</summary>
+    internal int Count => calls.Count;
+
+    /// <summary>The state at the position, encoded.</summary>
+    internal StateVersion Current => current!;
+
+    /// <summary>A call that is kept.</summary>
+    internal RuleCall this[int n] => calls[n];
+
+    void IRuleTriggers.OnContact(in EventKey impact, in ImpactContact contact)
+    {
+        if (rules.HearsContact(contact.First, contact.Second, contact.Surface))
+        {
+            Add(impact, new RuleTrigger(contact));
+        }
+    }
+
+    void IRuleTriggers.OnOpened(BodyId body, in EventKey key)
+    {
+        if (HearsBody(body, key))
+        {
+            Add(key, default);
+        }
+    }
+
+    void IRuleTriggers.OnCut(BodyId body, in EventKey key)
+    {
+        if (key.Kind != EventKind.Impact && !HearsBody(body, key))
+        {
+            return;
+        }
+
+        for (int n = FirstFrom(key); n < calls.Count && calls[n].Key == key; n++)
+        {
+            calls[n].IsGone = true;
+            ReturnTo(n);
+        }
+    }
+
+    /// <summary>When the next call is due: one that is kept, or of a timer.</summary>
+    internal bool TryGetNext(out EventKey key)
+    {
+        bool isKept = Position < calls.Count;
+        key = isKept ? calls[Position].Key : default;
+        if (StateLayout.Timers(current!.Bytes) == 0)
+        {
+            return isKept;
+        }
+
+        EventKey timer = KeyOf(StateLayout.Timer(current.Bytes, 0));
+        if (!isKept || EventKey.Compare(timer, key) < 0)
+        {
+            key = timer;
+        }
+
+        return true;
+    }
+
+    /// <summary>The call that is next, at the position: made for a timer that is due, if it is not kept already.</summary>
+    internal RuleCall Next()
+    {
+        EventKey timer = StateLayout.Timers(current!.Bytes) > 0 ? KeyOf(StateLayout.Timer(current.Bytes, 0)) : default;
+        bool isDue = timer.Kind == EventKind.Timer;
+        if (isDue && (Position == calls.Count || EventKey.Compare(timer, calls[Position].Key) < 0))
+        {
+            Insert(Position, timer, default);
+        }
+
+        RuleCall next = calls[Position];
+        next.IsGone |= next.Key.Kind == EventKind.Timer && !(isDue && next.Key == timer);
+        return next;
+    }
+
+    /// <summary>Adds what rules are to be called for, or finds the call that is kept for it.</summary>
+    internal void Add(in EventKey key, in RuleTrigger trigger)
+    {
+        int at = FirstFrom(key);
+        int compared = 1;
+        while (at < calls.Count && calls[at].Key == key && (compared = RuleTrigger.Compare(trigger, calls[at].Trigger)) > 0)
+        {
+            at++;
+        }
+
+        if (compared != 0 || at == calls.Count || calls[at].Key != key)
+        {
+            Insert(at, key, trigger);
+        }
+        else
+        {
+            calls[at].IsMade &= calls[at].Trigger.IsSameAs(trigger);
+            calls[at].Trigger = trigger;
+            calls[at].IsGone = false;
+        }
+
+        ReturnTo(at);
+    }
+
+    /// <summary>Whether a call for an event of no body, such as a command, is kept.</summary>
+    internal bool Has(in EventKey key)
+    {
+        int at = FirstFrom(key);
+        return at < calls.Count && calls[at].Key == key && !calls[at].IsGone;
+    }
+
+    /// <summary>Finds the command of a peer and sequence, wherever it takes effect.</summary>
+    internal bool TryFindCommand(ulong origin, out EventKey key)
+    {
+        int n = calls.Count - 1;
+        while (n >= 0 && (calls[n].Key.Kind != EventKind.Command || calls[n].Key.Origin != origin || calls[n].IsGone))
+        {
+            n--;
+        }
+
+        key = n < 0 ? default : calls[n].Key;
+        return n >= 0;
+    }
+
+    /// <summary>What a call was for, a command, never was.</summary>
+    internal void Retract(in EventKey key)
+    {
+        int at = FirstFrom(key);
+        calls[at].IsGone = true;
+        ReturnTo(at);
+    }
+
+    /// <summary>Calls from a key on are to be looked at again.</summary>
+    internal void RewindTo(in EventKey key) => ReturnTo(FirstFrom(key));
+
+    /// <summary>The call at the position stands, with the state after it.</summary>
+    internal void Stand()
+    {
+        versions.Replace(ref current, calls[Position].After);
+        Position++;
+    }
+
+    /// <summary>The call at the position was made, and stands, with this state after it.</summary>
+    internal void Stand(ReadOnlySpan<byte> state)
+    {
+        RuleCall call = calls[Position];
+        call.IsMade = true;
+        versions.Replace(ref call.Before, current);
+        if (state.SequenceEqual(current!.Bytes))
+        {
+            versions.Replace(ref call.After, current);
+        }
+        else if (call.After is not null && state.SequenceEqual(call.After.Bytes))
+        {
+            // as the last time that it was made
+        }
+        else
+        {
+            versions.Replace(ref call.After, null);
+            call.After = versions.Add(state);
+        }
+
+        Stand();
+    }
+
+    /// <summary>Drops the call at the position, of which nothing is left.</summary>
+    internal void Drop()
+    {
+        if (calls[Position].Notices.Count > 0)
+        {
+            NoteNotices(calls[Position].Key);
+        }
+
+        Release(calls[Position]);
+        calls.RemoveAt(Position);
+    }
+
+    /// <summary>What rules tell at a key has changed.</summary>
+    internal void NoteNotices(in EventKey key)
+    {
+        if (isListenedTo && (changed is not EventKey known || EventKey.Compare(key, known) < 0))
+        {
+            changed = key;
+        }
+    }
+
+    /// <summary>From now on calls are kept until a listener has asked for what has changed.</summary>
+    internal void Listen()
+    {
+        isListenedTo = true;
+        changed = EventKey.Before(start);
+    }
+
+    /// <summary>From where on what rules tell may have changed since this was last asked; false if nothing has.</summary>
+    internal bool TryTakeChanged(out EventKey from)
+    {
+        bool hasChanged = changed is not null;
+        from = changed ?? default;
+        changed = null;
+        return hasChanged;
+    }
+
+    /// <summary>A rollback begins.</summary>
+    internal void BeginRollback() => versions.Replace(ref beforeRollback, current);
+
+    /// <summary>
+    /// Whether the calls that are left, made before the rollback, would all stand if nothing else changed: the state is the one that the
+    /// first of them was made with.
+    /// </summary>
+    internal virtual bool HaveReconverged() =>
+        (Position < calls.Count && calls[Position].IsMade ? calls[Position].Before : beforeRollback)!.IsSameAs(current!);
+
+    /// <summary>All that is left happens as before the rollback, up to a time: the calls stand.</summary>
+    internal void PutBack(SimTime to)
+    {
+        while (Position < calls.Count && calls[Position].IsMade && calls[Position].Key.Time <= to)
+        {
+            calls[Position].IsGone = false;
+            Stand();
+        }
+    }
+
+    /// <summary>Forgets calls before a time, which can no longer change.</summary>
+    internal void DropBefore(SimTime edge)
+    {
+        int count = 0;
+        while (count < Position && calls[count].Key.Time < edge && !(changed is EventKey from && EventKey.Compare(calls[count].Key, from) >= 0))
+        {
+            forgotten += HashOf(calls[count]);
+            versions.Replace(ref first, calls[count].After);
+            Release(calls[count]);
+            count++;
+        }
+
+        calls.RemoveRange(0, count);
+        Position -= count;
+    }
+
+    /// <summary>The state after everything up to and including a time.</summary>
+    internal StateVersion StateAt(SimTime time)
+    {
+        int n = Position;
+        while (n > 0 && calls[n - 1].Key.Time > time)
+        {
+            n--;
+        }
+
+        return n == 0 ? first! : calls[n - 1].After!;
+    }
+
+    /// <summary>The sum of the hashes of all calls up to and including a time, with the state after each.</summary>
+    internal ulong EventHash(SimTime time)
+    {
+        ulong sum = forgotten;
+        for (int n = 0; n < Position && calls[n].Key.Time <= time; n++)
+        {
+            sum += HashOf(calls[n]);
+        }
+
+        return sum;
+    }
+
+    /// <summary>The first call keyed at or after a key, or their number.</summary>
+    internal int FirstFrom(in EventKey key)
+    {
+        int n = calls.Count;
+        while (n > 0 && EventKey.Compare(calls[n - 1].Key, key) >= 0)
+        {
+            n--; // from the newest, since most look for what happened last
+        }
+
+        return n;
+    }
+
+    /// <summary>Adds an encoded state to a hash.</summary>
+    internal static void AddTo(ref StableHash hash, ReadOnlySpan<byte> state)
+    {
+        hash.Add((ulong)state.Length);
+        for (int at = 0; at < state.Length; at += sizeof(ulong))
+        {
+            ulong word = 0;
+            ReadOnlySpan<byte> bytes = state.Slice(at, Math.Min(sizeof(ulong), state.Length - at));
+            for (int i = bytes.Length - 1; i >= 0; i--)
+            {
+                word = (word << 8) | bytes[i];
+            }
+
+            hash.Add(word);
+        }
+    }
+
+    private static EventKey KeyFor(SimTime time, uint round, int number) =>
+        new(time, round, EventKind.Timer, default, default, 0, unchecked((uint)number));
+
+    private EventKey KeyOf(in RuleTimer timer) => KeyFor(start + SimDuration.FromTicks(timer.At), timer.Round, timer.Number);
+
+    private bool HearsBody(BodyId body, in EventKey key) =>
+        key.Kind is EventKind.Spawn or EventKind.Remove && key.Body == body && (rules.HearsBodies || rules.BodyBytes > 0);
+
+    private ulong HashOf(RuleCall call)
+    {
+        StableHash hash = default;
+        hash.Add(0x5C5E7A7EUL);
+        hash.Add(call.Key.Time - start);
+        hash.Add(((ulong)call.Key.Round << 8) | (byte)call.Key.Kind);
+        hash.Add(call.Key.Body.Packed);
+        hash.Add(call.Key.Origin);
+        AddTo(ref hash, call.After!.Bytes);
+        return hash.Value;
+    }
+
+    private void Insert(int at, in EventKey key, in RuleTrigger trigger)
+    {
+        RuleCall call = free.Count > 0 ? free.Pop() : new RuleCall();
+        call.Key = key;
+        call.Trigger = trigger;
+        calls.Insert(at, call);
+    }
+
+    /// <summary>The calls from a place on do not stand any more, if they did.</summary>
+    private void ReturnTo(int place)
+    {
+        if (place < Position)
+        {
+            Position = place;
+            versions.Replace(ref current, place == 0 ? first : calls[place - 1].After);
+        }
+    }
+
+    private void Release(RuleCall call)
+    {
+        versions.Replace(ref call.Before, null);
+        versions.Replace(ref call.After, null);
+        call.Reads.Clear();
+        call.Acts.Clear();
+        call.Notices.Clear();
+        call.Trigger = default;
+        call.IsMade = false;
+        call.IsGone = false;
+        call.Chains = false;
+        call.FirstAct = 0;
+        free.Push(call);
+    }
+}

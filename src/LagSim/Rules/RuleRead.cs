@@ -1,0 +1,30 @@
+using LagSim.Scenes;
+using LagSim.Timelines;
+
+namespace LagSim.Rules;
+
+/// <summary>What a call of rules read of the world: a body, or which bodies are in a region. It is kept to tell later whether the call
+/// would read the same.</summary>
+internal struct RuleRead
+{
+    /// <summary>The body; of a region, the n-th that was found there.</summary>
+    internal BodyId Body;
+
+    /// <summary>The body's state as it was read; absent for one that is not there.</summary>
+    internal BodyState State;
+
+    /// <summary>The hold on it.</summary>
+    internal Hold Hold;
+
+    /// <summary>Its properties.</summary>
+    internal BodySpec Spec;
+
+    /// <summary>Of a region, its radius in metres; negative for a body.</summary>
+    internal double Radius;
+
+    /// <summary>Of a region, its centre.</summary>
+    internal Vector3D Centre;
+
+    /// <summary>Of a region, how many of the reads that follow are the bodies found there.</summary>
+    internal int Count;
+}

@@ -1,0 +1,36 @@
+using System;
+using System.Collections.Generic;
+
+namespace LagSim.Rules;
+
+/// <summary>Lends versions of the state, and takes back those that nobody keeps any more, so that no memory is asked for after a
+/// while.</summary>
+internal sealed class StateVersions
+{
+    private readonly Stack<StateVersion> free = new();
+
+    /// <summary>A version of this state, kept once.</summary>
+    internal StateVersion Add(ReadOnlySpan<byte> state)
+    {
+        StateVersion version = free.Count > 0 ? free.Pop() : new StateVersion();
+        version.Set(state);
+        version.Uses = 1;
+        return version;
+    }
+
+    /// <summary>Keeps a version in place of another that was kept, or of none.</summary>
+    internal void Replace(ref StateVersion? kept, StateVersion? by)
+    {
+        if (by is not null)
+        {
+            by.Uses++;
+        }
+
+        if (kept is not null && --kept.Uses == 0)
+        {
+            free.Push(kept);
+        }
+
+        kept = by;
+    }
+}
