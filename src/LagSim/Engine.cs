@@ -48,7 +48,6 @@ internal sealed class Engine
         Timelines.ForgetBefore(from);
         RuleMemory? ruleMemory = scene.Rules is null ? null : new RuleMemory(scene.Rules);
         Rules = ruleMemory is null ? null : parts.RuleLog((GameRules)scene.Rules!, start, ruleState ?? ruleMemory.Begin());
-        Timelines.Triggers = Rules;
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress, Rules);
 
         // The laws that bodies follow, and where contact is.
@@ -183,6 +182,7 @@ internal sealed class Engine
     /// <summary>All bodies that are there at first have been added: what they meet is predicted.</summary>
     internal void Begin()
     {
+        Timelines.Triggers = Rules; // not before: what a snapshot has was heard of
         BroadPhase.Begin();
         for (int slot = 0; slot < Bodies.SlotCount; slot++)
         {
