@@ -14,9 +14,9 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
     private readonly Paths paths = new(timelines);
 
     /// <summary>The state of a body so many seconds into a segment.</summary>
-    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin) =>
+    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin, CollisionFilter filter) =>
         segment.IsPresent
-            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds))
+            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds), filter)
             : default;
 
     /// <summary>A body's state; the default if it is not there.</summary>
@@ -25,7 +25,8 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
         int at = slot < 0 ? TimelineStore.None : timelines.At(slot, time);
         return at == TimelineStore.None
             ? default
-            : StateOf(timelines.Segment(at), paths.SecondsInto(at, time), timelines.Dense(at), box, timelines.SpinOf(at));
+            : StateOf(timelines.Segment(at), paths.SecondsInto(at, time), timelines.Dense(at), box, timelines.SpinOf(at),
+                timelines.Extras.Filter(at));
     }
 
     /// <summary>The hold on a body; false if no peer holds it.</summary>
@@ -54,6 +55,12 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                 if (state.Spin != Vector3D.Zero)
                 {
                     hash.Add(state.Spin);
+                }
+
+                if (!state.Filter.IsDefault)
+                {
+                    hash.Add(0xF117E4UL);
+                    hash.Add(state.Filter.Packed);
                 }
 
                 if (state.Motion == MotionLaw.Held)
@@ -96,7 +103,8 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
             }
 
             ref readonly EventKey key = ref timelines.Key(at);
-            BodyState state = StateOf(timelines.Segment(at), paths.SecondsInto(at, key.Time), timelines.Dense(at), box, timelines.SpinOf(at));
+            BodyState state = StateOf(
+                timelines.Segment(at), paths.SecondsInto(at, key.Time), timelines.Dense(at), box, timelines.SpinOf(at), timelines.Extras.Filter(at));
             entries.Add(new TimelineEntry(key, state));
             isBefore = key.Time <= from;
         }
@@ -134,7 +142,8 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                 bool isMember = paths.IsMember(at);
                 there.Add(new BodySnapshot(
                     bodies.Id(slot), bodies.Spec(slot), timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
-                    isMember ? timelines.Carried.CentreOf(at) : default, isMember ? timelines.Carried.StillSince(at) : default, isMember ? timelines.Carried.CopyOf(at) : Array.Empty<PersistentContact>()));
+                    isMember ? timelines.Carried.CentreOf(at) : default, isMember ? timelines.Carried.StillSince(at) : default, isMember ? timelines.Carried.CopyOf(at) : Array.Empty<PersistentContact>(),
+                    timelines.Extras.Filter(at)));
             }
         }
 

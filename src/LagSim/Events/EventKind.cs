@@ -40,6 +40,9 @@ public enum EventKind : byte
     /// <summary>External: a body disappears.</summary>
     Remove = 15,
 
+    /// <summary>External: what a body collides with changes. It comes after a removal, so of what is removed at that tick it changes nothing.</summary>
+    SetFilter = 17,
+
     /// <summary>Segments touch.</summary>
     Impact = 32,
 
