@@ -20,6 +20,7 @@ internal sealed class BodyRoster(
         ref readonly SceneBody body = ref scene.BodyArray[n];
         int slot = Add(BodyId.OfScene(n), body.Spec);
         collapse.HasLosses |= body.Spec.Restitution < 1;
+        timelines.Extras.OpenWith(body.Spec.Filter);
         EventKey key = new(progress.Start, 0, EventKind.Start, bodies.Id(slot), bodies.Id(slot), 0, 0);
         trajectories.Flights.Open(slot, key, body.Position, body.Velocity, spin: body.Spin);
     }
@@ -29,6 +30,7 @@ internal sealed class BodyRoster(
     {
         int slot = Add(body.Id, body.Spec);
         collapse.HasLosses |= body.Spec.Restitution < 1 || body.Segment.Law == MotionLaw.Held;
+        timelines.Extras.OpenWith(body.Filter);
         timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold, body.SpinPath);
         if (body.Segment.IsOfIsland)
         {

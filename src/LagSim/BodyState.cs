@@ -6,12 +6,13 @@ namespace LagSim;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct BodyState
 {
-    internal BodyState(Vector3D position, Vector3D velocity, MotionLaw motion, Vector3D spin = default)
+    internal BodyState(Vector3D position, Vector3D velocity, MotionLaw motion, Vector3D spin = default, CollisionFilter filter = default)
     {
         Spin = spin;
         Position = position;
         Velocity = velocity;
         Motion = motion;
+        Filter = filter;
     }
 
     /// <summary>The centre, in metres.</summary>
@@ -30,9 +31,12 @@ public readonly struct BodyState
     /// <summary>The law it moves by; <see cref="MotionLaw.Absent"/> if it is not there.</summary>
     public MotionLaw Motion { get; }
 
-    /// <summary>Whether every bit of position, velocity and spin, and the law, are the same.</summary>
+    /// <summary>What it collides with.</summary>
+    public CollisionFilter Filter { get; }
+
+    /// <summary>Whether every bit of position, velocity and spin, the law and the filter are the same.</summary>
     public bool IsSameBits(in BodyState other) =>
-        Motion == other.Motion && IsSame(Position, other.Position) && IsSame(Velocity, other.Velocity) && IsSame(Spin, other.Spin);
+        Motion == other.Motion && Filter == other.Filter && IsSame(Position, other.Position) && IsSame(Velocity, other.Velocity) && IsSame(Spin, other.Spin);
 
     private static bool IsSame(in Vector3D a, in Vector3D b) => Bits(a.X) == Bits(b.X) && Bits(a.Y) == Bits(b.Y) && Bits(a.Z) == Bits(b.Z);
 

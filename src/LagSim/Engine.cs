@@ -106,8 +106,9 @@ internal sealed class Engine
         ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, linker);
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
         ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));
+        FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);
         ExternalHandler externals = new(
-            scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath);
+            scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters);
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
 

@@ -319,6 +319,9 @@ public sealed class Simulation
     /// longer known: false.</remarks>
     public bool TookEffect(in ExternalEvent external) => Engine.Reader.TookEffect(external);
 
+    /// <summary>The tag of a body that has been there, 64 bits of the game's own; 0 for an unknown one.</summary>
+    public ulong TagOf(BodyId body) => SpecOf(body).Tag;
+
     /// <summary>The properties of a body that has been there; the default for an unknown one.</summary>
     public BodySpec SpecOf(BodyId body)
     {

@@ -48,6 +48,12 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                     hash.Add(state.Spin);
                 }
 
+                if (!state.Filter.IsDefault)
+                {
+                    hash.Add(0xF117E4UL);
+                    hash.Add(state.Filter.Packed);
+                }
+
                 if (state.Motion == MotionLaw.Held)
                 {
                     hash.Add((ulong)timelines.HoldOf(timelines.At(slot, time)).Peer);
@@ -130,7 +136,8 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                 bool isMember = paths.IsMember(at);
                 there.Add(new BodySnapshot(
                     bodies.Id(slot), bodies.Spec(slot), timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
-                    isMember ? timelines.Carried.CentreOf(at) : default, isMember ? timelines.Carried.StillSince(at) : default, isMember ? timelines.Carried.CopyOf(at) : Array.Empty<PersistentContact>()));
+                    isMember ? timelines.Carried.CentreOf(at) : default, isMember ? timelines.Carried.StillSince(at) : default, isMember ? timelines.Carried.CopyOf(at) : Array.Empty<PersistentContact>(),
+                    timelines.Extras.Filter(at)));
             }
         }
 

@@ -74,7 +74,7 @@ internal static class TimelineComparison
         ref readonly MotionSegment x = ref expected.Segment(a);
         ref readonly MotionSegment y = ref actual.Segment(b);
         return x.IsSameAs(y) && expected.HoldOf(a) == actual.HoldOf(b) && expected.SpinOf(a).IsSameAs(actual.SpinOf(b))
-            && (!x.IsDense || expected.Dense(a).IsSameAs(actual.Dense(b)));
+            && expected.Extras.Filter(a) == actual.Extras.Filter(b) && (!x.IsDense || expected.Dense(a).IsSameAs(actual.Dense(b)));
     }
 
     private static string Describe(TimelineStore timelines, int segment)

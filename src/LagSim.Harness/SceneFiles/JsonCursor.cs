@@ -119,6 +119,15 @@ internal ref struct JsonCursor
         return value;
     }
 
+    /// <summary>Reads a whole number from 0 on.</summary>
+    internal ulong Whole(ulong most)
+    {
+        Expect(JsonTokenType.Number, "a number");
+        return reader.TryGetUInt64(out ulong value) && value <= most
+            ? value
+            : throw Fail($"is {Shown()}; it must be a whole number from 0 to {most}, without a point or an exponent");
+    }
+
     /// <summary>Reads a vector, as an array of three numbers.</summary>
     internal Vector3D Vector()
     {

@@ -8,14 +8,15 @@ namespace LagSim.Harness.SceneFiles;
 /// <summary>Reads the planes, static spheres and bodies of scene files: each becomes what adds it to a scene.</summary>
 internal static class PartJson
 {
-    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction"]);
+    private static readonly JsonKeys PlaneKeys = new(["name", "normal"], ["point_m", "offset_m", "restitution", "friction", "category", "mask"]);
 
-    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction"]);
+    private static readonly JsonKeys SphereKeys = new(["name", "centre_m", "radius_m"], ["restitution", "friction", "category", "mask"]);
 
     private static readonly JsonKeys BodyKeys = new(
         ["name", "radius_m", "mass_kg", "restitution", "position_m"],
         [
             "velocity_m_per_s", "motion", "step_s", "forces", "tolerance", "friction", "rolling_resistance", "spin_rad_per_s", "players",
+            "category", "mask", "tag",
         ]);
 
     /// <summary>Reads a plane.</summary>
@@ -27,6 +28,7 @@ internal static class PartJson
         double? offset = null;
         double restitution = 1;
         double friction = Limits.MaxFriction;
+        CollisionFilter filter = default;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(PlaneKeys, ref seen) is string key)
@@ -48,6 +50,12 @@ internal static class PartJson
                 case "friction":
                     friction = cursor.Number();
                     break;
+                case "category":
+                    filter = new CollisionFilter(Bits(ref cursor), filter.Mask);
+                    break;
+                case "mask":
+                    filter = new CollisionFilter(filter.Category, Bits(ref cursor));
+                    break;
                 default:
                     restitution = cursor.Number();
                     break;
@@ -61,8 +69,8 @@ internal static class PartJson
         }
 
         return b => _ = point is Vector3D through
-            ? b.AddPlane(name, normal, through, restitution, friction)
-            : b.AddPlane(name, normal, offset!.Value, restitution, friction);
+            ? b.AddPlane(name, normal, through, restitution, friction, filter)
+            : b.AddPlane(name, normal, offset!.Value, restitution, friction, filter);
     }
 
     /// <summary>Reads a static sphere.</summary>
@@ -73,6 +81,7 @@ internal static class PartJson
         double radius = 0;
         double restitution = 1;
         double friction = Limits.MaxFriction;
+        CollisionFilter filter = default;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(SphereKeys, ref seen) is string key)
@@ -91,13 +100,19 @@ internal static class PartJson
                 case "friction":
                     friction = cursor.Number();
                     break;
+                case "category":
+                    filter = new CollisionFilter(Bits(ref cursor), filter.Mask);
+                    break;
+                case "mask":
+                    filter = new CollisionFilter(filter.Category, Bits(ref cursor));
+                    break;
                 default:
                     restitution = cursor.Number();
                     break;
             }
         }
 
-        return b => b.AddStaticSphere(name, centre, radius, restitution, friction);
+        return b => b.AddStaticSphere(name, centre, radius, restitution, friction, filter);
     }
 
     /// <summary>Reads a body.</summary>
@@ -120,6 +135,8 @@ internal static class PartJson
         double friction = 0;
         double rollingResistance = 0;
         Vector3D spin = default;
+        CollisionFilter filter = default;
+        ulong tag = 0;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(BodyKeys, ref seen) is string key)
@@ -165,6 +182,15 @@ internal static class PartJson
                 case "spin_rad_per_s":
                     spin = cursor.Vector();
                     break;
+                case "category":
+                    filter = new CollisionFilter(Bits(ref cursor), filter.Mask);
+                    break;
+                case "mask":
+                    filter = new CollisionFilter(filter.Category, Bits(ref cursor));
+                    break;
+                case "tag":
+                    tag = cursor.Whole(ulong.MaxValue);
+                    break;
                 default:
                     step = SceneJsonValues.Step(ref cursor);
                     break;
@@ -174,8 +200,10 @@ internal static class PartJson
         return b =>
         {
             ForceSet set = isAlone ? ForceSet.None : forceNames.SetOf(forces);
-            BodySpec spec = new(radius, mass, restitution, motion, step, set, tolerance, friction, rollingResistance);
+            BodySpec spec = new(radius, mass, restitution, motion, step, set, tolerance, friction, rollingResistance, filter, tag);
             b.AddBody(name, spec, position, velocity, players, spin);
         };
     }
+
+    private static uint Bits(ref JsonCursor cursor) => (uint)cursor.Whole(uint.MaxValue);
 }

@@ -55,6 +55,7 @@ internal static class SceneJsonWriter
             json.WriteNumber("offset_m", plane.Offset);
             json.WriteNumber("restitution", plane.Restitution);
             Friction(json, plane.Friction, Limits.MaxFriction);
+            Filter(json, plane.Filter);
         });
         List(json, "static_spheres", scene.StaticSpheres, sphere =>
         {
@@ -63,6 +64,7 @@ internal static class SceneJsonWriter
             json.WriteNumber("radius_m", sphere.Radius);
             json.WriteNumber("restitution", sphere.Restitution);
             Friction(json, sphere.Friction, Limits.MaxFriction);
+            Filter(json, sphere.Filter);
         });
         List(json, "bodies", scene.Bodies, body => Body(json, scene, body));
         json.WriteEndObject();
@@ -155,6 +157,11 @@ internal static class SceneJsonWriter
         }
 
         Peers(json, "players", body.Players);
+        Filter(json, body.Spec.Filter);
+        if (body.Spec.Tag != 0)
+        {
+            json.WriteNumber("tag", body.Spec.Tag);
+        }
     }
 
     private static void Friction(Utf8JsonWriter json, double friction, double byDefault)
@@ -162,6 +169,20 @@ internal static class SceneJsonWriter
         if (friction != byDefault)
         {
             json.WriteNumber("friction", friction);
+        }
+    }
+
+    private static void Filter(Utf8JsonWriter json, CollisionFilter filter)
+    {
+        CollisionFilter usual = default;
+        if (filter.Category != usual.Category)
+        {
+            json.WriteNumber("category", filter.Category);
+        }
+
+        if (filter.Mask != usual.Mask)
+        {
+            json.WriteNumber("mask", filter.Mask);
         }
     }
 

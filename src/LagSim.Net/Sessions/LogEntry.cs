@@ -44,7 +44,7 @@ public readonly struct LogEntry : IEquatable<LogEntry>
             EventKind.Spawn => FormattableString.Invariant(
                 $": radius {spec.Radius:R} m, mass {spec.Mass:R} kg, restitution {spec.Restitution:R}, {spec.Flight}")
                 + $" with a step of {spec.Step.ToShortString()},"
-                + FormattableString.Invariant($" a tolerance of {spec.Tolerance:R}, forces {spec.Forces}, friction {spec.Friction:R} and rolling resistance {spec.RollingResistance:R},")
+                + FormattableString.Invariant($" a tolerance of {spec.Tolerance:R}, forces {spec.Forces}, friction {spec.Friction:R} and rolling resistance {spec.RollingResistance:R}, {spec.Filter}, tag {spec.Tag},")
                 + $" at {Event.Position} m with {Event.Velocity} m/s and {Event.Spin} rad/s",
             EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s",
             EventKind.SetVelocity => $": to {Event.Velocity} m/s",
@@ -52,6 +52,7 @@ public readonly struct LogEntry : IEquatable<LogEntry>
             EventKind.Grab => $": by the point {Event.Position} m from its centre",
             EventKind.HoldKeyframe => $": the hand at {Event.Position} m with {Event.Velocity} m/s",
             EventKind.Release => $": with {Event.Velocity} m/s",
+            EventKind.SetFilter => $": to {Event.Filter}",
             _ => "",
         };
         return $"{Verdict}: {Event}{values}";

@@ -73,6 +73,7 @@ internal sealed class SessionWarmup
     internal static IReadOnlyList<EventKind> EveryKind { get; } = new[]
     {
         EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.Remove,
+        EventKind.SetFilter,
     };
 
     /// <summary>The kinds of client events that the host accepted.</summary>
@@ -152,6 +153,7 @@ internal sealed class SessionWarmup
             EventKind.Grab => PlayerAction.Grab(own, new Vector3D(0, 0.1, 0)),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(own, home + new Vector3D(0, 0.2, 0), new Vector3D(0, 1, 0)),
             EventKind.Release => PlayerAction.Release(own, new Vector3D(1, 1, 0)),
+            EventKind.SetFilter => PlayerAction.SetFilter(own, new CollisionFilter(2)),
             _ => PlayerAction.Remove(spawned),
         };
     }

@@ -24,13 +24,15 @@ internal static class EventFormat
     private const int HeadBytes = 14; // kind, peer, sequence, time
     private const int BodyBytes = 8;
     internal const int VectorBytes = 24;
-    internal const int SpecBytes = 61;
+    internal const int FilterBytes = 8;
+    internal const int SpecBytes = 61 + FilterBytes + sizeof(ulong);
 
     /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
     public static int EncodedLength(EventKind kind) => kind switch
     {
         EventKind.Spawn => MaxBytes,
         EventKind.Remove => MinBytes,
+        EventKind.SetFilter => MinBytes + FilterBytes,
         EventKind.Teleport or EventKind.HoldKeyframe => MinBytes + (2 * VectorBytes),
         EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => MinBytes + VectorBytes,
         _ => 0,
@@ -85,6 +87,11 @@ internal static class EventFormat
         {
             writer.WriteVector(what.Spin);
         }
+
+        if (what.Kind == EventKind.SetFilter)
+        {
+            WriteFilter(ref writer, what.Filter);
+        }
     }
 
     /// <summary>Reads an event; the reader refuses one that is not well formed. Never throws.</summary>
@@ -101,14 +108,15 @@ internal static class EventFormat
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
-        PlayerAction action = Action(kind, spec, body, position, velocity, spin);
+        CollisionFilter filter = kind == EventKind.SetFilter ? ReadFilter(ref reader) : default;
+        PlayerAction action = Action(kind, spec, body, position, velocity, spin, filter);
         ExternalEvent what = action.Kind == EventKind.None ? default : action.Stamp(time, peer, sequence);
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
     }
 
     private static PlayerAction Action(
-        EventKind kind, in BodySpec spec, BodyId body, in Vector3D position, in Vector3D velocity, in Vector3D spin) => kind switch
+        EventKind kind, in BodySpec spec, BodyId body, in Vector3D position, in Vector3D velocity, in Vector3D spin, CollisionFilter filter) => kind switch
         {
             EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin),
             EventKind.Remove => PlayerAction.Remove(body),
@@ -118,12 +126,13 @@ internal static class EventFormat
             EventKind.Grab => PlayerAction.Grab(body, position),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, position, velocity),
             EventKind.Release => PlayerAction.Release(body, velocity),
+            EventKind.SetFilter => PlayerAction.SetFilter(body, filter),
             _ => default,
         };
 
     private static bool HasPosition(EventKind kind) => kind is EventKind.Spawn or EventKind.Teleport or EventKind.Grab or EventKind.HoldKeyframe;
 
-    private static bool HasVelocity(EventKind kind) => kind is not (EventKind.Remove or EventKind.Grab);
+    private static bool HasVelocity(EventKind kind) => kind is not (EventKind.Remove or EventKind.Grab or EventKind.SetFilter);
 
     // Every range is written so that NaN fails it.
     private static bool IsSpecWellFormed(in BodySpec spec) =>
@@ -149,6 +158,8 @@ internal static class EventFormat
         writer.WriteDouble(spec.Tolerance);
         writer.WriteDouble(spec.Friction);
         writer.WriteDouble(spec.RollingResistance);
+        WriteFilter(ref writer, spec.Filter);
+        writer.WriteUInt64(spec.Tag);
     }
 
     internal static BodySpec ReadSpec(ref WireReader reader)
@@ -162,6 +173,15 @@ internal static class EventFormat
         ForceSet forces = ForceSet.FromMask(reader.ReadUInt32());
         reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // that is Ballistic
         return new BodySpec(
-            radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble());
+            radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble(),
+            ReadFilter(ref reader), reader.ReadUInt64());
     }
+
+    internal static void WriteFilter(ref WireWriter writer, CollisionFilter filter)
+    {
+        writer.WriteUInt32(filter.Category);
+        writer.WriteUInt32(filter.Mask);
+    }
+
+    internal static CollisionFilter ReadFilter(ref WireReader reader) => new(reader.ReadUInt32(), reader.ReadUInt32());
 }

@@ -142,9 +142,10 @@ internal ref struct SceneDecoder
             double offset = reader.ReadDouble();
             double restitution = reader.ReadDouble();
             double friction = reader.ReadDouble();
+            CollisionFilter filter = EventFormat.ReadFilter(ref reader);
             if (IsSound)
             {
-                builder.AddPlane(name, normal, offset, restitution, friction);
+                builder.AddPlane(name, normal, offset, restitution, friction, filter);
                 normals.Add(normal);
             }
         }
@@ -161,9 +162,10 @@ internal ref struct SceneDecoder
             double radius = reader.ReadDouble();
             double restitution = reader.ReadDouble();
             double friction = reader.ReadDouble();
+            CollisionFilter filter = EventFormat.ReadFilter(ref reader);
             if (IsSound)
             {
-                builder.AddStaticSphere(name, centre, radius, restitution, friction);
+                builder.AddStaticSphere(name, centre, radius, restitution, friction, filter);
             }
         }
     }

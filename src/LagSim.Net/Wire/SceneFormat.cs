@@ -31,7 +31,7 @@ internal static class SceneFormat
         + (MaxBodies * (MaxTextBytes + BodyBytes)) + EventFormat.VectorBytes;
 
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
-    internal const int StaticPartBytes = EventFormat.VectorBytes + 24; // both kinds: a vector and three numbers
+    internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, four counts.
@@ -67,6 +67,7 @@ internal static class SceneFormat
             writer.WriteDouble(plane.Offset);
             writer.WriteDouble(plane.Restitution);
             writer.WriteDouble(plane.Friction);
+            EventFormat.WriteFilter(ref writer, plane.Filter);
         }
 
         writer.WriteUInt16((ushort)scene.StaticSpheres.Count);
@@ -77,6 +78,7 @@ internal static class SceneFormat
             writer.WriteDouble(sphere.Radius);
             writer.WriteDouble(sphere.Restitution);
             writer.WriteDouble(sphere.Friction);
+            EventFormat.WriteFilter(ref writer, sphere.Filter);
         }
 
         writer.WriteUInt16((ushort)scene.Bodies.Count);

@@ -15,9 +15,11 @@ namespace LagSim.Net.Wire;
 internal static class SnapshotFormat
 {
     private const int HeadBytes = 28; // start, time, event hash, count
-    private const int MinBodyBytes = 194; // without supports, dense output, contacts and hold
+    private const int MinBodyBytes = 133 + EventFormat.SpecBytes; // without supports, dense output, contacts and hold
     private const int DenseBytes = 72;
     private const int SpinBytes = 48; // spin and its rate
+    private const byte TurnsFlag = 1;
+    private const byte FilterFlag = 2;
     private const int HoldBytes = 57; // cubic, peer, offset, keyframe
     private const int MemberBytes = 18; // centre, still since, number of contacts
     private const int ContactBytes = 61; // partner, surface, whether it holds, push, turn
@@ -90,7 +92,7 @@ internal static class SnapshotFormat
                 MotionLaw.Held => HoldBytes,
                 _ => 0,
             };
-            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0)
+            length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0) + (HasOtherFilter(body) ? EventFormat.FilterBytes : 0)
                 + (IsMember(body.Law, body.SupportCount) ? MemberBytes + (body.Contacts.Length * ContactBytes) : 0);
         }
 
@@ -146,11 +148,16 @@ internal static class SnapshotFormat
             writer.WriteInt64(body.NextStep.Ticks);
         }
 
-        writer.WriteByte(Turns(body) ? (byte)1 : (byte)0);
+        writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0)));
         if (Turns(body))
         {
             WriteExactly(ref writer, body.Spin);
             WriteExactly(ref writer, body.SpinRate);
+        }
+
+        if (HasOtherFilter(body))
+        {
+            EventFormat.WriteFilter(ref writer, body.Filter);
         }
 
         if (IsMember(body.Law, body.SupportCount))
@@ -199,6 +206,9 @@ internal static class SnapshotFormat
 
     private static bool Turns(in BodySnapshot body) => body.Spin != Vector3D.Zero || body.SpinRate != Vector3D.Zero;
 
+    /// <summary>Whether its filter was changed.</summary>
+    private static bool HasOtherFilter(in BodySnapshot body) => body.Filter != body.Spec.Filter;
+
     private static BodySnapshot Read(ref WireReader reader)
     {
         BodyId id = BodyId.FromPacked(reader.ReadUInt64());
@@ -236,17 +246,21 @@ internal static class SnapshotFormat
         Vector3D quartic = dense ? ReadExactly(ref reader) : default;
         Vector3D quintic = dense ? ReadExactly(ref reader) : default;
         SimDuration nextStep = law == MotionLaw.DormandPrince54 ? SimDuration.FromTicks(reader.ReadInt64()) : SimDuration.Zero;
-        byte turns = reader.ReadByte();
-        reader.Require(turns <= 1);
-        Vector3D spin = turns == 1 ? ReadExactly(ref reader) : default;
-        Vector3D spinRate = turns == 1 ? ReadExactly(ref reader) : default;
-        reader.Require(turns == 0 || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
+        byte has = reader.ReadByte();
+        bool turns = (has & TurnsFlag) != 0;
+        bool hasOtherFilter = (has & FilterFlag) != 0;
+        reader.Require(has <= (TurnsFlag | FilterFlag));
+        Vector3D spin = turns ? ReadExactly(ref reader) : default;
+        Vector3D spinRate = turns ? ReadExactly(ref reader) : default;
+        CollisionFilter filter = hasOtherFilter ? EventFormat.ReadFilter(ref reader) : spec.Filter;
+        reader.Require(hasOtherFilter == (filter != spec.Filter));
+        reader.Require(!turns || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
         SimTime centre = default;
         SimTime stillSince = default;
         PersistentContact[] contacts = IsMember(law, supports) ? ReadContacts(ref reader, out centre, out stillSince) : Array.Empty<PersistentContact>();
         return new BodySnapshot(
             id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), cubic, quartic, quintic, hold, nextStep,
-            spin, spinRate, centre, stillSince, contacts);
+            spin, spinRate, centre, stillSince, contacts, filter);
     }
 
     /// <summary>Whether a path with that flight law has more than a parabola's coefficients.</summary>

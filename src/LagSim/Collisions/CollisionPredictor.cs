@@ -24,6 +24,7 @@ internal sealed class CollisionPredictor(
     internal const uint CollapseRound = 2;
 
     private readonly StaticSurfaces surfaces = scene.Surfaces;
+    private readonly CollisionFilters filters = new(timelines.Extras, scene.Surfaces);
     private readonly PeriodicBox box = scene.Box;
     private readonly double restitutionThreshold = scene.RestitutionThreshold;
     private readonly Paths paths = new(timelines);
@@ -36,7 +37,7 @@ internal sealed class CollisionPredictor(
         contact = default;
         round = 0;
         bool isPlane = surfaces.IsPlane(surface);
-        if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)))
+        if (segment.Law is MotionLaw.Resting or MotionLaw.Held || (isPlane && segment.Supports.Contains(surface)) || !filters.MeetSurface(last, surface))
         {
             return false; // the surface that carries a body stays below it until another event, and nothing static stops a hand
         }
@@ -143,6 +144,11 @@ internal sealed class CollisionPredictor(
         round = 0;
         int mine = timelines.Last(slot);
         if (slot == other || !timelines.Segment(piece).IsPresent || !timelines.Segment(mine).IsPresent)
+        {
+            return false;
+        }
+
+        if (!filters.Meet(mine, piece))
         {
             return false;
         }

@@ -14,6 +14,8 @@ internal class CollisionSearch(
     BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
     StepMarks stepMarks)
 {
+    private readonly CollisionFilters filters = new(timelines.Extras, surfaces);
+
     /// <summary>
     /// The next contact of a body in free flight. The packed flights show which other bodies come near at all, and from when on. So only
     /// those that may be first are tested, as a rule one. The result is that of <see cref="FindAlong"/>, to the bit.
@@ -96,6 +98,11 @@ internal class CollisionSearch(
     /// </summary>
     private void ConsiderFlights(int slot, int other, bool isClose, SimTime until, ref NextEvent next)
     {
+        if (flights.IsFree(other) && !filters.Meet(timelines.Last(slot), timelines.Last(other)))
+        {
+            return;
+        }
+
         bool ordered = bodies.Id(slot) < bodies.Id(other);
         if (!flights.IsFree(other) || !flights.TryTouch(ordered ? slot : other, ordered ? other : slot, out bool touches, out ContactTime contact))
         {

@@ -59,7 +59,10 @@ internal sealed class ContactStep
     /// <param name="spin">Its spin.</param>
     /// <param name="isHeld">Whether it is held.</param>
     /// <param name="pull">How hard forces pull it, in m/s².</param>
-    internal void AddBody(in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld, double pull = 0)
+    /// <param name="filter">What it collides with.</param>
+    internal void AddBody(
+        in BodySpec spec, in Vector3D position, in Vector3D velocity, in Vector3D gain, in Vector3D spin, bool isHeld, double pull = 0,
+        CollisionFilter filter = default)
     {
         int n = Problem.AddBody(isHeld ? double.PositiveInfinity : spec.Mass, spec.Radius, velocity + gain, spin);
         if (n == free.Length)
@@ -68,7 +71,7 @@ internal sealed class ContactStep
         }
 
         free[n] = new Motion { Velocity = velocity + gain, Spin = spin };
-        contacts.SetBody(n, spec, position, pull);
+        contacts.SetBody(n, spec, position, pull, filter);
     }
 
     /// <summary>Finds what touches, or might within the step, among the bodies and with static surfaces.</summary>

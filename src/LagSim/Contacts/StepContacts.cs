@@ -21,7 +21,8 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     /// <param name="spec">The body's spec.</param>
     /// <param name="position">Where it is at the tick.</param>
     /// <param name="pull">How hard forces pull it, in m/s².</param>
-    internal void SetBody(int body, in BodySpec spec, in Vector3D position, double pull)
+    /// <param name="filter">What it collides with.</param>
+    internal void SetBody(int body, in BodySpec spec, in Vector3D position, double pull, CollisionFilter filter)
     {
         if (body == members.Length)
         {
@@ -37,6 +38,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
             Lever = Math.Min(spec.RollingResistance, spec.Friction) * spec.Radius,
             Restitution = spec.Restitution,
             Pull = pull,
+            Filter = filter,
         };
     }
 
@@ -99,7 +101,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
             Vector3D normal = surfaces.Normal(surface, m.Position);
             double opening = Vector3D.Dot(normal, body.Velocity);
             double restitution = Math.Min(surfaces.Restitution(surface), m.Restitution);
-            if (MayTouch(gap, opening, seconds, restitution, m.Pull))
+            if (m.Filter.CollidesWith(surfaces.Filter(surface)) && MayTouch(gap, opening, seconds, restitution, m.Pull))
             {
                 double friction = Math.Min(surfaces.Friction(surface), m.Friction);
                 ref SolverContact c = ref problem.AddContact(i, ContactPoint.Static, surface, normal, gap, friction, Math.Min(m.Lever, friction * body.Radius));
@@ -150,7 +152,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
                 double square = apart.LengthSquared;
                 double along = Vector3D.Dot(apart, opens);
                 double margin = reach + Math.Max(scale.SpeculativeMargin, 2 * fastest * seconds);
-                if (square > margin * margin || (p.InverseMass == 0 && q.InverseMass == 0))
+                if (square > margin * margin || (p.InverseMass == 0 && q.InverseMass == 0) || !members[i].Filter.CollidesWith(members[j].Filter))
                 {
                     continue;
                 }
@@ -275,5 +277,6 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
         internal double Lever;
         internal double Restitution;
         internal double Pull;
+        internal CollisionFilter Filter;
     }
 }

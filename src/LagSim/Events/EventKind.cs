@@ -40,8 +40,11 @@ public enum EventKind : byte
     /// <summary>External: a body disappears.</summary>
     Remove = 15,
 
+    /// <summary>External: what a body collides with changes. It comes after a removal, so of what is removed at that tick it changes nothing.</summary>
+    SetFilter = 17,
+
     /// <summary>External: a player tells the game's rules something.</summary>
-    Command = 17,
+    Command = 18,
 
     /// <summary>A timer that the game's rules have set is due.</summary>
     Timer = 24,

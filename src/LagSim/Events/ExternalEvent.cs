@@ -16,7 +16,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 {
     private ExternalEvent(
         EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
-        GameCommand? command = null)
+        CollisionFilter filter = default, GameCommand? command = null)
     {
         Command = command;
         Kind = kind;
@@ -28,6 +28,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         Velocity = velocity;
         Spec = spec;
         Spin = spin;
+        Filter = filter;
     }
 
     /// <summary>The kind of the action.</summary>
@@ -61,6 +62,9 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>The spin of a spawned body, in radians per second about the vector; zero for any other event.</summary>
     public Vector3D Spin { get; }
+
+    /// <summary>What the body collides with from now on, for a change of its filter; the default for any other event.</summary>
+    public CollisionFilter Filter { get; }
 
     /// <summary>What a <see cref="EventKind.Command"/> tells the game's rules; null for any other.</summary>
     public GameCommand? Command { get; }
@@ -113,17 +117,23 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     internal static ExternalEvent Release(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity = default) =>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
+    /// <summary>The body collides by this filter from now on. It moves on as it did, except where something carried it that it no longer
+    /// collides with; one that is inside of static geometry that it collides with now is put outside of it.</summary>
+    internal static ExternalEvent SetFilter(SimTime time, byte peer, uint sequence, BodyId body, CollisionFilter filter) =>
+        new(EventKind.SetFilter, time, peer, sequence, body, default, default, default, filter: filter);
+
     /// <summary>The peer tells the game's rules something.</summary>
     internal static ExternalEvent Tell(SimTime time, byte peer, uint sequence, GameCommand command) =>
-        new(EventKind.Command, time, peer, sequence, new BodyId(peer, sequence, 0), default, default, default, default, command);
+        new(EventKind.Command, time, peer, sequence, new BodyId(peer, sequence, 0), default, default, default, command: command);
 
     /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>
-    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Command);
+    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Command);
 
     /// <inheritdoc/>
     public bool Equals(ExternalEvent other) =>
         Kind == other.Kind && Time == other.Time && Peer == other.Peer && Sequence == other.Sequence && Body == other.Body
         && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin)
+        && Filter == other.Filter
         && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
 
     /// <inheritdoc/>

@@ -35,7 +35,7 @@ public static class ExternalEventCheck
             return;
         }
 
-        if (external.Kind is < EventKind.Spawn or > EventKind.Remove)
+        if (!EventKinds.IsOfPlayers(external.Kind))
         {
             throw new SceneException($"{external.Kind} is not an external event.");
         }
@@ -67,12 +67,13 @@ public static class ExternalEventCheck
         }
         else if (external.Kind == EventKind.Teleport && external.Body.Peer == 0 && external.Body.Sequence == 0)
         {
-            CheckPlace(external.Position, scene.BodyArray[external.Body.Index].Spec.Radius, scene, whose);
+            BodySpec spec = scene.BodyArray[external.Body.Index].Spec;
+            CheckPlace(external.Position, spec.Radius, spec.Filter, scene, whose);
             Limits.CheckCentres(external.Position, scene.BodyArray[external.Body.Index].Spec, whose, scene.ForceArray);
         }
         else if (external.Kind == EventKind.Teleport)
         {
-            CheckPlace(external.Position, scene.SmallestRadius, scene, whose);
+            CheckPlace(external.Position, scene.SmallestRadius, default, scene, whose); // whatever body it is
         }
     }
 
@@ -114,7 +115,7 @@ public static class ExternalEventCheck
         }
 
         Limits.CheckSpin(external.Spin, external.Spec, scene.SmallestRadius, whose, scene.ForceArray);
-        CheckPlace(external.Position, external.Spec.Radius, scene, whose);
+        CheckPlace(external.Position, external.Spec.Radius, external.Spec.Filter, scene, whose);
         Limits.CheckCentres(external.Position, external.Spec, whose, scene.ForceArray);
         if (scene.Box.Exists)
         {
@@ -122,14 +123,15 @@ public static class ExternalEventCheck
         }
     }
 
-    private static void CheckPlace(in Vector3D position, double radius, Scene scene, Subject whose)
+    /// <summary>Throws if the place is inside of static geometry that what has this filter collides with.</summary>
+    private static void CheckPlace(in Vector3D position, double radius, CollisionFilter filter, Scene scene, Subject whose)
     {
         Limits.CheckPlaceInBox(position, scene.Box, whose);
         double slack = scene.RestitutionThreshold + (1e-15 * (position.Length + radius));
         foreach (StaticPlane plane in scene.PlaneArray)
         {
             double gap = plane.Gap(position, radius);
-            if (gap < -slack)
+            if (gap < -slack && filter.CollidesWith(plane.Filter))
             {
                 throw Inside(whose, position, gap, $"plane '{plane.Name}'");
             }
@@ -138,7 +140,7 @@ public static class ExternalEventCheck
         foreach (StaticSphere sphere in scene.SphereArray)
         {
             double gap = (position - sphere.Centre).Length - sphere.Radius - radius;
-            if (gap < -slack)
+            if (gap < -slack && filter.CollidesWith(sphere.Filter))
             {
                 throw Inside(whose, position, gap, $"static sphere '{sphere.Name}'");
             }

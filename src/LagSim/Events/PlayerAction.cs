@@ -22,10 +22,11 @@ public readonly struct PlayerAction
     private readonly Vector3D velocity;
     private readonly BodySpec spec;
     private readonly Vector3D spin;
+    private readonly CollisionFilter filter;
 
     private readonly GameCommand? command;
 
-    private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default)
+    private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default, CollisionFilter filter = default)
     {
         command = null;
         Kind = kind;
@@ -34,6 +35,7 @@ public readonly struct PlayerAction
         this.velocity = velocity;
         this.spec = spec;
         this.spin = spin;
+        this.filter = filter;
     }
 
     private PlayerAction(GameCommand command)
@@ -85,6 +87,14 @@ public readonly struct PlayerAction
     public static PlayerAction Command(GameCommand command) => new(command ?? throw new ArgumentNullException(nameof(command)));
 
     /// <summary>
+    /// The body collides by this filter from now on. It moves on as it did, except where something carried it that it no longer collides
+    /// with. If it is inside of a plane or static sphere that it collides with now, it is put outside of it; two bodies inside of each
+    /// other are pushed apart. A body that has the filter already is not touched.
+    /// </summary>
+    public static PlayerAction SetFilter(BodyId body, CollisionFilter filter) =>
+        new(EventKind.SetFilter, body, default, default, default, filter: filter);
+
+    /// <summary>
     /// The event that this action is, done by <paramref name="peer"/> at <paramref name="time"/> as its <paramref name="sequence"/>-th.
     /// </summary>
     /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
@@ -99,6 +109,7 @@ public readonly struct PlayerAction
         EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
         EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
         EventKind.Command => ExternalEvent.Tell(time, peer, sequence, command!),
+        EventKind.SetFilter => ExternalEvent.SetFilter(time, peer, sequence, body, filter),
         _ => throw new InvalidOperationException("The default PlayerAction is no action."),
     };
 

@@ -14,7 +14,7 @@ namespace LagSim.Handlers;
 /// <summary>External events: what players do.</summary>
 internal sealed class ExternalHandler(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, FreeFlights flights, ContactGraph graph, SleepWaker waker,
-    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, ForwardedPath lonePath)
+    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, ForwardedPath lonePath, FilterChange filters)
 {
     private readonly Paths paths = new(timelines);
 
@@ -65,6 +65,10 @@ internal sealed class ExternalHandler(
             collapse.HasLosses |= external.Kind == EventKind.Grab; // a hand gives and takes
             trajectories.Hands.Act(slot, key, external);
         }
+        else if (external.Kind == EventKind.SetFilter)
+        {
+            filters.Open(slot, key, external.Filter);
+        }
         else if (paths.IsHeld(last))
         {
             return; // a held body goes where the hand goes
@@ -84,6 +88,7 @@ internal sealed class ExternalHandler(
         bodies.SetSpec(slot, trajectories.Flights.Chosen(external.Spec));
         collapse.HasLosses |= external.Spec.Restitution < 1;
         flights.SetRadius(slot, external.Spec.Radius);
+        timelines.Extras.OpenWith(external.Spec.Filter);
         if (isForwarded)
         {
             lonePath.Follow(slot, key, external);

@@ -36,8 +36,9 @@ internal sealed class ForwardedPath(Scene scene, BodyTable bodies, TimelineStore
             spin = timelines.SpinOf(then).At(seconds);
         }
 
+        BodySpec spec = external.Kind == EventKind.Spawn ? bodies.Spec(slot) : bodies.Spec(slot).With(timelines.Extras.Filter(timelines.Last(slot)));
         (MotionSegment path, DenseOutput dense, Spin turning) =
-            world.Follow(ExternalEvent.Spawn(external.Time, 1, 1, bodies.Spec(slot), position, velocity, spin), key.Time);
+            world.Follow(ExternalEvent.Spawn(external.Time, 1, 1, spec, position, velocity, spin), key.Time);
         timelines.Append(slot, bodies.Id(slot), key, path, dense, spin: turning);
     }
 }

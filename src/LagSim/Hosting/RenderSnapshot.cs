@@ -15,6 +15,7 @@ public sealed class RenderSnapshot
 {
     private RenderTimeline[] timelines = Array.Empty<RenderTimeline>();
     private double[] radii = Array.Empty<double>();
+    private ulong[] tags = Array.Empty<ulong>();
     private ulong[] identities = Array.Empty<ulong>();
     private int[] slots = Array.Empty<int>();
     private long orderVersion = -1;
@@ -62,6 +63,13 @@ public sealed class RenderSnapshot
         return at < 0 ? 0 : radii[slots[at]];
     }
 
+    /// <summary>The tag of a body, 64 bits of the game's own; 0 for one that is unknown or was never there.</summary>
+    public ulong TagOf(BodyId body)
+    {
+        int at = Array.BinarySearch(identities, 0, BodyCount, body.Packed);
+        return at < 0 ? 0 : tags[slots[at]];
+    }
+
     /// <summary>Reads the largest sudden change of a body's velocity, by a bounce or an impulse, between two instants.</summary>
     /// <param name="body">The body.</param>
     /// <param name="after">The earlier instant, itself left out.</param>
@@ -87,6 +95,7 @@ public sealed class RenderSnapshot
             int size = Math.Max(count, timelines.Length * 2);
             Array.Resize(ref timelines, size);
             Array.Resize(ref radii, size);
+            Array.Resize(ref tags, size);
             Array.Resize(ref identities, size);
             Array.Resize(ref slots, size);
         }
@@ -107,6 +116,7 @@ public sealed class RenderSnapshot
             timelines[slot] ??= new RenderTimeline();
             timelines[slot].Follow(simulation.Engine.Timelines, slot, from);
             radii[slot] = simulation.Engine.Bodies.Spec(slot).Radius;
+            tags[slot] = simulation.Engine.Bodies.Spec(slot).Tag;
         }
 
         box = simulation.Scene.Box;

@@ -53,7 +53,7 @@ internal sealed class RenderTimeline
         at = store.Last(slot);
         for (int i = fresh - 1; i >= 0; i--)
         {
-            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at), store.SpinOf(at));
+            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at), store.SpinOf(at), store.Extras.Filter(at));
             at = store.Previous(at);
         }
 
@@ -118,7 +118,7 @@ internal sealed class RenderTimeline
     }
 
     private static BodyState State(in Entry entry, SimTime time, in PeriodicBox box) =>
-        Paths.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin);
+        Paths.StateOf(entry.Segment, time.SecondsSince(entry.Segment.Epoch), entry.Dense, box, entry.Spin, entry.Filter);
 
     private void Reserve(int fresh)
     {
@@ -137,13 +137,14 @@ internal sealed class RenderTimeline
 
     private readonly struct Entry
     {
-        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense, in Spin spin)
+        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense, in Spin spin, CollisionFilter filter)
         {
             Serial = serial;
             Opened = opened;
             Segment = segment;
             Dense = dense;
             Spin = spin;
+            Filter = filter;
         }
 
         internal long Serial { get; }
@@ -155,5 +156,7 @@ internal sealed class RenderTimeline
         internal DenseOutput Dense { get; }
 
         internal Spin Spin { get; }
+
+        internal CollisionFilter Filter { get; }
     }
 }

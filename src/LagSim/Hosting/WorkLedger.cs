@@ -194,7 +194,7 @@ public sealed class WorkLedger : IWorkObserver
         Total += amount;
         thisStep += amount;
         bool goesOn = true;
-        bool isAct = key.Kind is >= EventKind.Spawn and <= EventKind.Remove;
+        bool isAct = EventKinds.IsOfPlayers(key.Kind);
         byte owner = Nobody;
         bool isShared = false;
         foreach (int slot in bodies)

@@ -184,7 +184,8 @@ internal sealed class IslandStepper(
             }
 
             step.AddBody(
-                spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld, spec.Forces.IsEmpty || isHeld ? 0 : graph.Accelerations[i].Length);
+                spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld, spec.Forces.IsEmpty || isHeld ? 0 : graph.Accelerations[i].Length,
+                timelines.Extras.Filter(piece));
         }
 
         step.FindContacts(seconds);

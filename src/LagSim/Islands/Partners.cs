@@ -9,6 +9,7 @@ namespace LagSim.Islands;
 /// <summary>Finds the bodies on the other sides of contacts that members carry, by the segments on which they come to an event.</summary>
 internal sealed class Partners(BodyTable bodies, TimelineStore timelines, SegmentLookup view, RewindRequests rewinds)
 {
+    private readonly CollisionFilters filters = new(timelines.Extras, default);
     private readonly Paths paths = new(timelines);
 
     /// <summary>
@@ -18,7 +19,7 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, Segmen
     internal List<int> NearMisses { get; } = new();
 
     /// <summary>
-    /// The other body of a carried contact, if it carries the contact too, or is held. A body that is ahead of the key has to be rewound to
+    /// The other body of a carried contact, if it carries the contact too, or is held, and the two still collide. A body that is ahead of the key has to be rewound to
     /// it.
     /// </summary>
     internal bool TryFind(BodyId body, BodyId partnerId, in EventKey key, out int partner)
@@ -35,7 +36,8 @@ internal sealed class Partners(BodyTable bodies, TimelineStore timelines, Segmen
             rewinds.Add(partner, key);
         }
 
-        bool holds = paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.Carried.With(piece, body) != TimelineStore.None);
+        bool holds = (paths.IsHeld(piece) || (paths.IsMember(piece) && timelines.Carried.With(piece, body) != TimelineStore.None))
+            && filters.Meet(timelines.Last(bodies.SlotOf(body)), piece);
         if (!holds && !NearMisses.Contains(partner))
         {
             NearMisses.Add(partner);

@@ -18,6 +18,7 @@ internal class CollapseRule(
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
+    private readonly CollisionFilters filters = new(timelines.Extras, scene.Surfaces);
     private readonly InelasticCollapse collapse = new();
 
     /// <summary>
@@ -117,7 +118,7 @@ internal class CollapseRule(
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return !paths.IsHeld(last)
+        return !paths.IsHeld(last) && filters.MeetSurface(last, surface)
             && surfaces.Gap(surface, paths.PositionAt(last, time), bodies.Spec(slot).Radius) <= scene.RestitutionThreshold
             && TakesIn(strikes.On(last, surface, time));
     }
@@ -127,7 +128,7 @@ internal class CollapseRule(
     {
         contact = ContactTime.At(time);
         int last = timelines.Last(slot);
-        return timelines.Segment(piece).IsPresent && !(paths.IsHeld(last) && paths.IsHeld(piece))
+        return timelines.Segment(piece).IsPresent && filters.Meet(last, piece) && !(paths.IsHeld(last) && paths.IsHeld(piece))
             && Gap(slot, last, other, piece, time) <= scene.RestitutionThreshold
             && TakesIn(strikes.Between(last, piece, time));
     }

@@ -27,6 +27,7 @@ internal sealed class IslandImpact(
     private const int GrowingSweeps = 2;
 
     private readonly StaticSurfaces surfaces = scene.Surfaces;
+    private readonly CollisionFilters filters = new(timelines.Extras, scene.Surfaces);
     private readonly Paths paths = new(timelines);
 
     /// <summary>Whether the impact of the graph reaches an island, or begins one.</summary>
@@ -198,7 +199,7 @@ internal sealed class IslandImpact(
         for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ContactPoint c = new(body, ContactPoint.Static, surface, default);
-            if (!impact.Has(c) && Vector3D.Dot(graph.NormalOf(c), push) < -tolerance && graph.GapOf(c) <= scale.Length)
+            if (!impact.Has(c) && filters.MeetSurface(timelines.Last(graph.Slots[body]), surface) && Vector3D.Dot(graph.NormalOf(c), push) < -tolerance && graph.GapOf(c) <= scale.Length)
             {
                 AddContact(c, left);
                 any = true;
@@ -242,7 +243,7 @@ internal sealed class IslandImpact(
 
     private bool TryReachSurface(int body, int surface, double left)
     {
-        bool isNew = !graph.HasContact(body, surface);
+        bool isNew = !graph.HasContact(body, surface) && filters.MeetSurface(timelines.Last(graph.Slots[body]), surface);
         if (isNew)
         {
             AddContact(new ContactPoint(body, ContactPoint.Static, surface, default), left);

@@ -103,6 +103,7 @@ internal class CutPaths
             Dense = timelines.Dense(segment),
             Hold = timelines.HoldOf(segment),
             Spin = timelines.SpinOf(segment),
+            Filter = timelines.Extras.Filter(segment),
             Later = bodies[n].Earliest,
         });
         bodies[n] = (slot, pieces.Count - 1);
@@ -152,6 +153,7 @@ internal class CutPaths
             for (; from < order.Count && pieces[order[from]].Key == key; from++)
             {
                 Piece piece = pieces[order[from]];
+                timelines.Extras.OpenWith(piece.Filter);
                 timelines.Append(piece.Slot, table.Id(piece.Slot), piece.Key, piece.Segment, piece.Dense, piece.Hold, piece.Spin);
                 PutBackContacts(timelines, piece, table.Id(piece.Slot));
                 if (count == joined.Length)
@@ -189,7 +191,7 @@ internal class CutPaths
             return timelines.Serial(last) <= LastSerial; // it was, and is, on what the heal has left of its path
         }
 
-        return IsSamePath(timelines, last, pieces[old]) && CarriesTheSame(timelines, last, pieces[old]);
+        return IsSamePath(timelines, last, pieces[old]) && HasSameFilter(timelines, last, pieces[old]) && CarriesTheSame(timelines, last, pieces[old]);
     }
 
     /// <summary>Whether a segment equals a copied path, apart from what it carries.</summary>
@@ -198,6 +200,10 @@ internal class CutPaths
         && (!timelines.Segment(segment).IsDense || timelines.Dense(segment).IsSameAs(piece.Dense))
         && timelines.HoldOf(segment) == piece.Hold
         && timelines.SpinOf(segment).IsSameAs(piece.Spin);
+
+    /// <summary>Whether the body has on a segment the filter that it had on a piece.</summary>
+    private protected virtual bool HasSameFilter(TimelineStore timelines, int segment, in Piece piece) =>
+        timelines.Extras.Filter(segment) == piece.Filter;
 
     /// <summary>Whether a segment, on the same path, carries the very contacts from step to step that a piece did.</summary>
     private protected virtual bool CarriesTheSame(TimelineStore timelines, int segment, in Piece piece)
@@ -245,6 +251,7 @@ internal class CutPaths
         internal DenseOutput Dense;
         internal Hold Hold;
         internal Spin Spin;
+        internal CollisionFilter Filter;
         internal SimTime Centre;
         internal SimTime Still;
         internal int FromContact;

@@ -90,7 +90,7 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
     }
 
     private static bool IsSame(in RuleRead a, in RuleRead b) =>
-        a.State.Motion == b.State.Motion && IsSame(a.State.Position, b.State.Position) && IsSame(a.State.Velocity, b.State.Velocity)
+        a.State.Motion == b.State.Motion && a.State.Filter == b.State.Filter && IsSame(a.State.Position, b.State.Position) && IsSame(a.State.Velocity, b.State.Velocity)
         && IsSame(a.State.Spin, b.State.Spin) && a.Hold == b.Hold && a.Spec.Equals(b.Spec);
 
     private static bool IsSame(in Vector3D a, in Vector3D b) =>

@@ -9,7 +9,7 @@ namespace LagSim.Rules;
 /// <summary>The world as a call of rules sees it: their state, what they may read and draw, and what they may do.</summary>
 /// <remarks>
 /// <para>It shows the world right after the event of the call. What rules do happens at the same tick, in the next round of events: first
-/// spawns, then teleports, set velocities, impulses and removals, those of one kind in the order in which they were asked for. A later call
+/// spawns, then teleports, set velocities, impulses, removals and changes of filters, those of one kind in the order in which they were asked for. A later call
 /// at that tick sees them.</para>
 /// <para>Valid during the call, on its thread. Everything that is read is noted, so that the call is made again exactly if a late event
 /// changes it. No allocation once the lists have grown.</para>
@@ -267,6 +267,11 @@ public sealed class RuleWorld
     /// <exception cref="SceneException">A value may not enter the world.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
     public void Impulse(BodyId body, Vector3D impulse) => Act(ExternalEvent.Impulse(key.Time, 0, 1, body, impulse));
+
+    /// <summary>A body collides by this filter from now on; see <see cref="PlayerAction.SetFilter"/>.</summary>
+    /// <exception cref="SceneException">There can be no such body.</exception>
+    /// <exception cref="RuleException">The call has made too many acts.</exception>
+    public void SetFilter(BodyId body, CollisionFilter filter) => Act(ExternalEvent.SetFilter(key.Time, 0, 1, body, filter));
 
     /// <summary>Tells the game outside something, such as that there was a goal: <see cref="Hosting.RuleNotices"/> has it as predicted, and
     /// as confirmed when nothing can change it any more.</summary>

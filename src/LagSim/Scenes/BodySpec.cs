@@ -44,6 +44,8 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// The coefficient of rolling resistance, 0 (rolls on, the default) to 1: the part of its weight that holds a rolling body back, and
     /// with as much of a moment one that turns on the spot. Counts for no more than the friction, without which nothing rolls.
     /// </param>
+    /// <param name="filter">What it collides with, to begin with; default everything.</param>
+    /// <param name="tag">64 bits of the game's own; default 0.</param>
     public BodySpec(
         double radius,
         double mass,
@@ -53,7 +55,9 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
         ForceSet forces = default,
         double tolerance = DefaultTolerance,
         double friction = 0,
-        double rollingResistance = 0)
+        double rollingResistance = 0,
+        CollisionFilter filter = default,
+        ulong tag = 0)
     {
         Radius = radius;
         Mass = mass;
@@ -64,6 +68,8 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
         Tolerance = tolerance;
         Friction = friction;
         RollingResistance = rollingResistance;
+        Filter = filter;
+        Tag = tag;
     }
 
     /// <summary>The radius in metres.</summary>
@@ -102,18 +108,36 @@ public readonly struct BodySpec : System.IEquatable<BodySpec>
     /// </summary>
     public double RollingResistance { get; }
 
+    /// <summary>
+    /// What it collides with when it appears. A <see cref="Events.PlayerAction.SetFilter"/> changes that of the body, not this one:
+    /// <see cref="BodyState.Filter"/> is what it has at an instant.
+    /// </summary>
+    public CollisionFilter Filter { get; }
+
+    /// <summary>64 bits of the game's own, which mean nothing to the world: a kind, an owner, an index of a table.</summary>
+    public ulong Tag { get; }
+
     /// <summary>The same body on another law of flight.</summary>
     /// <param name="flight">The law.</param>
     /// <param name="step">See the constructor; by default what it is.</param>
     /// <param name="tolerance">See the constructor; by default what it is.</param>
     public BodySpec With(MotionLaw flight, SimDuration? step = null, double? tolerance = null) =>
-        new(Radius, Mass, Restitution, flight, step ?? Step, Forces, tolerance ?? Tolerance, Friction, RollingResistance);
+        new(Radius, Mass, Restitution, flight, step ?? Step, Forces, tolerance ?? Tolerance, Friction, RollingResistance, Filter, Tag);
+
+    /// <summary>The same body with another filter to begin with.</summary>
+    public BodySpec With(CollisionFilter filter) =>
+        new(Radius, Mass, Restitution, Flight, Step, Forces, Tolerance, Friction, RollingResistance, filter, Tag);
+
+    /// <summary>The same body with another tag.</summary>
+    public BodySpec WithTag(ulong tag) =>
+        new(Radius, Mass, Restitution, Flight, Step, Forces, Tolerance, Friction, RollingResistance, Filter, tag);
 
     /// <inheritdoc/>
     public bool Equals(BodySpec other) =>
         Radius.Equals(other.Radius) && Mass.Equals(other.Mass) && Restitution.Equals(other.Restitution)
         && Flight == other.Flight && Step == other.Step && Forces == other.Forces && Tolerance.Equals(other.Tolerance)
-        && Friction.Equals(other.Friction) && RollingResistance.Equals(other.RollingResistance);
+        && Friction.Equals(other.Friction) && RollingResistance.Equals(other.RollingResistance)
+        && Filter == other.Filter && Tag == other.Tag;
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is BodySpec other && Equals(other);

@@ -37,7 +37,7 @@ internal sealed class OverlapSearch
         {
             for (int n = 0; n < bodies.Length; n++)
             {
-                AddImage(bodies[n].Position, bodies[n].Spec.Radius, n, image, widest);
+                AddImage(bodies[n].Position, bodies[n].Spec, n, image, widest);
             }
         }
     }
@@ -57,14 +57,14 @@ internal sealed class OverlapSearch
     /// <summary>
     /// In a periodic box a ball that reaches as far over a side as another may is listed a second time, a side further; so along each axis.
     /// </summary>
-    private void AddImage(in Vector3D place, double radius, int body, int image, double widest)
+    private void AddImage(in Vector3D place, in BodySpec spec, int body, int image, double widest)
     {
         Vector3D at = place;
         for (int axis = 0; axis < 3; axis++)
         {
             if ((image >> axis & 1) != 0)
             {
-                if (Along(place, axis) - radius > 2 * widest)
+                if (Along(place, axis) - spec.Radius > 2 * widest)
                 {
                     return;
                 }
@@ -78,7 +78,7 @@ internal sealed class OverlapSearch
             Array.Resize(ref balls, Math.Max(4, ballCount * 2));
         }
 
-        balls[ballCount++] = new Ball { At = at, Place = place, Radius = radius, Body = body };
+        balls[ballCount++] = new Ball { At = at, Place = place, Radius = spec.Radius, Filter = spec.Filter, Body = body };
     }
 
     private Overlap? Find(List<int> items, int from, int to, int threads)
@@ -173,7 +173,7 @@ internal sealed class OverlapSearch
         double gap = box.Nearest(a.Place - b.Place).Length - a.Radius - b.Radius;
         double slack = tolerance + (1e-15 * (Size(a.Place) + Size(b.Place) + a.Radius + b.Radius)); // rounding of the given numbers themselves must not count
         depth = -gap;
-        return gap < -slack && a.Body != b.Body;
+        return gap < -slack && a.Body != b.Body && a.Filter.CollidesWith(b.Filter);
     }
 
     private int WidestAxis(List<int> items, int from, int to, out double middle)
@@ -219,6 +219,7 @@ internal sealed class OverlapSearch
         internal Vector3D At; // it, or an image of it
         internal Vector3D Place;
         internal double Radius;
+        internal CollisionFilter Filter;
         internal int Body;
     }
 }

@@ -221,6 +221,7 @@ public sealed class Scene
 
         AddRights(ref hash);
         AddFriction(ref hash);
+        AddFilters(ref hash);
         if (Box.Exists)
         {
             hash.Add(Box.Size); // as above: a scene without has the hash it always had
@@ -274,6 +275,20 @@ public sealed class Scene
             {
                 hash.Add((ulong)(uint)i | (1UL << 59));
                 hash.Add(BodyArray[i].Spin);
+            }
+        }
+    }
+
+    // As above. Those of bodies are in their specs.
+    private void AddFilters(ref StableHash hash)
+    {
+        StaticSurfaces surfaces = Surfaces;
+        for (int i = 0; surfaces.HaveFilters && i < surfaces.Count; i++)
+        {
+            if (!surfaces.Filter(i).IsDefault)
+            {
+                hash.Add((ulong)(uint)i | (1UL << 57));
+                hash.Add(surfaces.Filter(i).Packed);
             }
         }
     }

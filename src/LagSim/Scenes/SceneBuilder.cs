@@ -112,15 +112,17 @@ public sealed class SceneBuilder
     /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the
     /// body.</param>
     /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
+    /// <param name="filter">Which bodies collide with it; default all.</param>
     /// <exception cref="SceneException">The point is not finite, or the normal has no length.</exception>
-    public SceneBuilder AddPlane(string planeName, Vector3D normal, Vector3D point, double restitution = 1, double friction = Limits.MaxFriction)
+    public SceneBuilder AddPlane(
+        string planeName, Vector3D normal, Vector3D point, double restitution = 1, double friction = Limits.MaxFriction, CollisionFilter filter = default)
     {
         if (!point.IsFinite)
         {
             throw new SceneException($"The point of plane '{planeName}' is {point}; every component must be finite.");
         }
 
-        return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction);
+        return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction, filter);
     }
 
     /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the
@@ -131,10 +133,12 @@ public sealed class SceneBuilder
     /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the
     /// body.</param>
     /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
+    /// <param name="filter">Which bodies collide with it; default all.</param>
     /// <exception cref="SceneException">The normal is not finite, or has no length.</exception>
-    public SceneBuilder AddPlane(string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction)
+    public SceneBuilder AddPlane(
+        string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction, CollisionFilter filter = default)
     {
-        planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution, friction));
+        planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution, friction, filter));
         return this;
     }
 
@@ -145,9 +149,11 @@ public sealed class SceneBuilder
     /// <param name="restitution">0 (stays) to 1 (elastic, the default). Of two things that meet, the lesser counts, so 1 leaves it to the
     /// body.</param>
     /// <param name="friction">0 to 100. Of two things that meet, the lesser counts, so the default, 100, leaves it to the body.</param>
-    public SceneBuilder AddStaticSphere(string sphereName, Vector3D centre, double radius, double restitution = 1, double friction = Limits.MaxFriction)
+    /// <param name="filter">Which bodies collide with it; default all.</param>
+    public SceneBuilder AddStaticSphere(
+        string sphereName, Vector3D centre, double radius, double restitution = 1, double friction = Limits.MaxFriction, CollisionFilter filter = default)
     {
-        spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution, friction));
+        spheres.Add(new StaticSphere(sphereName, centre.WithoutNegativeZero(), radius, restitution, friction, filter));
         return this;
     }
 

@@ -62,6 +62,13 @@ internal struct StableHash
             Add(spec.Friction);
             Add(spec.RollingResistance);
         }
+
+        if (!spec.Filter.IsDefault || spec.Tag != 0)
+        {
+            Add(0xF117E47A6UL); // as above
+            Add(spec.Filter.Packed);
+            Add(spec.Tag);
+        }
     }
 
     internal readonly ulong Value

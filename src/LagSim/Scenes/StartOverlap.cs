@@ -28,7 +28,7 @@ internal static class StartOverlap
         foreach (StaticPlane plane in planes)
         {
             double gap = plane.Gap(body.Position, body.Spec.Radius);
-            if (gap < -slack)
+            if (gap < -slack && body.Spec.Filter.CollidesWith(plane.Filter))
             {
                 throw Inside(body.Name, $"plane '{plane.Name}'", -gap);
             }
@@ -37,7 +37,7 @@ internal static class StartOverlap
         foreach (StaticSphere sphere in spheres)
         {
             double gap = (body.Position - sphere.Centre).Length - sphere.Radius - body.Spec.Radius;
-            if (gap < -slack)
+            if (gap < -slack && body.Spec.Filter.CollidesWith(sphere.Filter))
             {
                 throw Inside(body.Name, $"static sphere '{sphere.Name}'", -gap);
             }

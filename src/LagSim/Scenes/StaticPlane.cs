@@ -4,13 +4,14 @@ namespace LagSim.Scenes;
 /// <remarks>Immutable, safe on any thread. A scene checks and normalises it.</remarks>
 public readonly struct StaticPlane
 {
-    internal StaticPlane(string name, Vector3D normal, double offset, double restitution, double friction)
+    internal StaticPlane(string name, Vector3D normal, double offset, double restitution, double friction, CollisionFilter filter = default)
     {
         Name = name;
         Normal = normal;
         Offset = offset;
         Restitution = restitution;
         Friction = friction;
+        Filter = filter;
     }
 
     /// <summary>The name of the plane in a scene.</summary>
@@ -27,6 +28,9 @@ public readonly struct StaticPlane
 
     /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two sides' values counts.</summary>
     public double Friction { get; }
+
+    /// <summary>Which bodies collide with it; default all.</summary>
+    public CollisionFilter Filter { get; }
 
     /// <summary>The distance in metres between the plane and a sphere; negative where they overlap.</summary>
     public double Gap(in Vector3D centre, double radius) => Vector3D.Dot(Normal, centre) - Offset - radius;

@@ -4,13 +4,14 @@ namespace LagSim.Scenes;
 /// <remarks>Immutable, safe on any thread. A scene checks it.</remarks>
 public readonly struct StaticSphere
 {
-    internal StaticSphere(string name, Vector3D centre, double radius, double restitution, double friction)
+    internal StaticSphere(string name, Vector3D centre, double radius, double restitution, double friction, CollisionFilter filter = default)
     {
         Name = name;
         Centre = centre;
         Radius = radius;
         Restitution = restitution;
         Friction = friction;
+        Filter = filter;
     }
 
     /// <summary>The name of the sphere in a scene.</summary>
@@ -27,4 +28,7 @@ public readonly struct StaticSphere
 
     /// <summary>The coefficient of friction, 0 to 100; in a contact the lesser of the two sides' values counts.</summary>
     public double Friction { get; }
+
+    /// <summary>Which bodies collide with it; default all.</summary>
+    public CollisionFilter Filter { get; }
 }

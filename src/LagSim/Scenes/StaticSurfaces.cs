@@ -1,3 +1,5 @@
+using System;
+
 namespace LagSim.Scenes;
 
 /// <summary>The static surfaces of a scene by number: the planes in the scene's order, then the static spheres.</summary>
@@ -6,6 +8,9 @@ internal readonly struct StaticSurfaces(StaticPlane[] planes, StaticSphere[] sph
 {
     private readonly StaticPlane[] planes = planes;
     private readonly StaticSphere[] spheres = spheres;
+
+    /// <summary>Whether some surface has another filter than the default.</summary>
+    internal bool HaveFilters { get; } = Array.Exists(planes, p => !p.Filter.IsDefault) || Array.Exists(spheres, s => !s.Filter.IsDefault);
 
     /// <summary>How many there are.</summary>
     internal int Count => planes.Length + spheres.Length;
@@ -44,6 +49,9 @@ internal readonly struct StaticSurfaces(StaticPlane[] planes, StaticSphere[] sph
 
     internal double Friction(int surface) =>
         surface < planes.Length ? planes[surface].Friction : spheres[surface - planes.Length].Friction;
+
+    internal CollisionFilter Filter(int surface) =>
+        surface < planes.Length ? planes[surface].Filter : spheres[surface - planes.Length].Filter;
 
     /// <summary>Whether some surface takes energy: its restitution is below 1.</summary>
     internal bool TakesEnergy()

@@ -36,6 +36,7 @@ public readonly struct BodySnapshot
     /// <param name="centre">See <see cref="Centre"/>.</param>
     /// <param name="stillSince">See <see cref="StillSince"/>.</param>
     /// <param name="contacts">See <see cref="Contacts"/>.</param>
+    /// <param name="filter">See <see cref="Filter"/>; by default that of the spec.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -57,7 +58,8 @@ public readonly struct BodySnapshot
         in Vector3D spinRate = default,
         SimTime centre = default,
         SimTime stillSince = default,
-        ReadOnlySpan<PersistentContact> contacts = default)
+        ReadOnlySpan<PersistentContact> contacts = default,
+        CollisionFilter? filter = null)
     {
         if (supports.Length > MaxSupports)
         {
@@ -77,10 +79,11 @@ public readonly struct BodySnapshot
         Centre = centre;
         StillSince = stillSince;
         ContactArray = contacts.ToArray();
+        Filter = filter ?? spec.Filter;
     }
 
     internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
-        SimTime stillSince, PersistentContact[] contacts)
+        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter)
     {
         Id = id;
         Spec = spec;
@@ -92,6 +95,7 @@ public readonly struct BodySnapshot
         Centre = centre;
         StillSince = stillSince;
         ContactArray = contacts;
+        Filter = filter;
     }
 
     /// <summary>The identity of the body.</summary>
@@ -134,6 +138,9 @@ public readonly struct BodySnapshot
 
     /// <summary>For a member of an island, the contacts that it carries from step to step; none for any other.</summary>
     public ReadOnlySpan<PersistentContact> Contacts => ContactArray;
+
+    /// <summary>What it collides with now: that of its spec, unless it was changed.</summary>
+    public CollisionFilter Filter { get; }
 
     internal PersistentContact[] ContactArray { get; }
 

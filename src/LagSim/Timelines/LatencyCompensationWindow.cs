@@ -53,7 +53,7 @@ public sealed class LatencyCompensationWindow
     /// everything it needs to cover no network.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public LatencyCompensationWindow(SimDuration? history = null, SimDuration? lookAhead = null)
-        : this(history ?? DefaultHistory, lookAhead ?? DefaultLookAhead, new SimDuration[EventKind.Command - EventKind.Spawn + 1])
+        : this(history ?? DefaultHistory, lookAhead ?? DefaultLookAhead, new SimDuration[EventKinds.OfPlayersCount])
     {
     }
 
@@ -102,11 +102,11 @@ public sealed class LatencyCompensationWindow
     /// <exception cref="ArgumentOutOfRangeException">The kind is not a player's, or the lag is out of its range.</exception>
     public LatencyCompensationWindow WithLocalLag(EventKind kind, SimDuration lag)
     {
-        if (!IsOfPlayers(kind))
+        if (!EventKinds.IsOfPlayers(kind))
         {
             throw new ArgumentOutOfRangeException(
                 nameof(kind), kind, "A local lag is that of what players do: a spawn, a teleport, a set velocity, an impulse, a grab, a keyframe of a hand, a release, a"
-                    + " removal, a command.");
+                    + " removal, a change of a filter, a command.");
         }
 
         SimDuration[] changed = (SimDuration[])lags.Clone();
@@ -115,7 +115,7 @@ public sealed class LatencyCompensationWindow
     }
 
     /// <summary>The local lag of actions of this kind; zero for a kind that players do not cause.</summary>
-    public SimDuration LocalLag(EventKind kind) => IsOfPlayers(kind) ? lags[kind - EventKind.Spawn] : SimDuration.Zero;
+    public SimDuration LocalLag(EventKind kind) => EventKinds.IsOfPlayers(kind) ? lags[kind - EventKind.Spawn] : SimDuration.Zero;
 
     /// <summary>
     /// The history that would have served, from how late events were that came: the 99.9th percentile of it, but
@@ -147,8 +147,6 @@ public sealed class LatencyCompensationWindow
         SimDuration measured = sorted[rank];
         return measured < MinMeasuredHistory ? MinMeasuredHistory : measured > MaxHistory ? MaxHistory : measured;
     }
-
-    private static bool IsOfPlayers(EventKind kind) => kind is >= EventKind.Spawn and <= EventKind.Remove or EventKind.Command;
 
     private void ThrowIfNot(SimDuration lag)
     {

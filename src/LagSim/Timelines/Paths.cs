@@ -20,14 +20,16 @@ internal readonly struct Paths(TimelineStore timelines)
     internal double SecondsInto(int segment, SimTime time) => time.SecondsSince(timelines.Segment(segment).Epoch);
 
     /// <summary>The state of a body so many seconds into a segment; absent on one on which it is not there.</summary>
-    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin) =>
+    internal static BodyState StateOf(in MotionSegment segment, double seconds, in DenseOutput dense, in PeriodicBox box, in Spin spin,
+        CollisionFilter filter) =>
         segment.IsPresent
-            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds))
+            ? new BodyState(box.Wrap(segment.PositionAt(seconds, dense)), segment.VelocityAt(seconds, dense), segment.Law, spin.At(seconds), filter)
             : default;
 
     /// <summary>The state of a body on a segment at an instant.</summary>
     internal BodyState StateAt(int segment, SimTime time, in PeriodicBox box) =>
-        StateOf(timelines.Segment(segment), SecondsInto(segment, time), timelines.Dense(segment), box, timelines.SpinOf(segment));
+        StateOf(timelines.Segment(segment), SecondsInto(segment, time), timelines.Dense(segment), box, timelines.SpinOf(segment),
+        timelines.Extras.Filter(segment));
 
     internal Vector3D PositionAt(int segment, SimTime time) =>
         timelines.Segment(segment).PositionAt(SecondsInto(segment, time), timelines.Dense(segment));

@@ -6,7 +6,7 @@ using LagSim.Time;
 namespace LagSim.Timelines;
 
 /// <summary>
-/// What only some segments have: an integrated path, a hold, a spin, contacts that persist. Each is an array by segment, made once a
+/// What only some segments have: an integrated path, a hold, a spin, a filter, contacts that persist. Each is an array by segment, made once a
 /// segment needs it.
 /// </summary>
 /// <remarks>Apart from the segments, so that a world without them pays nothing. Not thread-safe.</remarks>
@@ -15,6 +15,8 @@ internal sealed class SegmentExtras
     private DenseOutput[] dense = Array.Empty<DenseOutput>();
     private Hold[] holds = Array.Empty<Hold>();
     private Spin[] spins = Array.Empty<Spin>();
+    private CollisionFilter[] filters = Array.Empty<CollisionFilter>();
+    private CollisionFilter? opening; // the filter of the segment that is opened next, if not that of the one before it
 
     /// <summary>What members' segments carry besides their paths.</summary>
     internal CarriedContacts Carried { get; } = new();
@@ -27,17 +29,27 @@ internal sealed class SegmentExtras
     /// <summary>How the body turns on the segment.</summary>
     internal Spin Spin(int segment) => segment < spins.Length ? spins[segment] : default;
 
+    /// <summary>Whether any segment has had another filter than the default.</summary>
+    internal bool HaveFilters => filters.Length > 0;
+
+    /// <summary>What the body collides with on the segment.</summary>
+    internal CollisionFilter Filter(int segment) => segment < filters.Length ? filters[segment] : default;
+
+    /// <summary>The segment that is opened next has this filter; any other has that of the segment before it.</summary>
+    internal void OpenWith(CollisionFilter filter) => opening = filter;
+
     /// <summary>Whether <see cref="AddTo"/> may add anything: it does so for none of the segments of a plain flight.</summary>
-    internal bool MayAddToHash(in MotionSegment motion) => spins.Length > 0 || motion.Law == MotionLaw.Held || motion.IsOfIsland;
+    internal bool MayAddToHash(in MotionSegment motion) => spins.Length > 0 || filters.Length > 0 || motion.Law == MotionLaw.Held || motion.IsOfIsland;
 
     /// <summary>Notes what a segment that is opened has.</summary>
     /// <param name="segment">The segment.</param>
+    /// <param name="before">The body's segment before it, or <see cref="TimelineStore.None"/>.</param>
     /// <param name="motion">Its motion, whose law says what it has.</param>
     /// <param name="output">Its integrated path.</param>
     /// <param name="hold">Its hold.</param>
     /// <param name="spin">Its spin.</param>
     /// <param name="room">For how many segments there is room.</param>
-    internal void Set(int segment, in MotionSegment motion, in DenseOutput output, in Hold hold, in Spin spin, int room)
+    internal void Set(int segment, int before, in MotionSegment motion, in DenseOutput output, in Hold hold, in Spin spin, int room)
     {
         if (motion.IsDense)
         {
@@ -53,6 +65,11 @@ internal sealed class SegmentExtras
         {
             Put(ref spins, segment, spin, room);
         }
+
+        if (filters.Length > 0 || opening is not null)
+        {
+            SetFilter(segment, before, motion, room);
+        }
     }
 
     /// <summary>Makes room for as many segments as the store has, where any has something.</summary>
@@ -61,6 +78,7 @@ internal sealed class SegmentExtras
         Grow(ref dense, room);
         Grow(ref holds, room);
         Grow(ref spins, room);
+        Grow(ref filters, room);
         Carried.Grow(room);
     }
 
@@ -83,9 +101,26 @@ internal sealed class SegmentExtras
             hash.Add(spin.Rate);
         }
 
+        CollisionFilter filter = Filter(segment);
+        if (!filter.IsDefault)
+        {
+            hash.Add(0xF117E4UL);
+            hash.Add(filter.Packed);
+        }
+
         if (motion.IsOfIsland)
         {
             Carried.AddTo(ref hash, segment, origin);
+        }
+    }
+
+    private void SetFilter(int segment, int before, in MotionSegment motion, int room)
+    {
+        CollisionFilter filter = !motion.IsPresent ? default : opening ?? (before == TimelineStore.None ? default : Filter(before));
+        opening = null;
+        if (filters.Length > 0 || !filter.IsDefault)
+        {
+            Put(ref filters, segment, filter, room);
         }
     }
 

@@ -22,7 +22,6 @@ internal sealed class TimelineStore
     private const int LittleRoom = 32; // where less than one part in this many can be dropped, it would soon be looked for again
 
     private readonly TimelineGrowthPolicy growth;
-    private readonly SegmentExtras extras = new();
     private readonly EventHashSum hashes;
     private readonly INewestSegmentObserver? newest; // is notified of each body's newest segment
     private OpenedSegment[] segments;
@@ -55,6 +54,9 @@ internal sealed class TimelineStore
 
     /// <summary>The serial of the segment that was opened last.</summary>
     internal long LastSerial { get; private set; }
+
+    /// <summary>What only some segments have.</summary>
+    internal SegmentExtras Extras { get; } = new();
 
     /// <summary>Notified of impacts that are cut; null for none.</summary>
     internal IImpactObserver? Observer { get; set; }
@@ -91,7 +93,7 @@ internal sealed class TimelineStore
     internal int First(int slot) => ends[slot].First;
 
     /// <summary>What members' segments carry besides their paths.</summary>
-    internal CarriedContacts Carried => extras.Carried;
+    internal CarriedContacts Carried => Extras.Carried;
 
     internal int Next(int segment) => links[segment].Next;
 
@@ -99,13 +101,13 @@ internal sealed class TimelineStore
 
     internal ref readonly MotionSegment Segment(int segment) => ref segments[segment].Segment;
 
-    internal DenseOutput Dense(int segment) => extras.Dense(segment);
+    internal DenseOutput Dense(int segment) => Extras.Dense(segment);
 
     /// <summary>The hold of a segment that is held; of any other the default.</summary>
-    internal Hold HoldOf(int segment) => segments[segment].Segment.Law == MotionLaw.Held ? extras.Hold(segment) : default;
+    internal Hold HoldOf(int segment) => segments[segment].Segment.Law == MotionLaw.Held ? Extras.Hold(segment) : default;
 
     /// <summary>How the body turns on the segment.</summary>
-    internal Spin SpinOf(int segment) => extras.Spin(segment);
+    internal Spin SpinOf(int segment) => Extras.Spin(segment);
 
     /// <summary>The key of the event that opened the segment.</summary>
     internal ref readonly EventKey Key(int segment) => ref segments[segment].Key;
@@ -142,8 +144,8 @@ internal sealed class TimelineStore
         Openings?.OnOpened(slot, key);
         Triggers?.OnOpened(body, key);
         int at = TakeRoom(key.Time);
-        extras.Set(at, segment, output, hold, spin, segments.Length);
         int before = ends[slot].Last;
+        Extras.Set(at, before, segment, output, hold, spin, segments.Length);
         ref OpenedSegment opened = ref segments[at];
         opened.Segment = segment;
         opened.Key = key;
@@ -166,7 +168,7 @@ internal sealed class TimelineStore
             return; // until EndMember: what it carries counts in its hash
         }
 
-        if (!extras.MayAddToHash(segment) && opened.IsEvent)
+        if (!Extras.MayAddToHash(segment) && opened.IsEvent)
         {
             hashes.Add(key, segment, body); // nothing but what every segment has
         }
@@ -268,8 +270,7 @@ internal sealed class TimelineStore
 
         ref readonly MotionSegment motion = ref segments[segment].Segment;
         StableHash hash = hashes.Of(segments[segment].Key, motion, body);
-        extras.AddTo(ref hash, segment, motion, hashes.Origin);
-
+        Extras.AddTo(ref hash, segment, motion, hashes.Origin);
         return hash.Value;
     }
 
@@ -401,6 +402,6 @@ internal sealed class TimelineStore
         int room = growth.Next(segments.Length, ends.Length, now, edge, recent);
         Array.Resize(ref segments, room);
         Array.Resize(ref links, room);
-        extras.Grow(room);
+        Extras.Grow(room);
     }
 }

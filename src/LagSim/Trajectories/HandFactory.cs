@@ -48,7 +48,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
         else if (external.Kind == EventKind.Release && IsHolding(slot, external.Peer))
         {
-            flights.Open(slot, key, PutOut(slot, position), external.Velocity);
+            flights.Open(slot, key, PutOut(slot, position, timelines.Extras.Filter(last)), external.Velocity);
         }
     }
 
@@ -97,7 +97,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
         if (key.Time >= hold.KeyframeTime + HandPath.Lasts)
         {
-            flights.Open(slot, key, PutOut(slot, position), Vector3D.Zero);
+            flights.Open(slot, key, PutOut(slot, position, timelines.Extras.Filter(last)), Vector3D.Zero);
         }
         else
         {
@@ -117,10 +117,10 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     }
 
     /// <summary>
-    /// The place where a body is released that a hand holds inside static geometry: outside of it, at the surface, one surface after the
-    /// other in the scene's order. A body between surfaces too close for it stays inside.
+    /// The place where a body is released that a hand holds inside static geometry that it collides with: outside of it, at the surface, one
+    /// surface after the other in the scene's order. A body between surfaces too close for it stays inside.
     /// </summary>
-    private Vector3D PutOut(int slot, in Vector3D position)
+    internal Vector3D PutOut(int slot, in Vector3D position, CollisionFilter filter)
     {
         double radius = bodies.Spec(slot).Radius;
         Vector3D at = position;
@@ -131,7 +131,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
             foreach (ref readonly StaticPlane plane in scene.PlaneArray.AsSpan())
             {
                 double gap = plane.Gap(at, radius);
-                if (gap < 0)
+                if (gap < 0 && filter.CollidesWith(plane.Filter))
                 {
                     isInside |= gap < -scene.RestitutionThreshold;
                     at -= plane.Normal * gap;
@@ -141,7 +141,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
             foreach (ref readonly StaticSphere sphere in scene.SphereArray.AsSpan())
             {
                 double gap = (at - sphere.Centre).Length - sphere.Radius - radius;
-                if (gap < 0)
+                if (gap < 0 && filter.CollidesWith(sphere.Filter))
                 {
                     isInside |= gap < -scene.RestitutionThreshold;
                     at = sphere.Centre + ((at - sphere.Centre).Direction * (sphere.Radius + radius));

@@ -25,7 +25,7 @@ internal sealed class RandomWorld
     private readonly int firstPeer; // with rules peer 0 is theirs
 
     /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control, friction and spin.</summary>
-    internal RandomWorld(int seed, bool hands = false, bool forced = false, bool rules = false)
+    internal RandomWorld(int seed, bool hands = false, bool forced = false, bool filters = false, bool rules = false)
     {
         this.forced = forced;
         firstPeer = rules ? 1 : 0;
@@ -39,10 +39,17 @@ internal sealed class RandomWorld
             DrawHands(new Random(seed + 1_000_000));
         }
 
+        if (filters)
+        {
+            Random drawn = new(seed + 2_000_000);
+            Scene = RandomFilters.On(Scene, drawn);
+            RandomFilters.AddTo(Events, drawn);
+        }
+
         if (rules)
         {
             Scene = Scene.With(new DrawnRules((ulong)seed), (ulong)seed);
-            DrawCommands(new Random(seed + 2_000_000));
+            DrawCommands(new Random(seed + 3_000_000));
         }
     }
 

@@ -11,6 +11,9 @@ internal sealed class FaultyCutPaths(FaultyEngineParts faults) : CutPaths
             ? timelines.Segment(segment).Position == piece.Segment.Position
             : base.IsSamePath(timelines, segment, piece);
 
+    private protected override bool HasSameFilter(TimelineStore timelines, int segment, in Piece piece) =>
+        faults.Has(HealingFault.IgnoresFilters) || base.HasSameFilter(timelines, segment, piece);
+
     private protected override bool CarriesTheSame(TimelineStore timelines, int segment, in Piece piece) =>
         faults.Has(HealingFault.StopsWherePlacesMeet | HealingFault.StopsWhereChordsMeet) || base.CarriesTheSame(timelines, segment, piece);
 }

@@ -61,4 +61,7 @@ internal enum HealingFault
     /// it where it was.
     /// </summary>
     ForgetsBodiesMovedOn = 8192,
+
+    /// <summary>A heal ends where the bodies are on their old segments again, whatever they collide with there.</summary>
+    IgnoresFilters = 16384,
 }

@@ -65,7 +65,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 5 + 34 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 5 + 38 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -80,7 +80,7 @@ public sealed class RecordingsPageTests
             Assert.Contains($" {limit.ToString("N0", CultureInfo.InvariantCulture)} ", page.Replace(';', ' '), StringComparison.Ordinal);
         }
 
-        Assert.Equal(61, EventFormat.SpecBytes);
+        Assert.Equal(77, EventFormat.SpecBytes);
         Assert.Contains($"| event | event | {EventFormat.MinBytes} to {EventFormat.MaxBytes} bytes", page, StringComparison.Ordinal);
         Assert.StartsWith($"# Recordings, version {RecordingFormat.Version}", page, StringComparison.Ordinal);
         Assert.Contains($"`{RecordingFormat.Extension}`", page, StringComparison.Ordinal);
@@ -96,8 +96,8 @@ public sealed class RecordingsPageTests
     {
         IAcceleration force = new FunctionForce((_, _, v) => -v);
         Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddForce(Force.Supplied(force)).AddForce(Force.Spring("spring", V(8, 9, 10), 11, 12)).AddForce(Force.Central("pull", V(13, 14, 15), 16, -3))
-            .AddPlane("floor", Vector3D.Up, -3.0, 0.5, 0.625)
-            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9)).Build();
+            .AddPlane("floor", Vector3D.Up, -3.0, 0.5, 0.625, new CollisionFilter(3, 5))
+            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375, new CollisionFilter(9, 7)).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625, filter: new CollisionFilter(6, 10), tag: 1234567890123), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9)).Build();
         Simulation world = new(scene, new SimulationOptions(Start, SimDuration.MaxValue));
         world.AdvanceTo(Start + Seconds(1));
         byte[] bytes = Recorded.Bytes(
@@ -200,9 +200,11 @@ public sealed class RecordingsPageTests
                 ("force name", f.Name), ("force kind", (byte)f.Kind), ("force version", f.Acceleration?.Version ?? 0), ("force strength", f.Strength),
                 ("force damping", f.Damping), ("force vector", f.Vector), ("force power", f.Power)))),
             ["planes"] = ("plane ", scene.Planes.Select(p => LayoutPage.Values(
-                ("plane name", p.Name), ("plane normal", p.Normal), ("plane offset", p.Offset), ("plane restitution", p.Restitution), ("plane friction", p.Friction)))),
+                ("plane name", p.Name), ("plane normal", p.Normal), ("plane offset", p.Offset), ("plane restitution", p.Restitution), ("plane friction", p.Friction),
+                ("plane category", p.Filter.Category), ("plane mask", p.Filter.Mask)))),
             ["static spheres"] = ("sphere ", scene.StaticSpheres.Select(s => LayoutPage.Values(
-                ("sphere name", s.Name), ("sphere centre", s.Centre), ("sphere radius", s.Radius), ("sphere restitution", s.Restitution), ("sphere friction", s.Friction)))),
+                ("sphere name", s.Name), ("sphere centre", s.Centre), ("sphere radius", s.Radius), ("sphere restitution", s.Restitution), ("sphere friction", s.Friction),
+                ("sphere category", s.Filter.Category), ("sphere mask", s.Filter.Mask)))),
             ["bodies"] = ("body ", scene.Bodies.Select(b => LayoutPage.Values(
                 ("body name", b.Name), ("body spec", b.Spec), ("body position", b.Position), ("body velocity", b.Velocity), ("body players", b.Players.Mask), ("body spin", b.Spin)))),
         };

@@ -63,7 +63,11 @@ internal static class SceneGen
         from players in Peers
         from friction in Gen.OneOf(Gen.Elements(0.0, 100), Unit)
         from rolling in Gen.OneOf(Gen.Elements(0.0, 1), Unit)
-        select (new BodySpec(radius, mass, restitution, law, step, ForceSet.FromMask((uint)forces), tolerance, friction, rolling), velocity, players);
+        from filter in Wire.WireGen.Filter
+        from tag in Gen.OneOf(Gen.Constant(0ul), Wire.WireGen.Bits64)
+        select (
+            new BodySpec(radius, mass, restitution, law, step, ForceSet.FromMask((uint)forces), tolerance, friction, rolling, filter, tag), velocity,
+            players);
 
     /// <summary>Weak ones, so that they are not too stiff for the lightest body.</summary>
     private static Gen<Func<string, Force>> AnyForce =>
@@ -122,7 +126,7 @@ internal static class SceneGen
         double x = 0.1;
         for (int i = 0; i < spheres.Length; i++)
         {
-            builder.AddStaticSphere($"{name}s{i}", new Vector3D(x + spheres[i], 1 / 3.0, -0.0), spheres[i], 0.7, spheres[i] > 1 ? 0.3 : 100);
+            builder.AddStaticSphere($"{name}s{i}", new Vector3D(x + spheres[i], 1 / 3.0, -0.0), spheres[i], 0.7, spheres[i] > 1 ? 0.3 : 100, i < bodies.Length ? bodies[i].Spec.Filter : default);
             x += (2.01 * spheres[i]) + 0.3;
         }
 
@@ -130,7 +134,7 @@ internal static class SceneGen
         {
             (BodySpec drawn, Vector3D velocity, PeerSet players) = bodies[i];
             ForceSet set = ForceSet.FromMask(forces.Length == 0 ? 0 : drawn.Forces.Mask & (uint.MaxValue >> (32 - forces.Length)));
-            BodySpec spec = new(drawn.Radius, drawn.Mass, drawn.Restitution, drawn.Flight, drawn.Step, set, drawn.Tolerance, drawn.Friction, drawn.RollingResistance);
+            BodySpec spec = new(drawn.Radius, drawn.Mass, drawn.Restitution, drawn.Flight, drawn.Step, set, drawn.Tolerance, drawn.Friction, drawn.RollingResistance, drawn.Filter, drawn.Tag);
             builder.AddBody($"{name}b{i}", spec, new Vector3D(x + spec.Radius, 0.1, 1e-17), velocity * (1e8 * least), players, velocity * (drawn.Friction > 50 ? 0 : 1e6 * least / spec.Radius));
             x += (2.01 * spec.Radius) + 0.3;
         }
@@ -140,7 +144,7 @@ internal static class SceneGen
             Vector3D unit = new SceneBuilder("u").AddPlane("u", planes[i].Normal, 0).Build().Planes[0].Normal;
             double offset = Vector3D.Dot(unit, planes[i].Point);
             Vector3D far = offset > -4 * (x + 1) ? unit * (-5 * (x + 1) * (1 + Math.Abs(offset) / 1e11)) : planes[i].Point;
-            builder.AddPlane($"{name}p{i}", planes[i].Normal, far, i / 3.0, i == 1 ? 100 : i / 7.0);
+            builder.AddPlane($"{name}p{i}", planes[i].Normal, far, i / 3.0, i == 1 ? 100 : i / 7.0, bodies.Length > i ? bodies[^(i + 1)].Spec.Filter : default);
         }
 
         return builder.Build();

@@ -124,7 +124,10 @@ internal static class LayoutPage
                     (byte)spec.Flight, .. BitConverter.GetBytes(spec.Step.Ticks),
                     .. BitConverter.GetBytes(spec.Forces.Mask), .. Bytes("f64", spec.Tolerance),
                     .. Bytes("f64", spec.Friction), .. Bytes("f64", spec.RollingResistance),
+                    .. Bytes("filter", spec.Filter), .. BitConverter.GetBytes(spec.Tag),
                 ];
+            case "filter":
+                return value is CollisionFilter filter ? [.. BitConverter.GetBytes(filter.Category), .. BitConverter.GetBytes(filter.Mask)] : [];
             case "event":
                 ExternalEvent what = (ExternalEvent)value;
                 byte[] bytes = new byte[EventFormat.EncodedLength(what.Kind)];

@@ -27,18 +27,18 @@ public sealed class SceneFormatTests
     private const int PlanesAt = 54;
     private const int PlaneNameAt = 56;
     private const int NormalAt = 58;
-    private const int SpheresAt = 106;
-    private const int BodiesAt = 158;
-    private const int BodyNameAt = 161;
-    private const int RestitutionAt = 178;
-    private const int FlightAt = 186;
-    private const int StepAt = 187;
-    private const int SpecForcesAt = 195;
-    private const int ToleranceAt = 199;
-    private const int PositionAt = 223;
-    private const int VelocityAt = 247;
-    private const int PlayersAt = 271;
-    private const int Length = 297;
+    private const int SpheresAt = 114;
+    private const int BodiesAt = 174;
+    private const int BodyNameAt = 177;
+    private const int RestitutionAt = 194;
+    private const int FlightAt = 202;
+    private const int StepAt = 203;
+    private const int SpecForcesAt = 211;
+    private const int ToleranceAt = 215;
+    private const int PositionAt = 255;
+    private const int VelocityAt = 279;
+    private const int PlayersAt = 303;
+    private const int Length = 329;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -64,7 +64,7 @@ public sealed class SceneFormatTests
         byte[] bytes = SceneFormat.Encode(One());
         int[] places =
         [
-            GravityAt, RestitutionThresholdAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt,
+            GravityAt, RestitutionThresholdAt, ToleranceOfContactAt, SpawnersAt, SpawnersAt + 1, RestitutionAt, StepAt, PositionAt, VelocityAt, PlayersAt, NormalAt + 48, NormalAt + 52, SpheresAt + 52, PositionAt - 16, PositionAt - 12, PositionAt - 8,
             PlayersAt + 1,
         ];
         foreach (int at in places)
@@ -116,13 +116,13 @@ public sealed class SceneFormatTests
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
         Refused(whole.AsSpan(0, PlanesAt), "The 54 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 296 bytes of the scene end within body 1 of the scene.");
-        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 136 bytes or more, and has 135 bytes left");
+        Refused(whole.AsSpan(0, Length - 1), "The 328 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 152 bytes or more, and has 151 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 298 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 330 bytes of the scene end within the scene's periodic box.");
         }
     }
 

@@ -38,6 +38,7 @@ public sealed class SnapshotFormatTests
         from spins in Gen.OneOf(
             Gen.Constant<Vector3D[]>([default, default]),
             Gen.ArrayOf(WireGen.ExactVector, 2).Where(v => v[0] != default || v[1] != default))
+        from filter in WireGen.Filter
         from contacts in Gen.Choose(0, 4).SelectMany(count => Gen.ArrayOf(WireGen.Contact, count))
         from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
         select new BodySnapshot(
@@ -48,7 +49,7 @@ public sealed class SnapshotFormatTests
             law == MotionLaw.Held ? new Hold(peer, vectors[6], times[2]) : default,
             law == MotionLaw.DormandPrince54 ? SimDuration.FromTicks(times[3].Ticks) : default, spins[0], spins[1],
             IsMember(law, supports) ? times[4] : default, IsMember(law, supports) ? times[5] : default,
-            IsMember(law, supports) ? contacts : []);
+            IsMember(law, supports) ? contacts : [], filter);
 
     private static readonly Gen<WorldSnapshot> Any =
         from start in Ticks
@@ -140,7 +141,7 @@ public sealed class SnapshotFormatTests
             random.NextBytes(bytes);
             if (i % 4 > 0 && bytes.Length > 28)
             {
-                bytes[24] = (byte)(bytes.Length / 194); // a count that could be, or it tests nothing else
+                bytes[24] = (byte)(bytes.Length / 210); // a count that could be, or it tests nothing else
                 bytes[25..28].Clear();
             }
 
@@ -207,7 +208,7 @@ public sealed class SnapshotFormatTests
     {
         byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain(MotionLaw.RungeKutta4)]));
         int[] nine = [.. Enumerable.Range(0, 9).Select(n => 28 + (8 * n))];
-        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. nine.Select(n => n + 120), .. nine.Select(n => n + 193)];
+        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. nine.Select(n => n + 136), .. nine.Select(n => n + 209)];
         foreach (int at in numbers)
         {
             byte[] bytes = (byte[])good.Clone();
@@ -226,14 +227,17 @@ public sealed class SnapshotFormatTests
         step.AsSpan(28 + 8 + 25, 8).Clear();
         Refused(WireRefusal.BadValue, step);
         byte[] supports = (byte[])good.Clone();
-        supports[28 + 192] = BodySnapshot.MaxSupports + 1;
+        supports[28 + 208] = BodySnapshot.MaxSupports + 1;
         Refused(WireRefusal.BadValue, [.. supports, .. new byte[16]]);
-        supports[28 + 192] = 1;
+        supports[28 + 208] = 1;
         Refused(WireRefusal.BadValue, [.. supports[..^1], 0, 0, 0, 0x80, 0]);
         Decoded([.. supports[..^1], 0xFF, 0xFF, 0xFF, 0x7F, 0]);
         byte[] turns = (byte[])good.Clone();
-        turns[^1] = 2;
+        turns[^1] = 4;
         Refused(WireRefusal.BadValue, turns);
+        turns[^1] = 2;
+        Refused(WireRefusal.BadValue, [.. turns, 1, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]); // nor has the filter of its spec
+        Assert.Equal(new CollisionFilter(2), Decoded([.. turns, 2, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]).Bodies[0].Filter);
         turns[^1] = 1;
         Refused(WireRefusal.BadValue, [.. turns, .. new byte[48]]); // turning not at all has another form
         Decoded([.. turns, 1, .. new byte[47]]);
@@ -261,7 +265,7 @@ public sealed class SnapshotFormatTests
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
             Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.KeyframeTime) : default, b.NextStep, b.Spin, b.SpinRate,
             b.Centre, b.StillSince,
-            [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))]);
+            [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))], b.Filter);
 
         static Vector3D Negative(Vector3D v) => new(v.X == 0 ? -0.0 : v.X, v.Y == 0 ? -0.0 : v.Y, v.Z == 0 ? -0.0 : v.Z);
     }

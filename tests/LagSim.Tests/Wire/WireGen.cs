@@ -54,6 +54,9 @@ internal static class WireGen
         from turn in ExactVector
         select new PersistentContact(BodyId.FromPacked(partner), surface, holds, push, turn);
 
+    internal static readonly Gen<CollisionFilter> Filter = Gen.OneOf(
+        Gen.Constant(default(CollisionFilter)), from category in Bits32 from mask in Bits32 select new CollisionFilter(category, mask));
+
     internal static readonly Gen<BodySpec> Spec =
         from radius in Gen.OneOf(Gen.Elements(1e-9, 0.5, 1e9), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
         from mass in Gen.OneOf(Gen.Elements(1e-30, 1.0, 1e30), Gen.Choose(1, 1000000).Select(n => n * 1e-3))
@@ -65,10 +68,12 @@ internal static class WireGen
         from tolerance in Gen.OneOf(Gen.Elements(0, 1e-12, BodySpec.DefaultTolerance, 1), Gen.Choose(0, 1000000).Select(n => n * 1e-6))
         from friction in Gen.Elements(0, 0.3, 100)
         from rolling in Gen.Elements(0, 0.01, 1)
-        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance, friction, rolling);
+        from filter in Filter
+        from tag in Bits64
+        select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance, friction, rolling, filter, tag);
 
     internal static readonly Gen<ExternalEvent> Event =
-        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release)
+        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetFilter)
         from time in Time
         from peer in Byte
         from sequence in Bits32.Select(value => Math.Max(1, value))
@@ -77,6 +82,7 @@ internal static class WireGen
         from position in Vector
         from velocity in Vector
         from spin in Gen.OneOf(Gen.Constant(Vector3D.Zero), Vector)
+        from filter in Filter
         select kind switch
         {
             EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
@@ -86,6 +92,7 @@ internal static class WireGen
             EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
             EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
             EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
+            EventKind.SetFilter => ExternalEvent.SetFilter(time, peer, sequence, body, filter),
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };
 

@@ -41,7 +41,7 @@ public sealed class WirePageTests
     public void Tables_OfCopyAndSnapshot_AreThoseOfWorlds()
     {
         int dense = 0, carried = 0, held = 0, inContact = 0;
-        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true)))
+        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true, filters: seed % 2 == 0)))
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
             Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
@@ -78,7 +78,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 28 + 5, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 12 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 29 + 5, rows);
     }
 
     [Fact]
@@ -165,7 +165,7 @@ public sealed class WirePageTests
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot controlled = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
-                nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15));
+                nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15), filter: new CollisionFilter(5, 9));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [controlled]);
         }
         else if (seed == 2)
@@ -357,6 +357,7 @@ public sealed class WirePageTests
                 "position" => Bytes("vector", what.Position),
                 "offset" => Bytes("vector", what.Position),
                 "spin" => Bytes("vector", what.Spin),
+                "filter" => Bytes("filter", what.Filter),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });
@@ -371,7 +372,8 @@ public sealed class WirePageTests
         MemoryStream bytes = new();
         Write(bytes, Table(page, "### Spec"), Values(
             ("radius", spec.Radius), ("mass", spec.Mass), ("restitution", spec.Restitution), ("flight", (byte)spec.Flight), ("step", spec.Step.Ticks),
-            ("forces", spec.Forces.Mask), ("tolerance", spec.Tolerance), ("friction", spec.Friction), ("rolling resistance", spec.RollingResistance)));
+            ("forces", spec.Forces.Mask), ("tolerance", spec.Tolerance), ("friction", spec.Friction), ("rolling resistance", spec.RollingResistance),
+            ("category", spec.Filter.Category), ("mask", spec.Filter.Mask), ("tag", spec.Tag)));
         return bytes.ToArray();
     }
 
@@ -402,7 +404,8 @@ public sealed class WirePageTests
         ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54
             ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
-        ("turns", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0),
+        ("has", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Filter != b.Spec.Filter ? 2 : 0)),
+        ("filter", b.Filter != b.Spec.Filter ? b.Filter : null!),
         ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),
         ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!),
         ("member", IsMember(b) ? (b.Centre, b.StillSince, b.Contacts.Length) : null!),

@@ -15,8 +15,10 @@ namespace LagSim.Harness.Verification.Check;
 /// <param name="Velocity">The new velocity, in m/s; for an impulse the change of velocity, for a keyframe the hand's velocity.</param>
 /// <param name="Spec">For a spawn the spec of the new body; for an impulse that of the body it acts on.</param>
 /// <param name="Spin">The spin of a spawn, in rad/s.</param>
+/// <param name="Filter">The new filter of the body.</param>
 internal sealed record CheckAction(
-    double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec, Vector3D Spin = default)
+    double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec, Vector3D Spin = default,
+    CollisionFilter Filter = default)
 {
     internal PlayerAction On(BodyId body) => Kind switch
     {
@@ -27,6 +29,7 @@ internal sealed record CheckAction(
         EventKind.Grab => PlayerAction.Grab(body, Position),
         EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, Position, Velocity),
         EventKind.Release => PlayerAction.Release(body, Velocity),
+        EventKind.SetFilter => PlayerAction.SetFilter(body, Filter),
         _ => PlayerAction.Impulse(body, Velocity * Spec.Mass),
     };
 }

@@ -53,6 +53,7 @@ internal sealed class CheckCase
     private const ulong SortStream = 3;
     private const ulong TroubleStream = 4;
     private const ulong IndexStream = 5;
+    private const ulong FilterStream = 7;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MaxAttempts = 20;
@@ -67,6 +68,7 @@ internal sealed class CheckCase
 
     private readonly bool isHeap;
     private readonly CheckScene room;
+    private readonly CheckFilters filters;
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckAction> actions = [];
 
@@ -81,6 +83,7 @@ internal sealed class CheckCase
         DrawPlayers(random.Fork(1), options);
         DrawTrouble(random.Fork(TroubleStream), options);
         DrawIndexes(random.Fork(IndexStream));
+        filters = new CheckFilters(random.Fork(FilterStream));
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
@@ -93,6 +96,7 @@ internal sealed class CheckCase
                 : new RoomScene(things);
             DrawActions(random.Fork(FirstRoom + (2 * attempt) + 1));
             CheckHands.AddTo(actions, room, players.Count, random.Fork(FirstHands + attempt));
+            filters.AddTo(actions, room, players.Count, attempt);
             if (attempt == MaxAttempts || IsWithin(room.MaxEvents ?? budget, cancellation))
             {
                 break;
@@ -107,7 +111,7 @@ internal sealed class CheckCase
         ActionIndices = options.Events ?? Enumerable.Range(0, actions.Count).ToArray();
         Throw(BodyIndices, room.BodyCount, "bodies", seed);
         Throw(ActionIndices, actions.Count, "events", seed);
-        Scene = room.Build(BodyIndices);
+        Scene = filters.On(room.Build(BodyIndices), BodyIndices);
         Accelerations = CheckScene.Accelerations;
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
 
@@ -287,7 +291,8 @@ internal sealed class CheckCase
 
     private bool TakesNoMoreThan(long budget, CancellationToken cancellation)
     {
-        Scene scene = room.Build([.. Enumerable.Range(0, room.BodyCount)]);
+        int[] all = [.. Enumerable.Range(0, room.BodyCount)];
+        Scene scene = filters.On(room.Build(all), all);
         Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation));
         BodyId[] bodies = new BodyId[actions.Count];
         for (int i = 0; i < actions.Count; i++)

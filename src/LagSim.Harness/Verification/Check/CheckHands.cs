@@ -62,7 +62,12 @@ internal static class CheckHands
             }
         }
 
-        // By time; actions of one instant in the order drawn. References to spawns are updated to the new order.
+        PutInOrder(actions, all);
+    }
+
+    /// <summary>Makes these the actions: by time, those of one instant in the order drawn. References to spawns are updated to the new order.</summary>
+    internal static void PutInOrder(List<CheckAction> actions, List<CheckAction> all)
+    {
         int[] order = [.. Enumerable.Range(0, all.Count).OrderBy(i => all[i].AtSeconds)];
         int[] place = new int[order.Length];
         for (int i = 0; i < order.Length; i++)

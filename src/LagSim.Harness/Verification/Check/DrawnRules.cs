@@ -140,7 +140,7 @@ internal sealed class DrawnRules : GameRules
     {
         Vector3D some = new((4 * world.RandomFraction()) - 2, (4 * world.RandomFraction()) - 2, (4 * world.RandomFraction()) - 2);
         ref Total total = ref world.State<Total>();
-        switch (world.Random(12))
+        switch (world.Random(13))
         {
             case 0:
             case 1:
@@ -169,6 +169,9 @@ internal sealed class DrawnRules : GameRules
                 world.CancelTimer(Timers + world.Random(3));
                 break;
             case 10:
+                world.SetFilter(body, world.Random(2) == 0 ? default : new CollisionFilter(2, 1));
+                break;
+            case 11:
                 world.Tell(2, (long)(total.Digest >> 8));
                 break;
             default:

@@ -23,6 +23,7 @@ public readonly record struct SceneFeatures
         ("magnus", met => met.Magnus), ("force_in_contact", met => met.ForceInContact), ("steps_ahead", met => met.ContactSteps),
         ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
+        ("filter_changed", met => met.FilterChanged),
     ];
 
     /// <summary>Five or more touching bodies moved as an island.</summary>
@@ -63,6 +64,9 @@ public readonly record struct SceneFeatures
 
     /// <summary>A body with a force other than gravity was in persistent contact with rolling resistance.</summary>
     public bool ForceWithRolling { get; init; }
+
+    /// <summary>A player changed what a body collides with.</summary>
+    public bool FilterChanged { get; init; }
 
     /// <param name="alone">The world, advanced to its end, with unlimited history.</param>
     /// <param name="accepted">The accepted events of players.</param>
@@ -114,7 +118,11 @@ public readonly record struct SceneFeatures
 
         foreach (ExternalEvent external in accepted)
         {
-            if (external.Kind is EventKind.Grab or EventKind.Remove)
+            if (external.Kind == EventKind.SetFilter)
+            {
+                met = met with { FilterChanged = met.FilterChanged || alone.TookEffect(external) };
+            }
+            else if (external.Kind is EventKind.Grab or EventKind.Remove)
             {
                 Read(alone, SimTime.Max(external.Time - SimDuration.OneTick, alone.Start), there);
                 int at = there.FindIndex(b => b.Body == external.Body);
