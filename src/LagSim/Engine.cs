@@ -67,6 +67,19 @@ internal sealed class Engine
         };
         Rewinder = parts.Rewinder(Bodies, Timelines, log, scheduler, Progress, rollback, Reconvergence, predictor, options.Healing);
 
+        // Sensors.
+        CrossingHandler? crossingHandler = null;
+        if (scene.SensorArray.Length > 0)
+        {
+            Crossings = new CrossingLog(scene.SensorArray.Length, Bodies, Timelines, Progress);
+            Reader.Crossings = Crossings;
+            Rewinder.Crossings = Crossings;
+            predictor.Crossings = parts.CrossingPredictor(scene, start, Bodies, Timelines, Crossings);
+            Reconvergence.Keep(parts.CutCrossings(Crossings));
+            Reconvergence.CrossingObserver = options.CrossingObserver;
+            crossingHandler = new CrossingHandler(Crossings, graph);
+        }
+
         // Islands.
         Partners partners = new(Bodies, Timelines, view, rewinds);
         MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
@@ -96,7 +109,7 @@ internal sealed class Engine
         ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath);
-        EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);
+        EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
         Loop = new EventLoop(
             Progress, Timelines, scheduler, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures,
@@ -104,7 +117,10 @@ internal sealed class Engine
 
         // What comes from outside.
         Roster = new BodyRoster(
-            scene, Bodies, Timelines, log, scheduler, Progress, rollback, flights, BroadPhase, trajectories, collapse);
+            scene, Bodies, Timelines, log, scheduler, Progress, rollback, flights, BroadPhase, trajectories, collapse)
+        {
+            Crossings = Crossings,
+        };
         Intake = new EventIntake(Roster, Bodies, log, Progress, rollback, BroadPhase, predictor, Rewinder, Loop);
     }
 
@@ -117,6 +133,9 @@ internal sealed class Engine
     internal TimelineStore Timelines { get; }
 
     internal StateReader Reader { get; }
+
+    /// <summary>The crossings of sensors; null in a scene without.</summary>
+    internal CrossingLog? Crossings { get; }
 
     internal ContactStep Step { get; }
 

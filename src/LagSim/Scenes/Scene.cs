@@ -27,7 +27,8 @@ public sealed class Scene
         Force[] forces,
         double smallestRadius,
         PeerSet spawners,
-        PeriodicBox box)
+        PeriodicBox box,
+        Sensor[] sensors)
     {
         Name = name;
         Gravity = gravity;
@@ -41,6 +42,7 @@ public sealed class Scene
         SmallestRadius = smallestRadius;
         Spawners = spawners;
         Box = box;
+        SensorArray = sensors;
         Hash = ComputeHash();
     }
 
@@ -84,6 +86,9 @@ public sealed class Scene
     /// <summary>The periodic box that everything is in; none by default.</summary>
     public PeriodicBox Box { get; }
 
+    /// <summary>The sensors, in the order in which they were added.</summary>
+    public IReadOnlyList<Sensor> Sensors => SensorArray;
+
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
     public ulong Hash { get; }
 
@@ -100,6 +105,8 @@ public sealed class Scene
     internal SceneBody[] BodyArray { get; }
 
     internal Force[] ForceArray { get; }
+
+    internal Sensor[] SensorArray { get; }
 
     /// <summary>The identity of the body of that name, case-sensitive. Cost: the number of bodies; ask once and keep it.</summary>
     /// <exception cref="ArgumentException">No body of the scene has that name.</exception>
@@ -139,11 +146,28 @@ public sealed class Scene
         throw new ArgumentException($"Scene '{Name}' has no force named '{name}'.", nameof(name));
     }
 
+    /// <summary>The index in <see cref="Sensors"/> of the sensor of that name, case-sensitive.</summary>
+    /// <exception cref="ArgumentException">No sensor of the scene has that name.</exception>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
+    public int SensorNamed(string name)
+    {
+        ThrowIfNull(name);
+        for (int i = 0; i < SensorArray.Length; i++)
+        {
+            if (string.Equals(SensorArray[i].Name, name, StringComparison.Ordinal))
+            {
+                return i;
+            }
+        }
+
+        throw new ArgumentException($"Scene '{Name}' has no sensor named '{name}'.", nameof(name));
+    }
+
     /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
         new(
             Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray,
-            SmallestRadius, Spawners, Box);
+            SmallestRadius, Spawners, Box, Array.Empty<Sensor>());
 
     private static void ThrowIfNull(string name)
     {
@@ -214,6 +238,18 @@ public sealed class Scene
         {
             hash.Add(1UL << 58);
             hash.Add(ContactTolerance);
+        }
+
+        if (SensorArray.Length > 0)
+        {
+            hash.Add((ulong)(uint)SensorArray.Length | (1UL << 57));
+        }
+
+        foreach (Sensor sensor in SensorArray)
+        {
+            hash.Add((ulong)sensor.Shape | ((ulong)sensor.Coverage << 8));
+            hash.Add(sensor.Vector);
+            hash.Add(sensor.Measure);
         }
 
         return hash.Value;

@@ -36,6 +36,8 @@ public readonly struct BodySnapshot
     /// <param name="centre">See <see cref="Centre"/>.</param>
     /// <param name="stillSince">See <see cref="StillSince"/>.</param>
     /// <param name="contacts">See <see cref="Contacts"/>.</param>
+    /// <param name="inside">See <see cref="Inside"/>.</param>
+    /// <param name="crossings">See <see cref="Crossings"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -57,7 +59,9 @@ public readonly struct BodySnapshot
         in Vector3D spinRate = default,
         SimTime centre = default,
         SimTime stillSince = default,
-        ReadOnlySpan<PersistentContact> contacts = default)
+        ReadOnlySpan<PersistentContact> contacts = default,
+        ReadOnlySpan<int> inside = default,
+        ReadOnlySpan<Crossing> crossings = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -77,10 +81,12 @@ public readonly struct BodySnapshot
         Centre = centre;
         StillSince = stillSince;
         ContactArray = contacts.ToArray();
+        InsideArray = inside.ToArray();
+        CrossingArray = crossings.ToArray();
     }
 
     internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
-        SimTime stillSince, PersistentContact[] contacts)
+        SimTime stillSince, PersistentContact[] contacts, int[] inside, Crossing[] crossings)
     {
         Id = id;
         Spec = spec;
@@ -92,6 +98,8 @@ public readonly struct BodySnapshot
         Centre = centre;
         StillSince = stillSince;
         ContactArray = contacts;
+        InsideArray = inside;
+        CrossingArray = crossings;
     }
 
     /// <summary>The identity of the body.</summary>
@@ -136,6 +144,16 @@ public readonly struct BodySnapshot
     public ReadOnlySpan<PersistentContact> Contacts => ContactArray;
 
     internal PersistentContact[] ContactArray { get; }
+
+    /// <summary>The sensors that it is inside of, by ascending index in the scene.</summary>
+    public ReadOnlySpan<int> Inside => InsideArray;
+
+    /// <summary>The sensors that it has crossed since its path was opened, in canonical order.</summary>
+    public ReadOnlySpan<Crossing> Crossings => CrossingArray;
+
+    internal int[] InsideArray { get; }
+
+    internal Crossing[] CrossingArray { get; }
 
     /// <summary>For an integrated step or a held path, the coefficient of t^3, in m/s^3; zero for any other.</summary>
     public Vector3D Cubic => Dense.Cubic;

@@ -61,4 +61,10 @@ internal enum HealingFault
     /// it where it was.
     /// </summary>
     ForgetsBodiesMovedOn = 8192,
+
+    /// <summary>Crossings of sensors are not cut with the paths on which they were found.</summary>
+    LeavesCrossings = 16384,
+
+    /// <summary>Where paths have reconverged, the crossings that were cut are not put back with them.</summary>
+    PutsNoCrossingsBack = 32768,
 }
