@@ -14,6 +14,9 @@ internal sealed class BodyRoster(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress,
     RollbackState rollback, FreeFlights flights, AdaptiveBroadPhase broadPhase, TrajectoryFactory trajectories, CollapseRule collapse)
 {
+    /// <summary>The crossings of sensors; null in a scene without.</summary>
+    internal CrossingLog? Crossings { get; set; }
+
     /// <summary>Adds a body of the scene, on the first segment of its flight.</summary>
     internal void AddFromScene(int n)
     {
@@ -43,6 +46,8 @@ internal sealed class BodyRoster(
 
             timelines.EndMember(piece, body.Id);
         }
+
+        Crossings?.Begin(slot, body.InsideArray, body.CrossingArray);
     }
 
     /// <summary>Adds a body that an external event names and that is not there yet.</summary>
@@ -67,6 +72,7 @@ internal sealed class BodyRoster(
         timelines.AddSlot(slot);
         flights.AddSlot(slot, spec.Radius);
         log.AddSlot(slot);
+        Crossings?.AddSlot(slot);
         return slot;
     }
 
@@ -82,6 +88,7 @@ internal sealed class BodyRoster(
         if (isGone)
         {
             timelines.Forget(slot);
+            Crossings?.Forget(slot);
             broadPhase.Current.Forget(slot);
         }
 

@@ -79,6 +79,19 @@ internal sealed class Engine
         Rewinder = parts.Rewinder(Bodies, Timelines, log, scheduler, Progress, rollback, Reconvergence, predictor, options.Healing);
         Rewinder.Rules = Rules;
 
+        // Sensors.
+        CrossingHandler? crossingHandler = null;
+        if (scene.SensorArray.Length > 0)
+        {
+            Crossings = new CrossingLog(scene.SensorArray.Length, Bodies, Timelines, Progress);
+            Reader.Crossings = Crossings;
+            Rewinder.Crossings = Crossings;
+            predictor.Crossings = parts.CrossingPredictor(scene, start, Bodies, Timelines, Crossings);
+            Reconvergence.Keep(parts.CutCrossings(Crossings));
+            Reconvergence.CrossingObserver = options.CrossingObserver;
+            crossingHandler = new CrossingHandler(Crossings, graph);
+        }
+
         // Islands.
         Partners partners = new(Bodies, Timelines, view, rewinds);
         MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
@@ -109,12 +122,15 @@ internal sealed class Engine
         FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters);
-        EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, marks, rewinds, Rewinder);
+        EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
 
         // What comes from outside, and what rules do.
         Roster = new BodyRoster(
-            scene, Bodies, Timelines, log, scheduler, Progress, rollback, flights, BroadPhase, trajectories, collapse);
+            scene, Bodies, Timelines, log, scheduler, Progress, rollback, flights, BroadPhase, trajectories, collapse)
+        {
+            Crossings = Crossings,
+        };
         BroadPhaseGrowth growth = new(Bodies, Progress, rollback, BroadPhase, predictor);
         if (Rules is not null)
         {
@@ -140,6 +156,9 @@ internal sealed class Engine
     internal TimelineStore Timelines { get; }
 
     internal StateReader Reader { get; }
+
+    /// <summary>The crossings of sensors; null in a scene without.</summary>
+    internal CrossingLog? Crossings { get; }
 
     internal ContactStep Step { get; }
 
@@ -184,6 +203,11 @@ internal sealed class Engine
     internal void Begin()
     {
         Timelines.Triggers = Rules; // not before: what a snapshot has was heard of
+        if (Crossings is not null)
+        {
+            Crossings.Triggers = Rules;
+        }
+
         BroadPhase.Begin();
         for (int slot = 0; slot < Bodies.SlotCount; slot++)
         {

@@ -51,6 +51,11 @@ internal class EngineParts
 
     internal virtual CutPaths CutPaths() => new();
 
+    internal virtual CutCrossings CutCrossings(CrossingLog log) => new(log);
+
+    internal virtual CrossingPredictor CrossingPredictor(Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, CrossingLog log) =>
+        new(scene, start, bodies, timelines, log);
+
     internal virtual Rewinder Rewinder(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
         Reconvergence reconvergence, EventPredictor predictor, HealingMode mode) =>

@@ -46,7 +46,7 @@ internal class RuleCaller
         RuleCall call = log.Next();
         if (call.IsGone)
         {
-            acts.TakeBack(call);
+            TakeBack(call);
             log.Drop();
             acts.Follow();
             return;
@@ -81,8 +81,14 @@ internal class RuleCaller
     }
 
     /// <summary>Whether a call that was made before would be made with the same, and so do the same.</summary>
-    private protected virtual bool Stands(RuleCall call, uint first) =>
-        call.IsMade && mode != HealingMode.FullRollback && call.FirstAct == first && call.Before!.IsSameAs(log.Current) && ReadsTheSame(call);
+    private bool Stands(RuleCall call, uint first) =>
+        call.IsMade && mode != HealingMode.FullRollback && call.FirstAct == first && HasStateBefore(call) && ReadsTheSame(call);
+
+    /// <summary>Whether the state before a call is the one that it was made with.</summary>
+    private protected virtual bool HasStateBefore(RuleCall call) => call.Before!.IsSameAs(log.Current);
+
+    /// <summary>Takes back what a call did that is made no more.</summary>
+    private protected virtual void TakeBack(RuleCall call) => acts.TakeBack(call);
 
     /// <summary>Whether a call would read what it read.</summary>
     private protected virtual bool ReadsTheSame(RuleCall call) => view.IsUnchanged(call.Reads, call.Key, spare);
@@ -129,6 +135,9 @@ internal class RuleCaller
                 break;
             case EventKind.Impact:
                 rules.OnContact(world, new RuleContact(call.Trigger.Contact));
+                break;
+            case EventKind.Crossing:
+                rules.OnCrossing(world, new Crossing(call.Key, call.Trigger.Entered));
                 break;
             case EventKind.Spawn when rules.HearsBodies:
                 rules.OnSpawned(world, call.Key.Body);

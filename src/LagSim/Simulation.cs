@@ -279,7 +279,38 @@ public sealed class Simulation
         return Engine.Rules is not null && RuleStateReader.TryRead(Scene, Engine.Rules.StateAt(time).Bytes, body, out state);
     }
 
-    /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>.</summary>
+    /// <summary>Whether a body is inside of a sensor at an instant that can be read, after all events of that tick.</summary>
+    /// <param name="body">The body. An unknown one, or one that is not there, is inside of none.</param>
+    /// <param name="sensor">The index of the sensor in <see cref="Scene.Sensors"/>; <see cref="Scene.SensorNamed"/> finds it.</param>
+    /// <param name="time">From <see cref="HistoryEdge"/> to <see cref="Horizon"/>.</param>
+    /// <remarks>Pure, the same on every peer. Cost: the number of the body's crossings after that time.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The time is outside the window, or the scene has no such sensor.</exception>
+    public bool IsInside(BodyId body, int sensor, SimTime time)
+    {
+        CheckReadable(time);
+        if (sensor < 0 || sensor >= Scene.SensorArray.Length)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(sensor), sensor, $"Scene '{Scene.Name}' has {Limits.Count(Scene.SensorArray.Length, "sensor")}, counted from 0.");
+        }
+
+        return Engine.Reader.IsInside(Engine.Bodies.SlotOf(body), sensor, time);
+    }
+
+    /// <summary>The crossings of sensors from one instant to another, both included, in canonical order.</summary>
+    /// <param name="from">What lies before <see cref="HistoryEdge"/> is no longer kept, and left out.</param>
+    /// <param name="to">What lies after <see cref="SimulatedTo"/> is not known yet, and left out.</param>
+    /// <remarks>A late event may change the answer, as it may change every state in the window. Allocates. Cost: grows with the bodies, and
+    /// with the crossings since <paramref name="from"/>.</remarks>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
+    public IReadOnlyList<Crossing> Crossings(SimTime from, SimTime to)
+    {
+        Engine.Loop.ThrowIfFaulted();
+        return Engine.Reader.CrossingsIn(SimTime.Max(from, HistoryEdge), SimTime.Min(to, SimulatedTo));
+    }
+
+    /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>, and of the sensors that it is
+    /// inside of, and of the state of the rules.</summary>
     /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of
     /// day.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>

@@ -102,6 +102,7 @@ public sealed class SimulationOptions
         changed.Cancellation = default;
         changed.Healing = HealingMode.FullRollback;
         changed.Observer = null;
+        changed.CrossingObserver = null;
         changed.Parts = EngineParts.Usual;
     });
 
@@ -110,6 +111,12 @@ public sealed class SimulationOptions
 
     /// <summary>The same with an observer.</summary>
     internal SimulationOptions WithObserver(IImpactObserver? observer) => With(changed => changed.Observer = observer);
+
+    /// <summary>Notified of crossings of sensors, including those of the very first instant; null for none.</summary>
+    internal ICrossingObserver? CrossingObserver { get; private set; }
+
+    /// <summary>The same with an observer of crossings.</summary>
+    internal SimulationOptions WithCrossingObserver(ICrossingObserver? observer) => With(changed => changed.CrossingObserver = observer);
 
     /// <summary>The same with parts that others make.</summary>
     internal SimulationOptions WithParts(EngineParts parts) => With(changed => changed.Parts = parts);

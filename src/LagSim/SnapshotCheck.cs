@@ -107,6 +107,60 @@ internal static class SnapshotCheck
         }
 
         CheckHold(body, snapshot, whose);
+        CheckCrossings(body, snapshot, scene, whose);
+    }
+
+    private static void CheckCrossings(in BodySnapshot body, WorldSnapshot snapshot, Scene scene, string whose)
+    {
+        int before = -1;
+        foreach (int sensor in body.InsideArray)
+        {
+            if (sensor <= before || sensor >= scene.SensorArray.Length)
+            {
+                throw new SceneException(
+                    $"Sensor {sensor} has {whose} inside; the scene has {Limits.Count(scene.SensorArray.Length, "sensor")}, numbered from 0 and named in"
+                    + " ascending order.");
+            }
+
+            before = sensor;
+        }
+
+        for (int n = 0; n < body.CrossingArray.Length; n++)
+        {
+            Crossing crossing = body.CrossingArray[n];
+            EventKey least = n == 0 ? body.Opened : body.CrossingArray[n - 1].Key;
+            if (crossing.Body != body.Id || crossing.Key.Other != body.Id || crossing.Key.Peer != 0 || crossing.Sensor < 0
+                || crossing.Sensor >= scene.SensorArray.Length || EventKey.Compare(crossing.Key, least) <= 0 || crossing.Time >= snapshot.Time)
+            {
+                throw new SceneException(
+                    $"In the snapshot {crossing}, in the path of {whose}; it must be of that body, of one of {Limits.Count(scene.SensorArray.Length, "sensor")},"
+                    + $" after {least} and before {snapshot.Time.ToShortString()}.");
+            }
+        }
+
+        CheckSides(body, whose);
+    }
+
+    /// <summary>Whoever enters is inside until it leaves, and the other way round.</summary>
+    private static void CheckSides(in BodySnapshot body, string whose)
+    {
+        for (int n = body.CrossingArray.Length - 1; n >= 0; n--)
+        {
+            Crossing crossing = body.CrossingArray[n];
+            int later = n + 1;
+            while (later < body.CrossingArray.Length && body.CrossingArray[later].Sensor != crossing.Sensor)
+            {
+                later++;
+            }
+
+            bool isInside = later < body.CrossingArray.Length
+                ? !body.CrossingArray[later].Entered
+                : System.Array.IndexOf(body.InsideArray, crossing.Sensor) >= 0;
+            if (crossing.Entered != isInside)
+            {
+                throw new SceneException($"In the snapshot {crossing}, in the path of {whose}, which is {(isInside ? "inside" : "outside")} after that.");
+            }
+        }
     }
 
     private static void CheckContacts(in BodySnapshot body, Scene scene, string whose)

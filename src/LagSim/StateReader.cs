@@ -13,6 +13,9 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
 {
     private readonly Paths paths = new(timelines);
 
+    /// <summary>The crossings of sensors; null in a scene without.</summary>
+    internal CrossingLog? Crossings { get; set; }
+
     /// <summary>A body's state; the default if it is not there.</summary>
     internal BodyState StateAt(int slot, SimTime time)
     {
@@ -54,6 +57,14 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                     hash.Add(state.Filter.Packed);
                 }
 
+                for (int sensor = 0; sensor < (Crossings?.SensorCount ?? 0); sensor++)
+                {
+                    if (Crossings!.IsInside(slot, sensor, time))
+                    {
+                        hash.Add((ulong)(uint)sensor | (1UL << 63));
+                    }
+                }
+
                 if (state.Motion == MotionLaw.Held)
                 {
                     hash.Add((ulong)timelines.HoldOf(timelines.At(slot, time)).Peer);
@@ -72,9 +83,10 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
     /// <summary>A hash of every event up to and including a time.</summary>
     internal ulong EventHash(SimTime time)
     {
-        ulong sum = timelines.EventHash + (rules?.EventHash(time) ?? 0);
+        ulong sum = timelines.EventHash + (Crossings?.EventHash ?? 0) + (rules?.EventHash(time) ?? 0);
         foreach (int slot in bodies)
         {
+            sum -= Crossings?.HashAfter(slot, time) ?? 0;
             for (int at = timelines.Last(slot); at != TimelineStore.None && timelines.Key(at).Time > time; at = timelines.Previous(at))
             {
                 sum -= timelines.HashOf(at, bodies.Id(slot));
@@ -137,10 +149,78 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                 there.Add(new BodySnapshot(
                     bodies.Id(slot), bodies.Spec(slot), timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
                     isMember ? timelines.Carried.CentreOf(at) : default, isMember ? timelines.Carried.StillSince(at) : default, isMember ? timelines.Carried.CopyOf(at) : Array.Empty<PersistentContact>(),
-                    timelines.Extras.Filter(at)));
+                    timelines.Extras.Filter(at), InsideOf(slot, last), CrossingsOf(slot, timelines.Key(at), last)));
             }
         }
 
         return new WorldSnapshot(progress.Start, time, EventHash(last), there.ToArray(), rules is null ? Array.Empty<byte>() : rules.StateAt(last).Bytes.ToArray());
+    }
+
+    /// <summary>Whether a body is inside of a sensor after everything of a time.</summary>
+    internal bool IsInside(int slot, int sensor, SimTime time) => slot >= 0 && Crossings is not null && Crossings.IsInside(slot, sensor, time);
+
+    /// <summary>The crossings of all bodies from one time to another, both included, in canonical order.</summary>
+    internal IReadOnlyList<Crossing> CrossingsIn(SimTime from, SimTime to)
+    {
+        List<Crossing> found = new();
+        if (Crossings is null)
+        {
+            return found;
+        }
+
+        foreach (int slot in bodies)
+        {
+            for (int at = Crossings.Last(slot); at != CrossingLog.None && Crossings.Key(at).Time >= from; at = Crossings.Previous(at))
+            {
+                if (Crossings.Key(at).Time <= to)
+                {
+                    found.Add(Crossings.At(at));
+                }
+            }
+        }
+
+        found.Sort(static (a, b) => EventKey.Compare(a.Key, b.Key));
+        return found;
+    }
+
+    /// <summary>The sensors that a body is inside of, by ascending index.</summary>
+    private int[] InsideOf(int slot, SimTime time)
+    {
+        if (Crossings is null)
+        {
+            return Array.Empty<int>();
+        }
+
+        List<int> inside = new();
+        for (int sensor = 0; sensor < Crossings.SensorCount; sensor++)
+        {
+            if (Crossings.IsInside(slot, sensor, time))
+            {
+                inside.Add(sensor);
+            }
+        }
+
+        return inside.ToArray();
+    }
+
+    /// <summary>What a body has crossed from a key up to and including a time, in canonical order.</summary>
+    private Crossing[] CrossingsOf(int slot, in EventKey since, SimTime time)
+    {
+        if (Crossings is null)
+        {
+            return Array.Empty<Crossing>();
+        }
+
+        List<Crossing> found = new();
+        for (int at = Crossings.Last(slot); at != CrossingLog.None && EventKey.Compare(Crossings.Key(at), since) >= 0; at = Crossings.Previous(at))
+        {
+            if (Crossings.Key(at).Time <= time)
+            {
+                found.Add(Crossings.At(at));
+            }
+        }
+
+        found.Reverse();
+        return found.ToArray();
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using LagSim.Events;
 using LagSim.Motion;
@@ -13,7 +14,7 @@ internal static class TimelineComparison
 {
     /// <summary>
     /// Returns the earliest difference between the timelines of the two worlds, with both versions of it; null if there is none. History
-    /// that either world has forgotten is not compared.
+    /// that either world has forgotten is not compared. Where no path differs, crossings of sensors are compared.
     /// </summary>
     internal static string? FirstDifference(Engine expected, Engine actual)
     {
@@ -47,7 +48,23 @@ internal static class TimelineComparison
             }
         }
 
-        return difference;
+        return difference ?? FirstDifferentCrossing(expected, actual, edge);
+    }
+
+    private static string? FirstDifferentCrossing(Engine expected, Engine actual, SimTime edge)
+    {
+        SimTime to = SimTime.Min(expected.Progress.SimulatedTo, actual.Progress.SimulatedTo);
+        IReadOnlyList<Crossing> a = expected.Reader.CrossingsIn(edge, to);
+        IReadOnlyList<Crossing> b = actual.Reader.CrossingsIn(edge, to);
+        int n = 0;
+        while (n < a.Count && n < b.Count && a[n] == b[n])
+        {
+            n++;
+        }
+
+        return n == a.Count && n == b.Count
+            ? null
+            : $"Crossings: expected {(n < a.Count ? a[n].ToString() : "no more")}, got {(n < b.Count ? b[n].ToString() : "no more")}.";
     }
 
     private static int FirstSince(Engine engine, BodyId body, SimTime edge)

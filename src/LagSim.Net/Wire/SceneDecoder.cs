@@ -13,6 +13,7 @@ internal ref struct SceneDecoder
     private readonly IReadOnlyList<IAcceleration>? known;
     private readonly int length;
     private readonly List<Vector3D> normals;
+    private readonly List<Vector3D> sensorVectors;
     private WireReader reader;
     private string? error;
 
@@ -25,6 +26,7 @@ internal ref struct SceneDecoder
         this.known = known;
         length = bytes.Length;
         normals = new List<Vector3D>();
+        sensorVectors = new List<Vector3D>();
         reader = new WireReader(bytes, SceneFormat.MaxBytes);
         error = null;
         part = "head";
@@ -67,6 +69,7 @@ internal ref struct SceneDecoder
         ReadPlanes(builder);
         ReadSpheres(builder);
         ReadBodies(builder);
+        ReadSensors(builder);
         ReadBox(builder);
         if (!reader.Finish(out _))
         {
@@ -194,6 +197,32 @@ internal ref struct SceneDecoder
         }
     }
 
+    private void ReadSensors(SceneBuilder builder)
+    {
+        int count = Begin("sensor", SceneBuilder.MaxSensors, SceneFormat.SensorBytes);
+        while (IsSound && number < count)
+        {
+            number++;
+            string name = WireText.Read(ref reader);
+            SensorShape shape = (SensorShape)reader.ReadByte();
+            SensorCoverage coverage = (SensorCoverage)reader.ReadByte();
+            Vector3D vector = reader.ReadVector();
+            double measure = reader.ReadDouble();
+            if (IsSound && shape > SensorShape.Sphere)
+            {
+                Refuse($"Sensor {number} of the scene has shape {(byte)shape}; shapes are 0 to {(byte)SensorShape.Sphere}.");
+            }
+
+            if (IsSound)
+            {
+                _ = shape == SensorShape.Plane
+                    ? builder.AddSensorPlane(name, vector, measure, coverage)
+                    : builder.AddSensorSphere(name, vector, measure, coverage);
+                sensorVectors.Add(vector);
+            }
+        }
+    }
+
     private void ReadBox(SceneBuilder builder)
     {
         if (!IsSound || reader.Remaining == 0)
@@ -206,7 +235,7 @@ internal ref struct SceneDecoder
         Vector3D size = reader.ReadVector();
         if (IsSound && size == Vector3D.Zero)
         {
-            Refuse("The scene's periodic box has no size; a scene without one ends with its bodies.");
+            Refuse("The scene's periodic box has no size; a scene without one ends with its sensors.");
         }
 
         builder.WithPeriodicBox(size);
@@ -267,6 +296,14 @@ internal ref struct SceneDecoder
             if (!scene.Planes[i].Normal.Equals(normals[i]))
             {
                 Refuse($"The normal of plane '{scene.Planes[i].Name}' is {normals[i]}; on the wire it has unit length.");
+            }
+        }
+
+        for (int i = 0; i < sensorVectors.Count; i++)
+        {
+            if (scene.Sensors[i].Shape == SensorShape.Plane && !scene.Sensors[i].Normal.Equals(sensorVectors[i]))
+            {
+                Refuse($"The normal of sensor '{scene.Sensors[i].Name}' is {sensorVectors[i]}; on the wire it has unit length.");
             }
         }
 

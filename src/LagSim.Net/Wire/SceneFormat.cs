@@ -28,14 +28,15 @@ internal static class SceneFormat
     public const int MaxBytes = 1 + MaxTextBytes + HeadBytes
         + (ForceSet.MaxForces * (MaxTextBytes + ForceBytes))
         + (2 * MaxStaticParts * (MaxTextBytes + StaticPartBytes))
-        + (MaxBodies * (MaxTextBytes + BodyBytes)) + EventFormat.VectorBytes;
+        + (MaxBodies * (MaxTextBytes + BodyBytes)) + (SceneBuilder.MaxSensors * (MaxTextBytes + SensorBytes)) + EventFormat.VectorBytes;
 
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
+    internal const int SensorBytes = EventFormat.VectorBytes + 10; // shape, coverage, a vector and a number
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
-    // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, four counts.
-    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (3 * 2);
+    // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, five counts.
+    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (4 * 2);
 
     /// <summary>Encodes a scene. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
@@ -90,6 +91,16 @@ internal static class SceneFormat
             writer.WriteVector(body.Velocity);
             writer.WriteUInt16(body.Players.Mask);
             writer.WriteVector(body.Spin);
+        }
+
+        writer.WriteUInt16((ushort)scene.Sensors.Count);
+        foreach (Sensor sensor in scene.Sensors)
+        {
+            WireText.Write(ref writer, sensor.Name);
+            writer.WriteByte((byte)sensor.Shape);
+            writer.WriteByte((byte)sensor.Coverage);
+            writer.WriteVector(sensor.Shape == SensorShape.Plane ? sensor.Normal : sensor.Centre);
+            writer.WriteDouble(sensor.Shape == SensorShape.Plane ? sensor.Offset : sensor.Radius);
         }
 
         if (scene.Box.Exists)
@@ -152,6 +163,11 @@ internal static class SceneFormat
         foreach (SceneBody body in scene.Bodies)
         {
             length += WireText.EncodedLength(body.Name, "A body's name") + BodyBytes;
+        }
+
+        foreach (Sensor sensor in scene.Sensors)
+        {
+            length += WireText.EncodedLength(sensor.Name, "A sensor's name") + SensorBytes;
         }
 
         return length + (scene.Box.Exists ? EventFormat.VectorBytes : 0);

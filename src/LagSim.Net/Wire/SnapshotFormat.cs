@@ -20,8 +20,11 @@ internal static class SnapshotFormat
     private const int SpinBytes = 48; // spin and its rate
     private const byte TurnsFlag = 1;
     private const byte FilterFlag = 2;
+    private const byte SensorsFlag = 4;
     private const int HoldBytes = 57; // cubic, peer, offset, keyframe
     private const int MemberBytes = 18; // centre, still since, number of contacts
+    private const int SideBytes = 4; // two counts
+    private const int CrossingBytes = 15; // time, round, sensor, whether it entered
     private const int ContactBytes = 61; // partner, surface, whether it holds, push, turn
 
     /// <summary>Encodes a snapshot.</summary>
@@ -93,7 +96,8 @@ internal static class SnapshotFormat
                 _ => 0,
             };
             length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0) + (HasOtherFilter(body) ? EventFormat.FilterBytes : 0)
-                + (IsMember(body.Law, body.SupportCount) ? MemberBytes + (body.Contacts.Length * ContactBytes) : 0);
+                + (IsMember(body.Law, body.SupportCount) ? MemberBytes + (body.Contacts.Length * ContactBytes) : 0)
+                + (IsOfSensors(body) ? SideBytes + (body.Inside.Length * sizeof(ushort)) + (body.Crossings.Length * CrossingBytes) : 0);
         }
 
         return length;
@@ -101,6 +105,13 @@ internal static class SnapshotFormat
 
     private static void Write(ref WireWriter writer, in BodySnapshot body)
     {
+        if (body.Crossings.Length > ushort.MaxValue || body.Inside.Length > SceneBuilder.MaxSensors)
+        {
+            throw new ArgumentException(
+                $"Body {body.Id} cannot travel: it is inside of {body.Inside.Length} sensors and has {body.Crossings.Length} crossings;"
+                + $" {SceneBuilder.MaxSensors} and 65535 have room.");
+        }
+
         if (body.Contacts.Length > ushort.MaxValue)
         {
             throw new ArgumentException($"Body {body.Id} cannot travel: it has {body.Contacts.Length} contacts, and 65535 have room.");
@@ -148,7 +159,7 @@ internal static class SnapshotFormat
             writer.WriteInt64(body.NextStep.Ticks);
         }
 
-        writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0)));
+        writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0) | (IsOfSensors(body) ? SensorsFlag : 0)));
         if (Turns(body))
         {
             WriteExactly(ref writer, body.Spin);
@@ -164,6 +175,78 @@ internal static class SnapshotFormat
         {
             WriteContacts(ref writer, body);
         }
+
+        if (IsOfSensors(body))
+        {
+            WriteSensors(ref writer, body);
+        }
+    }
+
+    private static void WriteSensors(ref WireWriter writer, in BodySnapshot body)
+    {
+        writer.WriteUInt16((ushort)body.Inside.Length);
+        foreach (int sensor in body.Inside.ToArray()) // an array, since a read-only span does not link everywhere
+        {
+            WriteSensor(ref writer, body, sensor);
+        }
+
+        writer.WriteUInt16((ushort)body.Crossings.Length);
+        foreach (Crossing crossing in body.Crossings.ToArray())
+        {
+            if (crossing.Body != body.Id || crossing.Key.Other != body.Id || crossing.Key.Peer != 0)
+            {
+                throw new ArgumentException($"Body {body.Id} cannot travel: among its crossings is {crossing.Key}.");
+            }
+
+            writer.WriteInt64(crossing.Time.Ticks);
+            writer.WriteUInt32(crossing.Key.Round);
+            WriteSensor(ref writer, body, crossing.Sensor);
+            writer.WriteByte(crossing.Entered ? (byte)1 : (byte)0);
+        }
+    }
+
+    private static void WriteSensor(ref WireWriter writer, in BodySnapshot body, int sensor)
+    {
+        writer.WriteUInt16(sensor is >= 0 and < SceneBuilder.MaxSensors ? (ushort)sensor
+            : throw new ArgumentException($"Body {body.Id} cannot travel: it is told of sensor {sensor}."));
+    }
+
+    private static int[] ReadInside(ref WireReader reader)
+    {
+        int count = reader.ReadUInt16();
+        reader.Require(count * sizeof(ushort) <= reader.Remaining, WireRefusal.TooShort);
+        int[] inside = reader.Refusal == WireRefusal.None ? new int[count] : Array.Empty<int>();
+        for (int i = 0; i < inside.Length; i++)
+        {
+            inside[i] = ReadSensor(ref reader);
+        }
+
+        return inside;
+    }
+
+    private static Crossing[] ReadCrossings(ref WireReader reader, BodyId body)
+    {
+        int count = reader.ReadUInt16();
+        reader.Require(count * CrossingBytes <= reader.Remaining, WireRefusal.TooShort);
+        Crossing[] crossings = reader.Refusal == WireRefusal.None ? new Crossing[count] : Array.Empty<Crossing>();
+        for (int i = 0; i < crossings.Length; i++)
+        {
+            SimTime time = SimTime.FromTicks(reader.ReadInt64());
+            uint round = reader.ReadUInt32();
+            int sensor = ReadSensor(ref reader);
+            byte entered = reader.ReadByte();
+            reader.Require(entered <= 1);
+            crossings[i] = new Crossing(new EventKey(time, round, EventKind.Crossing, body, body, 0, (uint)sensor), entered == 1);
+        }
+
+        return crossings;
+    }
+
+    private static int ReadSensor(ref WireReader reader)
+    {
+        int sensor = reader.ReadUInt16();
+        reader.Require(sensor < SceneBuilder.MaxSensors);
+        return sensor;
     }
 
     private static void WriteContacts(ref WireWriter writer, in BodySnapshot body)
@@ -209,6 +292,8 @@ internal static class SnapshotFormat
     /// <summary>Whether its filter was changed.</summary>
     private static bool HasOtherFilter(in BodySnapshot body) => body.Filter != body.Spec.Filter;
 
+    private static bool IsOfSensors(in BodySnapshot body) => body.Inside.Length > 0 || body.Crossings.Length > 0;
+
     private static BodySnapshot Read(ref WireReader reader)
     {
         BodyId id = BodyId.FromPacked(reader.ReadUInt64());
@@ -249,7 +334,7 @@ internal static class SnapshotFormat
         byte has = reader.ReadByte();
         bool turns = (has & TurnsFlag) != 0;
         bool hasOtherFilter = (has & FilterFlag) != 0;
-        reader.Require(has <= (TurnsFlag | FilterFlag));
+        reader.Require(has <= (TurnsFlag | FilterFlag | SensorsFlag));
         Vector3D spin = turns ? ReadExactly(ref reader) : default;
         Vector3D spinRate = turns ? ReadExactly(ref reader) : default;
         CollisionFilter filter = hasOtherFilter ? EventFormat.ReadFilter(ref reader) : spec.Filter;
@@ -258,9 +343,13 @@ internal static class SnapshotFormat
         SimTime centre = default;
         SimTime stillSince = default;
         PersistentContact[] contacts = IsMember(law, supports) ? ReadContacts(ref reader, out centre, out stillSince) : Array.Empty<PersistentContact>();
+        bool isOfSensors = (has & SensorsFlag) != 0;
+        int[] inside = isOfSensors ? ReadInside(ref reader) : Array.Empty<int>();
+        Crossing[] crossings = isOfSensors ? ReadCrossings(ref reader, id) : Array.Empty<Crossing>();
+        reader.Require(!isOfSensors || inside.Length + crossings.Length > 0); // exactly one encoding
         return new BodySnapshot(
             id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), cubic, quartic, quintic, hold, nextStep,
-            spin, spinRate, centre, stillSince, contacts, filter);
+            spin, spinRate, centre, stillSince, contacts, filter, inside, crossings);
     }
 
     /// <summary>Whether a path with that flight law has more than a parabola's coefficients.</summary>

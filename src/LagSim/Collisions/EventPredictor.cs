@@ -8,7 +8,8 @@ using LagSim.Timelines;
 namespace LagSim.Collisions;
 
 /// <summary>
-/// Finds each body's next event, and has it scheduled: the least of an external event, the end of a segment, and a contact.
+/// Finds each body's next event, and has it scheduled: the least of an external event, the end of a segment, a crossing of a sensor,
+/// and a contact.
 /// </summary>
 /// <remarks>A body has one event pending at most; its next contact is never earlier than that.</remarks>
 internal class EventPredictor(
@@ -16,6 +17,9 @@ internal class EventPredictor(
     AdaptiveBroadPhase broadPhase, CollisionSearch search, SegmentLookup view)
 {
     private readonly Paths paths = new(timelines);
+
+    /// <summary>Finds crossings of sensors; null in a scene without.</summary>
+    internal CrossingPredictor? Crossings { get; set; }
 
     /// <summary>Finds the body's next event and schedules it in place of any other.</summary>
     internal void Predict(int slot)
@@ -28,6 +32,11 @@ internal class EventPredictor(
         }
 
         int last = timelines.Last(slot);
+        if (last != TimelineStore.None)
+        {
+            Crossings?.Consider(slot, last, ref next);
+        }
+
         if (last != TimelineStore.None && timelines.Segment(last).IsPresent)
         {
             ConsiderPath(slot, last, ref next);

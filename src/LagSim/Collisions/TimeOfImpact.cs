@@ -99,6 +99,29 @@ internal static class TimeOfImpact
         return ContactTime.TryMake(from, until, root, out contact);
     }
 
+    /// <summary>
+    /// When a moving point next leaves a sphere that never moves, in [from, until]; at once where it is outside and moves outward.
+    /// </summary>
+    internal static bool OutOfSphere(
+        in MotionSegment segment, in DenseOutput dense, in Vector3D centre, double reach, SimTime from, SimTime until, out ContactTime contact)
+    {
+        Span<Vector3D> d = stackalloc Vector3D[PathLength];
+        int length = Path(segment, dense, from, d);
+        d[0] -= centre;
+        while (length > 1 && d[length - 1] == Vector3D.Zero)
+        {
+            length--;
+        }
+
+        double root = length switch
+        {
+            1 => double.NaN,
+            2 => LinearOut(d[0], d[1], reach),
+            _ => Curved(d.Slice(0, length), reach, Seconds(from, until), sign: -1),
+        };
+        return ContactTime.TryMake(from, until, root, out contact);
+    }
+
     private static void Shift(ref Vector3D position, ref Vector3D velocity, in Vector3D half, double by)
     {
         if (by != 0)
@@ -127,8 +150,30 @@ internal static class TimeOfImpact
         return b < 0 && discriminant > 0 ? c / (Math.Sqrt(discriminant) - b) : double.NaN;
     }
 
-    /// <summary>Any other relative motion: the squared distance is a polynomial, searched in windows of doubling length.</summary>
-    private static double Curved(Span<Vector3D> d, double reach, double seconds)
+    /// <summary>
+    /// The way out of a sphere along a straight line. What is outside already, by rounding, and moves inward, passes through it; if it
+    /// misses it, it is outside from where it comes nearest.
+    /// </summary>
+    private static double LinearOut(in Vector3D d, in Vector3D v, double reach)
+    {
+        double c = (Vector3D.Dot(d, d)) - (reach * reach);
+        double b = Vector3D.Dot(d, v);
+        double speedSquared = Vector3D.Dot(v, v);
+        if (c >= 0 && b > 0)
+        {
+            return 0;
+        }
+
+        double discriminant = (speedSquared * reach * reach) - Vector3D.Cross(d, v).LengthSquared;
+        double root = Math.Sqrt(Math.Max(0, discriminant));
+        return b > 0 ? -c / (b + root) : (root - b) / speedSquared;
+    }
+
+    /// <summary>
+    /// Any other relative motion: the squared distance is a polynomial, searched in windows of doubling length. The sign tells which way:
+    /// 1 for what comes nearer, -1 for what goes further away.
+    /// </summary>
+    private static double Curved(Span<Vector3D> d, double reach, double seconds, double sign = 1)
     {
         Span<double> f = stackalloc double[RootIsolation.MaxDegree + 1];
         double start = 0;
@@ -136,6 +181,11 @@ internal static class TimeOfImpact
         while (true)
         {
             int terms = SquaredDistance(d, reach, f);
+            for (int k = 0; k < terms && sign < 0; k++)
+            {
+                f[k] = -f[k];
+            }
+
             if (OnlyGrows(f, terms))
             {
                 return double.NaN; // as when one body has fallen away from one that does not fall for some seconds: the end of time is far

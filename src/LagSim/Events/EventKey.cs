@@ -53,7 +53,9 @@ public readonly struct EventKey : IEquatable<EventKey>, IComparable<EventKey>
     /// <summary>The peer an external event came from; 0 for what the model made.</summary>
     public byte Peer => (byte)(Origin >> 32);
 
-    /// <summary>The sequence number of an external event at its peer; 0 for what the model made.</summary>
+    /// <summary>
+    /// The sequence number of an external event at its peer; for a crossing the index of its sensor; 0 for all else that the model made.
+    /// </summary>
     public uint Sequence => (uint)Origin;
 
     internal ulong Origin { get; }

@@ -6,7 +6,8 @@ namespace LagSim.Events;
 /// </summary>
 /// <remarks>
 /// External events precede those that the model makes, and a spawn precedes all, so that other events at the tick of a body's spawn find it
-/// there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends.
+/// there. An impact precedes the end of a step, so that a contact in a step's last tick is found on the step that it ends. A crossing
+/// comes last: it changes no path, and is found on what all else of its tick and round has left.
 /// </remarks>
 public enum EventKind : byte
 {
@@ -54,4 +55,7 @@ public enum EventKind : byte
 
     /// <summary>An integrator's step ends, or the time for which a law holds.</summary>
     StepEnd = 33,
+
+    /// <summary>A body enters or leaves a sensor. It opens no segment.</summary>
+    Crossing = 34,
 }

@@ -12,7 +12,7 @@ namespace LagSim.Handlers;
 /// </summary>
 internal sealed class EventDispatcher(
     Progress progress, ContactGraph graph, EventPredictor predictor, ImpactHandler impacts, StepEndHandler steps, ExternalHandler externals,
-    StepMarks marks, RewindRequests rewinds, Rewinder rewinder)
+    CrossingHandler? crossings, StepMarks marks, RewindRequests rewinds, Rewinder rewinder)
 {
     /// <summary>
     /// Processes the least event that is due. If a body that takes part is ahead of it, that body is rewound instead, and the event is due
@@ -30,6 +30,7 @@ internal sealed class EventDispatcher(
         {
             EventKind.Impact => impacts.TryHandle(slot, key),
             EventKind.StepEnd => steps.TryHandle(slot, key),
+            EventKind.Crossing => crossings!.Handle(slot, key),
             _ => externals.TryHandle(slot, key),
         };
         while (!isDone && rewinds.TryTake(out int ahead, out EventKey to))

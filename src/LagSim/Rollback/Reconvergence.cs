@@ -1,3 +1,4 @@
+using System;
 using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Events;
@@ -16,6 +17,7 @@ internal sealed class Reconvergence(
     AdaptiveBroadPhase broadPhase, EventPredictor predictor, CutPaths cut)
 {
     private readonly HeldBackImpacts heldBack = new();
+    private CutCrossings? crossings;
 
     /// <summary>The calls of rules; null, the default, where there are none.</summary>
     internal RuleLog? Rules { get; set; }
@@ -31,10 +33,28 @@ internal sealed class Reconvergence(
         }
     }
 
+    /// <summary>The observer of crossings made and cut; null, the default, for none.</summary>
+    internal ICrossingObserver? CrossingObserver
+    {
+        get => heldBack.CrossingListener;
+        set
+        {
+            heldBack.CrossingListener = value;
+            if (crossings is not null)
+            {
+                crossings.Log.Observer = value is null ? null : heldBack;
+            }
+        }
+    }
+
+    /// <summary>From now on crossings of sensors, too, are kept when they are cut, and put back.</summary>
+    internal void Keep(CutCrossings ofCrossings) => crossings = ofCrossings;
+
     /// <summary>A rollback begins: from now on what it cuts is kept.</summary>
     internal void Begin()
     {
         cut.Begin(timelines.LastSerial);
+        crossings?.Begin();
         heldBack.Hold();
     }
 
@@ -44,10 +64,14 @@ internal sealed class Reconvergence(
     /// <summary>Of a body that was touched the newest segment is about to be cut.</summary>
     internal void Keep(int slot, int segment) => cut.Keep(timelines, slot, segment);
 
+    /// <summary>Of a body that was touched the crossings from a key on are about to be cut.</summary>
+    internal void KeepCrossings(int slot, in EventKey from) => crossings?.Keep(slot, from);
+
     /// <summary>Nothing that the current rollback cuts will be put back.</summary>
     internal void GiveUp()
     {
         cut.GiveUp();
+        crossings?.GiveUp();
         heldBack.Release(SimTime.MaxValue);
     }
 
@@ -60,13 +84,13 @@ internal sealed class Reconvergence(
     internal bool IsReached(SimTime at, SimTime until)
     {
         bool mayBe = rollback.IsActive && at < rollback.Horizon && at >= rollback.Cursor.Time && until >= rollback.Horizon;
-        if (mayBe && !cut.IsWhole)
+        if (mayBe && !(cut.IsWhole && crossings?.IsWhole != false))
         {
             GiveUp();
             return false;
         }
 
-        return mayBe && cut.HaveReconverged(timelines, at) && (Rules is null || Rules.HaveReconverged());
+        return mayBe && cut.HaveReconverged(timelines, at) && HaveCrossedTheSame(at) && (Rules is null || Rules.HaveReconverged());
     }
 
     /// <summary>
@@ -83,6 +107,7 @@ internal sealed class Reconvergence(
 
         timelines.Openings = null;
         cut.PutBack(timelines, at, bodies);
+        crossings?.PutBack(at);
         for (int n = 0; n < cut.BodyCount; n++)
         {
             broadPhase.List(cut.SlotAt(n), at, next);
@@ -99,9 +124,32 @@ internal sealed class Reconvergence(
 
         while (scheduler.Count > 0 && scheduler.MinKey.Time <= to)
         {
-            predictor.Predict(scheduler.MinSlot); // its next was to be with a path that did not last
+            int slot = scheduler.MinSlot;
+            EventKey stale = scheduler.MinKey;
+            predictor.Predict(slot); // its next was to be with a path that did not last
+            if (scheduler.TryGet(slot, out EventKey found) && found == stale)
+            {
+                throw new InvalidOperationException($"A heal has left out {stale}, which lies before where it ended.");
+            }
         }
 
         heldBack.Release(at);
+    }
+
+    /// <summary>Whether each body that was touched is inside of the same sensors as before, and crossed the same on its segment.</summary>
+    private bool HaveCrossedTheSame(SimTime at)
+    {
+        if (crossings is null || crossings.AreUntouched)
+        {
+            return true;
+        }
+
+        bool areSame = true;
+        for (int n = 0; n < cut.BodyCount && areSame; n++)
+        {
+            areSame = crossings.AreTheSame(cut.SlotAt(n), timelines.Key(timelines.Last(cut.SlotAt(n))), at);
+        }
+
+        return areSame;
     }
 }

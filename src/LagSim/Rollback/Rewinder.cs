@@ -57,6 +57,9 @@ internal class Rewinder : ISegmentOpenedObserver
     /// <summary>Raised once per rollback, when the world is again where it was.</summary>
     internal event Action<HealReport>? Healed;
 
+    /// <summary>The crossings of sensors, which are cut with the paths; null in a scene without.</summary>
+    internal CrossingLog? Crossings { get; set; }
+
     /// <summary>
     /// With so few bodies or less a rollback never rewinds all that it has not touched; an eighth of all for each late event is the limit
     /// with more.
@@ -80,6 +83,10 @@ internal class Rewinder : ISegmentOpenedObserver
         if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not a body that is not known yet
         {
             Touch(slot); // also a body with nothing to cut, because what strikes it now comes after all its segments
+            if (Crossings is CrossingLog crossings)
+            {
+                CutCrossings(crossings, slot, key); // what it crossed later on the segment that ends here
+            }
         }
     }
 
@@ -241,6 +248,11 @@ internal class Rewinder : ISegmentOpenedObserver
                 any = true;
             }
 
+            if (Crossings is CrossingLog crossings)
+            {
+                CutCrossings(crossings, body, from);
+            }
+
             if (any)
             {
                 Redo(body, from);
@@ -257,6 +269,13 @@ internal class Rewinder : ISegmentOpenedObserver
 
     /// <summary>From which key on every body is cut in a full rollback to a key: from that very key, not from its time.</summary>
     private protected virtual EventKey CutsAllFrom(in EventKey key) => key;
+
+    /// <summary>Cuts a body's crossings of sensors from a key on: what it crosses from there on has to be found again.</summary>
+    private protected virtual void CutCrossings(CrossingLog crossings, int slot, in EventKey from)
+    {
+        reconvergence.KeepCrossings(slot, from);
+        crossings.CutFrom(slot, from);
+    }
 
     /// <summary>Has the external events of a body that was cut applied again.</summary>
     private protected virtual void Redo(int slot, in EventKey from) => log.AddDueFrom(slot, from);
@@ -278,6 +297,11 @@ internal class Rewinder : ISegmentOpenedObserver
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
             rollback.SegmentsCut += timelines.CutFrom(slot, bodies.Id(slot), from);
+            if (Crossings is CrossingLog crossings)
+            {
+                CutCrossings(crossings, slot, from);
+            }
+
             log.SetDueFrom(slot, key);
             scheduler.Remove(slot);
         }

@@ -1,6 +1,7 @@
 using System.Diagnostics.CodeAnalysis;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Timelines;
 
 namespace LagSim.Rules;
 
@@ -85,6 +86,12 @@ public abstract class GameRules : SceneRules
     /// <remarks>Must follow from these three alone. It is asked for every impact of the world.</remarks>
     protected internal virtual bool HearsContact(BodyId first, BodyId second, int surface) => false;
 
+    /// <summary>Whether <see cref="OnCrossing"/> is called when a body enters or leaves a sensor; default for none.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="sensor">The index of the sensor in <see cref="Scene.Sensors"/>.</param>
+    /// <remarks>Must follow from these two alone.</remarks>
+    protected internal virtual bool HearsCrossing(BodyId body, int sensor) => false;
+
     /// <summary>The scene begins: all its bodies are there, and nothing has happened yet.</summary>
     protected internal virtual void OnStart(RuleWorld world)
     {
@@ -98,6 +105,11 @@ public abstract class GameRules : SceneRules
 
     /// <summary>An impact that the rules hear; the bodies already move as they do after it.</summary>
     protected internal virtual void OnContact(RuleWorld world, in RuleContact contact)
+    {
+    }
+
+    /// <summary>A body enters or leaves a sensor, as the rules hear it.</summary>
+    protected internal virtual void OnCrossing(RuleWorld world, in Crossing crossing)
     {
     }
 

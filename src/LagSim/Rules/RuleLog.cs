@@ -57,6 +57,14 @@ internal class RuleLog : IRuleTriggers
         }
     }
 
+    void IRuleTriggers.OnCrossing(in Crossing crossing)
+    {
+        if (rules.HearsCrossing(crossing.Body, crossing.Sensor))
+        {
+            Add(crossing.Key, new RuleTrigger(crossing.Entered));
+        }
+    }
+
     void IRuleTriggers.OnOpened(BodyId body, in EventKey key)
     {
         if (HearsBody(body, key))
@@ -67,7 +75,7 @@ internal class RuleLog : IRuleTriggers
 
     void IRuleTriggers.OnCut(BodyId body, in EventKey key)
     {
-        if (key.Kind != EventKind.Impact && !HearsBody(body, key))
+        if (key.Kind is not (EventKind.Impact or EventKind.Crossing) && !HearsBody(body, key))
         {
             return;
         }

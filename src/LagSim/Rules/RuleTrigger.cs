@@ -10,11 +10,16 @@ internal readonly struct RuleTrigger
 
     internal RuleTrigger(GameCommand? command) => Command = command;
 
+    internal RuleTrigger(bool entered) => Entered = entered;
+
     /// <summary>The contact, for an impact.</summary>
     internal ImpactContact Contact { get; }
 
     /// <summary>What a player told.</summary>
     internal GameCommand? Command { get; }
+
+    /// <summary>Whether a body enters a sensor, for a crossing.</summary>
+    internal bool Entered { get; }
 
     /// <summary>The order of triggers of one key: contacts of one impact, by bodies and surface.</summary>
     internal static int Compare(in RuleTrigger a, in RuleTrigger b)
@@ -26,6 +31,6 @@ internal readonly struct RuleTrigger
 
     /// <summary>Whether two triggers of one place in the order say the same, to the bit.</summary>
     internal bool IsSameAs(in RuleTrigger other) =>
-        Contact.Position.Equals(other.Contact.Position) && Contact.ClosingSpeed.Equals(other.Contact.ClosingSpeed)
+        Entered == other.Entered && Contact.Position.Equals(other.Contact.Position) && Contact.ClosingSpeed.Equals(other.Contact.ClosingSpeed)
         && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
 }

@@ -28,8 +28,9 @@ public sealed class Scene
         double smallestRadius,
         PeerSet spawners,
         PeriodicBox box,
-        SceneRules? rules = null,
-        ulong seed = 0)
+        Sensor[] sensors,
+        SceneRules? rules,
+        ulong seed)
     {
         Rules = rules;
         Seed = seed;
@@ -45,6 +46,7 @@ public sealed class Scene
         SmallestRadius = smallestRadius;
         Spawners = spawners;
         Box = box;
+        SensorArray = sensors;
         Hash = ComputeHash();
     }
 
@@ -88,6 +90,9 @@ public sealed class Scene
     /// <summary>The periodic box that everything is in; none by default.</summary>
     public PeriodicBox Box { get; }
 
+    /// <summary>The sensors, in the order in which they were added.</summary>
+    public IReadOnlyList<Sensor> Sensors => SensorArray;
+
     /// <summary>The game's rules; null, the default, for none.</summary>
     public SceneRules? Rules { get; }
 
@@ -110,6 +115,8 @@ public sealed class Scene
     internal SceneBody[] BodyArray { get; }
 
     internal Force[] ForceArray { get; }
+
+    internal Sensor[] SensorArray { get; }
 
     /// <summary>The identity of the body of that name, case-sensitive. Cost: the number of bodies; ask once and keep it.</summary>
     /// <exception cref="ArgumentException">No body of the scene has that name.</exception>
@@ -149,17 +156,34 @@ public sealed class Scene
         throw new ArgumentException($"Scene '{Name}' has no force named '{name}'.", nameof(name));
     }
 
+    /// <summary>The index in <see cref="Sensors"/> of the sensor of that name, case-sensitive.</summary>
+    /// <exception cref="ArgumentException">No sensor of the scene has that name.</exception>
+    /// <exception cref="ArgumentNullException">There is no name.</exception>
+    public int SensorNamed(string name)
+    {
+        ThrowIfNull(name);
+        for (int i = 0; i < SensorArray.Length; i++)
+        {
+            if (string.Equals(SensorArray[i].Name, name, StringComparison.Ordinal))
+            {
+                return i;
+            }
+        }
+
+        throw new ArgumentException($"Scene '{Name}' has no sensor named '{name}'.", nameof(name));
+    }
+
     /// <summary>The same world with its static geometry and forces only.</summary>
     internal Scene WithoutBodies() =>
         new(
             Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, Array.Empty<SceneBody>(), ForceArray,
-            SmallestRadius, Spawners, Box);
+            SmallestRadius, Spawners, Box, Array.Empty<Sensor>(), null, 0);
 
     /// <summary>The same scene with these rules and this seed.</summary>
     internal Scene With(SceneRules? rules, ulong seed) =>
         new(
             Name, Gravity, RestitutionThreshold, ContactTolerance, PlaneArray, SphereArray, BodyArray, ForceArray, SmallestRadius, Spawners,
-            Box, rules, seed);
+            Box, SensorArray, rules, seed);
 
     private static void ThrowIfNull(string name)
     {
@@ -233,6 +257,18 @@ public sealed class Scene
             hash.Add(ContactTolerance);
         }
 
+        if (SensorArray.Length > 0)
+        {
+            hash.Add((ulong)(uint)SensorArray.Length | (1UL << 57));
+        }
+
+        foreach (Sensor sensor in SensorArray)
+        {
+            hash.Add((ulong)sensor.Shape | ((ulong)sensor.Coverage << 8));
+            hash.Add(sensor.Vector);
+            hash.Add(sensor.Measure);
+        }
+
         AddRules(ref hash);
         return hash.Value;
     }
@@ -242,7 +278,7 @@ public sealed class Scene
     {
         if (Rules is not null)
         {
-            hash.Add(1UL << 57);
+            hash.Add(1UL << 55);
             hash.Add(Rules.Name);
             hash.Add((long)Rules.Version);
             hash.Add((long)Rules.WorldBytes);

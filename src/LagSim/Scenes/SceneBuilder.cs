@@ -5,7 +5,7 @@ namespace LagSim.Scenes;
 
 /// <summary>Collects what a <see cref="Scene"/> consists of and checks it on <see cref="Build"/>.</summary>
 /// <remarks>Not thread-safe. Nothing is checked before <see cref="Build"/>, nothing is silently clamped.</remarks>
-public sealed class SceneBuilder
+public sealed partial class SceneBuilder
 {
     /// <summary>Gravity where a scene sets none: 9.81 m/s^2 downwards.</summary>
     public static readonly Vector3D DefaultGravity = new(0, -9.81, 0);
@@ -122,7 +122,7 @@ public sealed class SceneBuilder
             throw new SceneException($"The point of plane '{planeName}' is {point}; every component must be finite.");
         }
 
-        return AddPlane(planeName, normal, Vector3D.Dot(Unit(planeName, normal), point), restitution, friction, filter);
+        return AddPlane(planeName, normal, Vector3D.Dot(Unit("plane", planeName, normal), point), restitution, friction, filter);
     }
 
     /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the
@@ -138,7 +138,7 @@ public sealed class SceneBuilder
     public SceneBuilder AddPlane(
         string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction, CollisionFilter filter = default)
     {
-        planes.Add(new StaticPlane(planeName, Unit(planeName, normal), offset + 0.0, restitution, friction, filter));
+        planes.Add(new StaticPlane(planeName, Unit("plane", planeName, normal), offset + 0.0, restitution, friction, filter));
         return this;
     }
 
@@ -245,6 +245,7 @@ public sealed class SceneBuilder
         });
         double smallest = Smallest();
         CheckBox();
+        CheckSensors();
         ParallelPair.InParts(0, bodyArray.Length, used, (from, to) =>
         {
             for (int i = from; i < to; i++)
@@ -266,7 +267,7 @@ public sealed class SceneBuilder
             CheckNames();
             scene = new Scene(
                 name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest),
-                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box, rules, seed);
+                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box, sensors.ToArray(), rules, seed);
         }
     }
 
@@ -289,15 +290,15 @@ public sealed class SceneBuilder
         return smallestSpawn ?? (smallest == double.MaxValue ? Limits.MaxRadius : smallest);
     }
 
-    /// <summary>The normal at unit length. One that has it, apart from rounding, stays as it is, so that a plane read back has the same
+    /// <summary>The normal at unit length. One that has it, apart from rounding, stays as it is, so that what is read back has the same
     /// bits.</summary>
-    private static Vector3D Unit(string planeName, in Vector3D normal)
+    private static Vector3D Unit(string what, string partName, in Vector3D normal)
     {
         const double rounding = 2e-15;
         double length = normal.Length;
         if (!normal.IsFinite || !(length > 1e-150 && length < 1e150))
         {
-            throw new SceneException($"The normal of plane '{planeName}' is {normal}; its length must be between 1e-150 and 1e150.");
+            throw new SceneException($"The normal of {what} '{partName}' is {normal}; its length must be between 1e-150 and 1e150.");
         }
 
         bool isUnit = Math.Abs(normal.LengthSquared - 1) <= rounding;
@@ -397,6 +398,11 @@ public sealed class SceneBuilder
         foreach (SceneBody body in bodies)
         {
             names.Add(body.Name);
+        }
+
+        foreach (Sensor sensor in sensors)
+        {
+            names.Add(sensor.Name);
         }
 
         names.Sort(StringComparer.Ordinal);

@@ -37,6 +37,8 @@ public readonly struct BodySnapshot
     /// <param name="stillSince">See <see cref="StillSince"/>.</param>
     /// <param name="contacts">See <see cref="Contacts"/>.</param>
     /// <param name="filter">See <see cref="Filter"/>; by default that of the spec.</param>
+    /// <param name="inside">See <see cref="Inside"/>.</param>
+    /// <param name="crossings">See <see cref="Crossings"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -59,7 +61,9 @@ public readonly struct BodySnapshot
         SimTime centre = default,
         SimTime stillSince = default,
         ReadOnlySpan<PersistentContact> contacts = default,
-        CollisionFilter? filter = null)
+        CollisionFilter? filter = null,
+        ReadOnlySpan<int> inside = default,
+        ReadOnlySpan<Crossing> crossings = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -80,10 +84,12 @@ public readonly struct BodySnapshot
         StillSince = stillSince;
         ContactArray = contacts.ToArray();
         Filter = filter ?? spec.Filter;
+        InsideArray = inside.ToArray();
+        CrossingArray = crossings.ToArray();
     }
 
     internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
-        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter)
+        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter, int[] inside, Crossing[] crossings)
     {
         Id = id;
         Spec = spec;
@@ -96,6 +102,8 @@ public readonly struct BodySnapshot
         StillSince = stillSince;
         ContactArray = contacts;
         Filter = filter;
+        InsideArray = inside;
+        CrossingArray = crossings;
     }
 
     /// <summary>The identity of the body.</summary>
@@ -143,6 +151,16 @@ public readonly struct BodySnapshot
     public CollisionFilter Filter { get; }
 
     internal PersistentContact[] ContactArray { get; }
+
+    /// <summary>The sensors that it is inside of, by ascending index in the scene.</summary>
+    public ReadOnlySpan<int> Inside => InsideArray;
+
+    /// <summary>The sensors that it has crossed since its path was opened, in canonical order.</summary>
+    public ReadOnlySpan<Crossing> Crossings => CrossingArray;
+
+    internal int[] InsideArray { get; }
+
+    internal Crossing[] CrossingArray { get; }
 
     /// <summary>For an integrated step or a held path, the coefficient of t^3, in m/s^3; zero for any other.</summary>
     public Vector3D Cubic => Dense.Cubic;

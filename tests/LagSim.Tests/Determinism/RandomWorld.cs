@@ -23,12 +23,14 @@ internal sealed class RandomWorld
     private readonly double[] masses;
     private readonly bool forced;
     private readonly int firstPeer; // with rules peer 0 is theirs
+    private readonly int? sensorSeed;
 
     /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control, friction and spin.</summary>
-    internal RandomWorld(int seed, bool hands = false, bool forced = false, bool filters = false, bool rules = false)
+    internal RandomWorld(int seed, bool hands = false, bool forced = false, bool filters = false, bool sensors = false, bool rules = false)
     {
         this.forced = forced;
         firstPeer = rules ? 1 : 0;
+        sensorSeed = sensors ? seed + 2_000_000 : null;
         random = new Random(seed);
         masses = seed % 4 == 3 ? ExtremeMasses : Masses;
         Scene = DrawScene();
@@ -223,7 +225,31 @@ internal sealed class RandomWorld
                 .AddBody("right", DrawSpec(0), V(1.5, 6, 3), V(-2, 0, 0));
         }
 
+        if (sensorSeed is int drawn)
+        {
+            DrawSensors(builder, new Random(drawn));
+        }
+
         return builder.Build();
+    }
+
+    /// <summary>Regions where the bodies are: some of them with their boundary where bodies start, bounce or rest.</summary>
+    private static void DrawSensors(SceneBuilder builder, Random from)
+    {
+        int count = from.Next(1, 9);
+        for (int i = 0; i < count; i++)
+        {
+            SensorCoverage coverage = (SensorCoverage)from.Next(3);
+            if (from.Next(2) == 0)
+            {
+                Vector3D normal = from.Next(4) switch { 0 => Vector3D.Up, 1 => V(1), 2 => V(-1, 1), _ => V(from.NextDouble() - 0.5, from.NextDouble(), from.NextDouble() - 0.5) };
+                builder.AddSensorPlane($"behind {i}", normal, from.Next(3) == 0 ? 0.25 * from.Next(0, 12) : from.NextDouble() * 4, coverage);
+            }
+            else
+            {
+                builder.AddSensorSphere($"in {i}", V(from.Next(-4, 5) * 0.5, from.Next(0, 9) * 0.5, from.Next(3) * 0.125), from.Next(1, 8) * 0.25, coverage);
+            }
+        }
     }
 
     private BodySpec DrawSpec(int integrated)
@@ -256,7 +282,7 @@ internal sealed class RandomWorld
         // Times: a few round ones, and those at which something happens anyway, with the ticks next to them.
         Simulation quiet = Run(Scene, End);
         SimTime[] busy = Bodies(quiet).SelectMany(body => quiet.Timeline(body)).Select(entry => entry.Key.Time)
-            .Where(time => time > At(0) && time < At(End)).Distinct().OrderBy(_ => random.Next()).Take(3).ToArray();
+            .Concat(quiet.Crossings(At(0), At(End)).Select(crossing => crossing.Time)).Where(time => time > At(0) && time < At(End)).Distinct().OrderBy(_ => random.Next()).Take(3).ToArray();
         List<SimTime> times = [At(0), At(0.25), At(0.5), At(0.5), .. busy, .. busy];
         times.AddRange(busy.Select(time => time + SimDuration.OneTick));
         times.AddRange(busy.Select(time => time - SimDuration.OneTick));

@@ -36,6 +36,9 @@ internal sealed class FaultyEngineParts : EngineParts
     /// <summary>Cuts timelines at their time instead of at their key, in a full rollback.</summary>
     internal bool CutsByTime { get; init; }
 
+    /// <summary>Searches for the next crossing of a sensor from the opening of the segment on, not from the last crossing.</summary>
+    internal bool SearchesFromOpening { get; init; }
+
     /// <summary>Does not foretell how much room timelines will need.</summary>
     internal bool GrowsByLittle { get; init; }
 
@@ -78,6 +81,11 @@ internal sealed class FaultyEngineParts : EngineParts
             new FaultySegmentLookup(timelines, rollback, this, isForPending: true), this);
 
     internal override CutPaths CutPaths() => new FaultyCutPaths(this);
+
+    internal override CutCrossings CutCrossings(CrossingLog log) => new FaultyCutCrossings(log, this);
+
+    internal override CrossingPredictor CrossingPredictor(Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, CrossingLog log) =>
+        SearchesFromOpening ? new OpeningSearch(scene, start, bodies, timelines, log) : base.CrossingPredictor(scene, start, bodies, timelines, log);
 
     internal override Rewinder Rewinder(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,

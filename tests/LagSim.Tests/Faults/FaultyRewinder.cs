@@ -50,4 +50,12 @@ internal sealed class FaultyRewinder(
             base.Redo(slot, from);
         }
     }
+
+    private protected override void CutCrossings(CrossingLog crossings, int slot, in EventKey from)
+    {
+        if (!faults.Has(HealingFault.LeavesCrossings))
+        {
+            base.CutCrossings(crossings, slot, from);
+        }
+    }
 }

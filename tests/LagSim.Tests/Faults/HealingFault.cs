@@ -64,4 +64,10 @@ internal enum HealingFault
 
     /// <summary>A heal ends where the bodies are on their old segments again, whatever they collide with there.</summary>
     IgnoresFilters = 16384,
+
+    /// <summary>Crossings of sensors are not cut with the paths on which they were found.</summary>
+    LeavesCrossings = 32768,
+
+    /// <summary>Where paths have reconverged, the crossings that were cut are not put back with them.</summary>
+    PutsNoCrossingsBack = 65536,
 }

@@ -1,6 +1,7 @@
 using System.Linq;
 using LagSim.Rules;
 using LagSim.Tests.Determinism;
+using LagSim.Tests.Faults;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -21,21 +22,21 @@ public sealed class RuleInvariantTests
     [Fact]
     public void RulesOfRandomWorlds_FullRollback_SameAsOnTime() => Compare((world, seed) => world.Shuffled(seed, mode: HealingMode.FullRollback));
 
-    [Fact]
-    public void RulesOfRandomWorlds_ManyLateEvents_SomeCallsStandWithoutBeingMadeAgain()
+    [Theory]
+    [InlineData(RuleFault.StopsTooEarly)]
+    [InlineData(RuleFault.LeavesActs)]
+    [InlineData(RuleFault.ForgetsReads)]
+    [InlineData(RuleFault.IgnoresState)]
+    internal void RulesOfRandomWorlds_AFault_IsSeen(RuleFault fault)
     {
-        long kept = 0;
-        long made = 0;
-        for (int seed = 1; seed <= 30; seed++)
+        int seen = 0;
+        for (int seed = 1; seed <= Seeds && seen == 0; seed++)
         {
-            RandomWorld world = new(seed, rules: true);
-            long healed = world.Shuffled(seed).Engine.Caller!.Made;
-            long full = world.Shuffled(seed, mode: HealingMode.FullRollback).Engine.Caller!.Made;
-            kept += full - healed;
-            made += healed; System.Console.WriteLine($"{seed} {healed} {full}");
+            RandomWorld world = new(seed, sensors: seed % 2 == 0, rules: true);
+            seen += IsSeen(world, seed, fault) ? 1 : 0;
         }
 
-        Assert.True(kept > made, $"{made} calls were made, {kept} fewer than by full rollbacks.");
+        Assert.True(seen > 0, $"{fault} changed nothing in {Seeds} worlds.");
     }
 
     [Fact]
@@ -43,7 +44,7 @@ public sealed class RuleInvariantTests
     {
         for (int seed = 1; seed <= 30; seed++)
         {
-            RandomWorld world = new(seed, rules: true);
+            RandomWorld world = new(seed, filters: seed % 4 == 1, sensors: seed % 2 == 0, rules: true);
             Simulation expected = world.OnTime();
             SimTime middle = SimTime.FromSeconds(RandomWorld.End / 2);
             WorldSnapshot snapshot = expected.Snapshot(middle);
@@ -58,12 +59,26 @@ public sealed class RuleInvariantTests
         }
     }
 
+    private static bool IsSeen(RandomWorld world, int seed, RuleFault fault)
+    {
+        try
+        {
+            Simulation actual = world.Shuffled(seed, parts: new FaultyRules(fault));
+            Simulation expected = world.OnTime();
+            return (RuleComparison.FirstDifference(expected.Engine, actual.Engine) ?? RandomWorld.Difference(expected, actual)) is not null;
+        }
+        catch (SimulationException)
+        {
+            return true;
+        }
+    }
+
     private static void Compare(System.Func<RandomWorld, int, Simulation> shuffled)
     {
         long calls = 0;
         for (int seed = 1; seed <= Seeds; seed++)
         {
-            RandomWorld world = new(seed, hands: seed % 3 == 0, forced: seed % 5 == 0, rules: true);
+            RandomWorld world = new(seed, hands: seed % 3 == 0, forced: seed % 5 == 0, filters: seed % 4 == 1, sensors: seed % 2 == 0, rules: true);
             Simulation expected = world.OnTime();
             Simulation actual = shuffled(world, seed);
             string? difference = RuleComparison.FirstDifference(expected.Engine, actual.Engine) ?? RandomWorld.Difference(expected, actual);

@@ -3,6 +3,7 @@ using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Harness.Verification.Check;
 
@@ -69,6 +70,20 @@ internal sealed class DrawnRules : GameRules
         if (world.Random(acts) == 0)
         {
             Act(world, world.Random(2) == 0 ? contact.First : contact.Second);
+        }
+    }
+
+    /// <inheritdoc/>
+    protected internal override bool HearsCrossing(BodyId body, int sensor) => Mix(body.Packed, (ulong)sensor) % (ulong)contacts == 0;
+
+    /// <inheritdoc/>
+    protected internal override void OnCrossing(RuleWorld world, in Crossing crossing)
+    {
+        Note(world, ((ulong)(uint)crossing.Sensor << 1) | (crossing.Entered ? 1UL : 0));
+        Note(world, (ulong)world.Elapsed.Ticks);
+        if (world.Random(acts) == 0)
+        {
+            Act(world, crossing.Body);
         }
     }
 
