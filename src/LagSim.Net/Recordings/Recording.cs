@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -96,24 +97,28 @@ public sealed class Recording
     /// <summary>Reads a recording to its end or to its first damage. No content of a file makes it throw.</summary>
     /// <param name="stream">A readable stream, read from its current position to its end. It stays open.</param>
     /// <param name="known">The accelerations available to the scene; null for none.</param>
+    /// <param name="rules">The rules available to the scene; null for none.</param>
     /// <remarks>
     /// Memory: a few times the bytes that are there, whatever they announce. For the cost of the scene see <see cref="Wire.SceneFormat"/>.
     /// </remarks>
     /// <exception cref="ArgumentNullException">The stream is null.</exception>
     /// <exception cref="IOException">The stream itself cannot be read.</exception>
-    public static Recording Read(Stream stream, IReadOnlyList<IAcceleration>? known = null) =>
-        new RecordingReader(stream ?? throw new ArgumentNullException(nameof(stream)), known).Read();
+    public static Recording Read(
+        Stream stream, IReadOnlyList<IAcceleration>? known = null, IReadOnlyList<SceneRules>? rules = null) =>
+        new RecordingReader(stream ?? throw new ArgumentNullException(nameof(stream)), new SceneCode(known, rules)).Read();
 
     /// <summary>
-    /// Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration})"/> does; also one that is still being written.
+    /// Reads a file, as <see cref="Read(Stream, IReadOnlyList{IAcceleration}, IReadOnlyList{SceneRules})"/> does; also one that is still being written.
     /// </summary>
     /// <param name="path">The file.</param>
     /// <param name="known">The accelerations available to the scene; null for none.</param>
+    /// <param name="rules">The rules available to the scene; null for none.</param>
     /// <exception cref="IOException">The file cannot be opened or read.</exception>
     /// <exception cref="UnauthorizedAccessException">The file may not be read.</exception>
-    public static Recording Read(string path, IReadOnlyList<IAcceleration>? known = null)
+    public static Recording Read(
+        string path, IReadOnlyList<IAcceleration>? known = null, IReadOnlyList<SceneRules>? rules = null)
     {
         using FileStream file = new(path, FileMode.Open, FileAccess.Read, FileShare.ReadWrite);
-        return Read(file, known);
+        return Read(file, known, rules);
     }
 }

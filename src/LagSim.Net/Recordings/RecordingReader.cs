@@ -18,7 +18,7 @@ internal sealed class RecordingReader
     private const int FirstBufferBytes = 256;
 
     private readonly Stream stream;
-    private readonly IReadOnlyList<IAcceleration>? known;
+    private readonly SceneCode known;
     private readonly List<LogEntry> entries = new();
     private readonly List<CommittedState> committed = new();
     private byte[] buffer = new byte[FirstBufferBytes];
@@ -33,7 +33,7 @@ internal sealed class RecordingReader
     private string? endReason;
     private RecordingDamage? damage;
 
-    internal RecordingReader(Stream stream, IReadOnlyList<IAcceleration>? known)
+    internal RecordingReader(Stream stream, SceneCode known)
     {
         this.stream = new BufferedStream(stream, 1 << 16); // not disposed: the caller's stream stays open
         this.known = known;

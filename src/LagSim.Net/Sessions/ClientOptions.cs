@@ -22,6 +22,7 @@ namespace LagSim.Net.Sessions;
 public sealed record ClientOptions : SessionOptions
 {
     private readonly IReadOnlyList<IAcceleration>? accelerations;
+    private readonly IReadOnlyList<SceneRules>? rules;
 
     /// <summary>Creates the defaults: a new player that takes the host's scene.</summary>
     public ClientOptions()
@@ -70,6 +71,14 @@ public sealed record ClientOptions : SessionOptions
         init => accelerations = value is null ? null : new List<IAcceleration>(value).AsReadOnly();
     }
 
+    /// <summary>The rules that this program can supply to the host's scene; default none. A scene with others is refused.</summary>
+    /// <remarks>None may be null. The list is copied: later changes to it have no effect.</remarks>
+    public IReadOnlyList<SceneRules>? Rules
+    {
+        get => rules;
+        init => rules = value is null ? null : new List<SceneRules>(value).AsReadOnly();
+    }
+
     /// <summary>
     /// Returns <paramref name="options"/> if they are a client's, otherwise client options with the same shared settings and defaults for
     /// the rest.
@@ -92,6 +101,14 @@ public sealed record ClientOptions : SessionOptions
             throw new ArgumentException(
                 "A connect token is only for a client whose protection knows which host it wants; whoever answers first could take it.",
                 nameof(Token));
+        }
+
+        for (int n = 0; n < rules?.Count; n++)
+        {
+            if (rules[n] is null)
+            {
+                throw new ArgumentException($"Of {rules.Count} rules number {n} is null; each must be some.", nameof(Rules));
+            }
         }
 
         for (int n = 0; n < accelerations?.Count; n++)

@@ -12,8 +12,8 @@ internal static class EventFormat
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
     public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes);
 
-    /// <summary>The length of the shortest event, a removal, in bytes.</summary>
-    public const int MinBytes = HeadBytes + BodyBytes;
+    /// <summary>The length of the shortest event, a command without bytes.</summary>
+    public const int MinBytes = HeadBytes + CommandHeadBytes;
 
     /// <summary>The shortest step of an integrating law that can be encoded: 1 microsecond, to the nearest tick.</summary>
     public static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
@@ -23,27 +23,22 @@ internal static class EventFormat
 
     private const int HeadBytes = 14; // kind, peer, sequence, time
     private const int BodyBytes = 8;
+    private const int CommandHeadBytes = 3; // number, length
+    private const int BodyEventBytes = HeadBytes + BodyBytes;
     internal const int VectorBytes = 24;
     internal const int FilterBytes = 8;
     internal const int SpecBytes = 61 + FilterBytes + sizeof(ulong);
 
     /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
-    public static int EncodedLength(EventKind kind) => kind switch
-    {
-        EventKind.Spawn => MaxBytes,
-        EventKind.Remove => MinBytes,
-        EventKind.SetFilter => MinBytes + FilterBytes,
-        EventKind.Teleport or EventKind.HoldKeyframe => MinBytes + (2 * VectorBytes),
-        EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => MinBytes + VectorBytes,
-        _ => 0,
-    };
+    public static int EncodedLength(in ExternalEvent what) =>
+        what.Kind == EventKind.Command ? MinBytes + (what.Command?.Length ?? 0) : LengthOf(what.Kind);
 
     /// <summary>
     /// Whether an event can be encoded: a kind that can, a sequence of at least 1, a time within <see cref="WireFormat.MaxTimeTicks"/>,
     /// finite numbers, and for a spawn a <see cref="BodySpec"/> within its documented ranges. Every decoded event is well formed.
     /// </summary>
     public static bool IsWellFormed(in ExternalEvent what) =>
-        EncodedLength(what.Kind) > 0
+        (LengthOf(what.Kind) > 0 || what.Command is not null)
         && what.Sequence >= 1
         && WireFormat.IsInRange(what.Time)
         && what.Position.IsFinite
@@ -64,6 +59,12 @@ internal static class EventFormat
         writer.WriteByte(what.Peer);
         writer.WriteUInt32(what.Sequence);
         writer.WriteTime(what.Time);
+        if (what.Command is GameCommand command)
+        {
+            Write(ref writer, command);
+            return;
+        }
+
         if (what.Kind == EventKind.Spawn)
         {
             WriteSpec(ref writer, what.Spec);
@@ -99,10 +100,15 @@ internal static class EventFormat
     public static ExternalEvent Read(ref WireReader reader)
     {
         EventKind kind = (EventKind)reader.ReadByte();
-        reader.Require(EncodedLength(kind) > 0);
+        reader.Require(LengthOf(kind) > 0 || kind == EventKind.Command);
         byte peer = reader.ReadByte();
         uint sequence = reader.ReadUInt32();
         SimTime time = reader.ReadTime();
+        if (kind == EventKind.Command)
+        {
+            return ReadCommand(ref reader, time, peer, sequence);
+        }
+
         BodySpec spec = kind == EventKind.Spawn ? ReadSpec(ref reader) : default;
         BodyId body = kind == EventKind.Spawn ? default : BodyId.FromPacked(reader.ReadUInt64());
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
@@ -114,6 +120,32 @@ internal static class EventFormat
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
     }
+
+    private static void Write(ref WireWriter writer, GameCommand command)
+    {
+        writer.WriteUInt16((ushort)command.Number);
+        writer.WriteByte((byte)command.Length);
+        writer.WriteBytes(command.Data);
+    }
+
+    private static ExternalEvent ReadCommand(ref WireReader reader, SimTime time, byte peer, uint sequence)
+    {
+        int number = reader.ReadUInt16();
+        int length = reader.ReadByte();
+        reader.Require(length <= GameCommand.MaxBytes && sequence >= 1 && WireFormat.IsInRange(time));
+        ReadOnlySpan<byte> data = reader.ReadBytes(Math.Min(length, GameCommand.MaxBytes));
+        return reader.Refusal == WireRefusal.None ? PlayerAction.Command(new GameCommand(number, data)).Stamp(time, peer, sequence) : default;
+    }
+
+    private static int LengthOf(EventKind kind) => kind switch
+    {
+        EventKind.Spawn => MaxBytes,
+        EventKind.Remove => BodyEventBytes,
+        EventKind.SetFilter => BodyEventBytes + FilterBytes,
+        EventKind.Teleport or EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
+        EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => BodyEventBytes + VectorBytes,
+        _ => 0,
+    };
 
     private static PlayerAction Action(
         EventKind kind, in BodySpec spec, BodyId body, in Vector3D position, in Vector3D velocity, in Vector3D spin, CollisionFilter filter) => kind switch

@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 /// </remarks>
 internal ref struct SceneDecoder
 {
-    private readonly IReadOnlyList<IAcceleration>? known;
+    private readonly SceneCode known;
     private readonly int length;
     private readonly List<Vector3D> normals;
     private readonly List<Vector3D> sensorVectors;
@@ -21,7 +21,7 @@ internal ref struct SceneDecoder
     private string part;
     private int number;
 
-    internal SceneDecoder(ReadOnlySpan<byte> bytes, IReadOnlyList<IAcceleration>? known)
+    internal SceneDecoder(ReadOnlySpan<byte> bytes, SceneCode known)
     {
         this.known = known;
         length = bytes.Length;
@@ -70,6 +70,7 @@ internal ref struct SceneDecoder
         ReadSpheres(builder);
         ReadBodies(builder);
         ReadSensors(builder);
+        ReadRules(builder);
         ReadBox(builder);
         if (!reader.Finish(out _))
         {
@@ -223,6 +224,43 @@ internal ref struct SceneDecoder
         }
     }
 
+    private void ReadRules(SceneBuilder builder)
+    {
+        if (!IsSound)
+        {
+            return;
+        }
+
+        part = "rules";
+        number = 0;
+        builder.WithSeed(reader.ReadUInt64());
+        byte count = reader.ReadByte();
+        if (count > 1)
+        {
+            Refuse($"The scene announces {count} rules; it has one object of them, or none.");
+        }
+
+        if (!IsSound || count == 0)
+        {
+            return;
+        }
+
+        string name = WireText.Read(ref reader);
+        int version = unchecked((int)reader.ReadUInt32());
+        uint worldBytes = reader.ReadUInt32();
+        uint bodyBytes = reader.ReadUInt32();
+        if (IsSound && KnownRules(name, version) is SceneRules rules)
+        {
+            if (rules.WorldBytes != worldBytes || rules.BodyBytes != bodyBytes)
+            {
+                Refuse($"The scene's rules '{name}' have states of {worldBytes} bytes and {bodyBytes} for a body; here they have {rules.WorldBytes} and"
+                    + $" {rules.BodyBytes}.");
+            }
+
+            builder.WithRules(rules);
+        }
+    }
+
     private void ReadBox(SceneBuilder builder)
     {
         if (!IsSound || reader.Remaining == 0)
@@ -235,7 +273,7 @@ internal ref struct SceneDecoder
         Vector3D size = reader.ReadVector();
         if (IsSound && size == Vector3D.Zero)
         {
-            Refuse("The scene's periodic box has no size; a scene without one ends with its sensors.");
+            Refuse("The scene's periodic box has no size; a scene without one ends before it.");
         }
 
         builder.WithPeriodicBox(size);
@@ -265,12 +303,35 @@ internal ref struct SceneDecoder
         return count;
     }
 
+    private SceneRules? KnownRules(string name, int version)
+    {
+        SceneRules? namesake = null;
+        for (int i = 0; i < known.Rules?.Count; i++)
+        {
+            if (known.Rules[i] is SceneRules candidate && string.Equals(candidate.Name, name, StringComparison.Ordinal))
+            {
+                if (candidate.Version == version)
+                {
+                    return candidate;
+                }
+
+                namesake ??= candidate;
+            }
+        }
+
+        string needed = FormattableString.Invariant($"The scene needs the rules '{name}' of version {version}");
+        Refuse(namesake is null
+            ? $"{needed}, which are not here."
+            : FormattableString.Invariant($"{needed}; here they are of version {namesake.Version}."));
+        return null;
+    }
+
     private IAcceleration? Known(string name, int version)
     {
         IAcceleration? namesake = null;
-        for (int i = 0; known is not null && i < known.Count; i++)
+        for (int i = 0; i < known.Accelerations?.Count; i++)
         {
-            if (known[i] is IAcceleration candidate && string.Equals(candidate.Name, name, StringComparison.Ordinal))
+            if (known.Accelerations[i] is IAcceleration candidate && string.Equals(candidate.Name, name, StringComparison.Ordinal))
             {
                 if (candidate.Version == version)
                 {
@@ -319,7 +380,7 @@ internal ref struct SceneDecoder
     private readonly string Sentence()
     {
         string what = number == 0
-            ? $"the scene's {part}{(part is "head" or "periodic box" ? "" : " count")}"
+            ? $"the scene's {part}{(part is "head" or "periodic box" or "rules" ? "" : " count")}"
             : FormattableString.Invariant($"{part} {number} of the scene");
         return reader.Refusal switch
         {

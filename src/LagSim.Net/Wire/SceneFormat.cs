@@ -6,7 +6,7 @@ using LagSim.Scenes;
 namespace LagSim.Net.Wire;
 
 /// <summary>
-/// How a whole scene is encoded: everything except the code of custom accelerations, which go by name and author's version.
+/// How a whole scene is encoded: everything except the code of custom accelerations and of rules, which go by name and author's version.
 /// </summary>
 /// <remarks>
 /// <para>The layout is in <c>docs/RECORDINGS.md</c>. A scene has one encoding: encoding again what was decoded gives the same bytes, except
@@ -28,12 +28,13 @@ internal static class SceneFormat
     public const int MaxBytes = 1 + MaxTextBytes + HeadBytes
         + (ForceSet.MaxForces * (MaxTextBytes + ForceBytes))
         + (2 * MaxStaticParts * (MaxTextBytes + StaticPartBytes))
-        + (MaxBodies * (MaxTextBytes + BodyBytes)) + (SceneBuilder.MaxSensors * (MaxTextBytes + SensorBytes)) + EventFormat.VectorBytes;
+        + (MaxBodies * (MaxTextBytes + BodyBytes)) + (SceneBuilder.MaxSensors * (MaxTextBytes + SensorBytes)) + RulesBytes + EventFormat.VectorBytes;
 
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
     internal const int SensorBytes = EventFormat.VectorBytes + 10; // shape, coverage, a vector and a number
+    private const int RulesBytes = 9 + MaxTextBytes + 12; // seed, whether there are any; name, author's version, two sizes
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, five counts.
     private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (4 * 2);
@@ -103,6 +104,16 @@ internal static class SceneFormat
             writer.WriteDouble(sensor.Shape == SensorShape.Plane ? sensor.Offset : sensor.Radius);
         }
 
+        writer.WriteUInt64(scene.Seed);
+        writer.WriteByte(scene.Rules is null ? (byte)0 : (byte)1);
+        if (scene.Rules is SceneRules rules)
+        {
+            WireText.Write(ref writer, rules.Name);
+            writer.WriteUInt32(unchecked((uint)rules.Version));
+            writer.WriteUInt32((uint)rules.WorldBytes);
+            writer.WriteUInt32((uint)rules.BodyBytes);
+        }
+
         if (scene.Box.Exists)
         {
             writer.WriteVector(scene.Box.Size);
@@ -113,13 +124,13 @@ internal static class SceneFormat
 
     /// <summary>Reads a scene; never throws, whatever the bytes are, and allocates no more than a few times their number.</summary>
     /// <param name="bytes">The whole scene and nothing else.</param>
-    /// <param name="known">The accelerations available to the scene; null for none. A scene that needs another is refused.</param>
+    /// <param name="known">The accelerations and rules available to the scene. A scene that needs others is refused.</param>
     /// <param name="scene">The scene, of the same <see cref="Scene.Hash"/> as the one that was encoded; null when refused.</param>
     /// <param name="error">When refused, a sentence that says why, the builder's own if the builder refuses; otherwise null.</param>
     /// <remarks>Cost: that of <see cref="SceneBuilder.Build"/>, see <see cref="MaxBodies"/>.</remarks>
     public static bool TryDecode(
         ReadOnlySpan<byte> bytes,
-        IReadOnlyList<IAcceleration>? known,
+        SceneCode known,
         [NotNullWhen(true)] out Scene? scene,
         [NotNullWhen(false)] out string? error)
     {
@@ -170,6 +181,7 @@ internal static class SceneFormat
             length += WireText.EncodedLength(sensor.Name, "A sensor's name") + SensorBytes;
         }
 
+        length += 9 + (scene.Rules is SceneRules rules ? WireText.EncodedLength(rules.Name, "The name of rules") + 12 : 0);
         return length + (scene.Box.Exists ? EventFormat.VectorBytes : 0);
     }
 

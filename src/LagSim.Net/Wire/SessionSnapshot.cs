@@ -64,13 +64,13 @@ internal sealed class SessionSnapshot
 
     /// <summary>Reads a copy; never throws.</summary>
     /// <param name="bytes">The whole encoding.</param>
-    /// <param name="known">The accelerations that this peer can supply, for a scene that names some.</param>
+    /// <param name="known">The accelerations and rules that this peer can supply, for a scene that names some.</param>
     /// <param name="own">A scene this peer has; used instead of a new one if the copy is of the same.</param>
     /// <param name="copy">The copy, if the bytes are one.</param>
     /// <param name="error">Otherwise a sentence that says why not.</param>
     public static bool TryDecode(
         ReadOnlySpan<byte> bytes,
-        IReadOnlyList<IAcceleration>? known,
+        SceneCode known,
         Scene? own,
         [NotNullWhen(true)] out SessionSnapshot? copy,
         [NotNullWhen(false)] out string? error)
@@ -85,7 +85,7 @@ internal sealed class SessionSnapshot
             return false;
         }
 
-        if (!SceneFormat.TryDecode(reader.ReadBytes((int)length), known ?? own?.Accelerations, out Scene? scene, out error))
+        if (!SceneFormat.TryDecode(reader.ReadBytes((int)length), known.Or(own), out Scene? scene, out error))
         {
             return false;
         }

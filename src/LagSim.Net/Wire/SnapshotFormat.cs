@@ -14,7 +14,7 @@ namespace LagSim.Net.Wire;
 /// </remarks>
 internal static class SnapshotFormat
 {
-    private const int HeadBytes = 28; // start, time, event hash, count
+    private const int HeadBytes = 32; // start, time, event hash, length of the rules' state, count
     private const int MinBodyBytes = 133 + EventFormat.SpecBytes; // without supports, dense output, contacts and hold
     private const int DenseBytes = 72;
     private const int SpinBytes = 48; // spin and its rate
@@ -46,6 +46,8 @@ internal static class SnapshotFormat
         writer.WriteInt64(snapshot.Start.Ticks);
         writer.WriteInt64(snapshot.Time.Ticks);
         writer.WriteUInt64(snapshot.EventHash);
+        writer.WriteUInt32((uint)snapshot.RuleState.Length);
+        writer.WriteBytes(snapshot.RuleState);
         writer.WriteUInt32((uint)snapshot.Bodies.Count);
         foreach (BodySnapshot body in snapshot.Bodies)
         {
@@ -65,6 +67,9 @@ internal static class SnapshotFormat
         SimTime start = SimTime.FromTicks(reader.ReadInt64());
         SimTime time = SimTime.FromTicks(reader.ReadInt64());
         ulong hash = reader.ReadUInt64();
+        uint length = reader.ReadUInt32();
+        reader.Require(length <= reader.Remaining, WireRefusal.TooShort);
+        byte[] ruleState = reader.Refusal == WireRefusal.None ? reader.ReadBytes((int)length).ToArray() : Array.Empty<byte>();
         uint count = reader.ReadUInt32();
         reader.Require(count <= bytes.Length / MinBodyBytes, WireRefusal.TooShort);
         BodySnapshot[] bodies = reader.Refusal == WireRefusal.None ? new BodySnapshot[count] : Array.Empty<BodySnapshot>();
@@ -74,7 +79,7 @@ internal static class SnapshotFormat
         }
 
         bool accepted = reader.Finish(out refusal);
-        snapshot = accepted ? new WorldSnapshot(start, time, hash, bodies) : null;
+        snapshot = accepted ? new WorldSnapshot(start, time, hash, bodies, ruleState) : null;
         return accepted;
     }
 
@@ -85,7 +90,7 @@ internal static class SnapshotFormat
     /// <summary>The encoded length of a snapshot, in bytes.</summary>
     internal static long EncodedLength(WorldSnapshot snapshot)
     {
-        long length = HeadBytes;
+        long length = HeadBytes + snapshot.RuleState.Length;
         foreach (BodySnapshot body in snapshot.Bodies)
         {
             int more = body.Law switch

@@ -167,7 +167,7 @@ public sealed class PeriodicBoxTests
     public void Scene_WithABox_TravelsAndIsWrittenAndReadBack()
     {
         Scene scene = BuiltInScenes.Gas(100);
-        Assert.True(SceneFormat.TryDecode(SceneFormat.Encode(scene), null, out Scene? travelled, out string? error), error);
+        Assert.True(SceneFormat.TryDecode(SceneFormat.Encode(scene), default, out Scene? travelled, out string? error), error);
         Assert.Equal((scene.Hash, scene.Box), (travelled.Hash, travelled.Box));
         Assert.NotEqual(scene.Hash, Open().Build().Hash);
         Scene read = SceneFile.Parse(System.Text.Encoding.UTF8.GetBytes(SceneFile.ToJson(scene)), "gas");

@@ -240,7 +240,7 @@ public sealed class GettingInTests
         {
             byte[] state = SnapshotFormat.Encode(new WorldSnapshot(SimTime.FromTicks(start), SimTime.FromTicks(time), 0, []));
             byte[] copy = [.. BitConverter.GetBytes((uint)scene.Length), .. scene, .. state];
-            Assert.Equal(isGood, SessionSnapshot.TryDecode(copy, null, null, out _, out string? error));
+            Assert.Equal(isGood, SessionSnapshot.TryDecode(copy, default, null, out _, out string? error));
             Assert.Equal(!isGood, error?.Contains("within 48 days of the origin", StringComparison.Ordinal) ?? false);
         }
     }

@@ -303,14 +303,14 @@ public sealed class SceneFormatTests
 
     private static Scene Decoded(ReadOnlySpan<byte> bytes, IReadOnlyList<IAcceleration>? known = null)
     {
-        Assert.True(SceneFormat.TryDecode(bytes, known, out Scene? scene, out string? error), error);
+        Assert.True(SceneFormat.TryDecode(bytes, new SceneCode(known, null), out Scene? scene, out string? error), error);
         Assert.Null(error);
         return scene;
     }
 
     private static void Refused(ReadOnlySpan<byte> bytes, string sentence, IReadOnlyList<IAcceleration>? known = null)
     {
-        Assert.False(SceneFormat.TryDecode(bytes, known, out Scene? scene, out string? error));
+        Assert.False(SceneFormat.TryDecode(bytes, new SceneCode(known, null), out Scene? scene, out string? error));
         Assert.Null(scene);
         Assert.Contains(sentence, error, StringComparison.Ordinal);
         Assert.EndsWith(".", error, StringComparison.Ordinal);
@@ -328,7 +328,7 @@ public sealed class SceneFormatTests
     private static bool Canonical(ReadOnlySpan<byte> bytes)
     {
         IReadOnlyList<IAcceleration> known = [new FunctionForce((_, x, _) => -x)];
-        bool isAccepted = SceneFormat.TryDecode(bytes, known, out Scene? scene, out string? error);
+        bool isAccepted = SceneFormat.TryDecode(bytes, new SceneCode(known, null), out Scene? scene, out string? error);
         Assert.Equal(isAccepted, error is null);
         if (isAccepted)
         {
@@ -342,9 +342,9 @@ public sealed class SceneFormatTests
 
     private static long Allocated(byte[] bytes)
     {
-        SceneFormat.TryDecode(bytes, null, out _, out _);
+        SceneFormat.TryDecode(bytes, default, out _, out _);
         long before = GC.GetAllocatedBytesForCurrentThread();
-        SceneFormat.TryDecode(bytes, null, out _, out _);
+        SceneFormat.TryDecode(bytes, default, out _, out _);
         return GC.GetAllocatedBytesForCurrentThread() - before;
     }
 

@@ -363,7 +363,7 @@ public sealed class WirePageTests
             });
         }
 
-        Assert.Equal(int.Parse(row[2], CultureInfo.InvariantCulture), EventFormat.EncodedLength(what.Kind));
+        Assert.Equal(int.Parse(row[2], CultureInfo.InvariantCulture), EventFormat.EncodedLength(what));
         return bytes.ToArray();
     }
 

@@ -37,7 +37,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         requests = new JoinRequests(
             attempts, Connection, Seat, unproven, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
         snapshot = new SnapshotClient(
-            attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options.Accelerations);
+            attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, new SceneCode(options.Accelerations, options.Rules));
         entry = new WorldEntry(attempts, Connection, parts.Start, parts.SharedTime, parts.Status, parts.Clock, options.Timeout);
         log = new LogFollower(
             Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);

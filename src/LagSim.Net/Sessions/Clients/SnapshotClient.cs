@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// <summary>Downloads a snapshot of the scene and world from the host, chunk by chunk, and checks it against the announced hash.</summary>
 internal sealed class SnapshotClient(
     JoinAttempts attempts, HostConnection connection, SharedWorld world, SessionStatus status, DatagramSender sender,
-    SessionCounters counters, IClock clock, IReadOnlyList<IAcceleration>? accelerations)
+    SessionCounters counters, IClock clock, SceneCode code)
 {
     /// <summary>The longest round trip to assume before one is measured.</summary>
     private static readonly SimDuration MaxTripGuess = SimDuration.FromMilliseconds(400);
@@ -55,7 +55,7 @@ internal sealed class SnapshotClient(
         {
             error = "its hash is another one than was announced.";
         }
-        else if (SessionSnapshot.TryDecode(download.Bytes, accelerations, world.Scene, out SessionSnapshot? snapshot, out error))
+        else if (SessionSnapshot.TryDecode(download.Bytes, code, world.Scene, out SessionSnapshot? snapshot, out error))
         {
             attempt.Snapshot = snapshot;
             world.Scene = snapshot.Scene;

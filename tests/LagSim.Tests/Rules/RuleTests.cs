@@ -1,0 +1,387 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Rules;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Rules;
+
+/// <summary>What rules are called for, what they may do, and what is refused.</summary>
+public sealed class RuleTests
+{
+    [Fact]
+    public void OnContact_OfTheSurfaceThatIsHeard_CountsBounces()
+    {
+        Simulation world = Run(Scene(new Given { Hears = (_, _, surface) => surface == 0, Contact = (w, _) => w.State<Score>().Count++ }), 3);
+        int bounces = Impacts(world, First).Count;
+        Assert.True(bounces > 1);
+        Assert.Equal(bounces, Count(world, 3));
+        Assert.Equal(0, Count(world, 0.1));
+        Assert.Equal(0, Count(Run(Scene(new Given { Contact = (w, _) => w.State<Score>().Count++ }), 3), 3)); // none is heard
+    }
+
+    [Fact]
+    public void SetTimer_CountsDown_ExactlyThen()
+    {
+        Given rules = new()
+        {
+            Start = w => w.SetTimer(1, SimDuration.FromSeconds(0.5)),
+            Timer = (w, _) =>
+            {
+                if (++w.State<Score>().Count < 3)
+                {
+                    w.SetTimer(1, SimDuration.FromSeconds(0.5));
+                }
+            },
+        };
+        Simulation world = Run(Scene(rules), 4);
+        Assert.Equal(0, CountAt(world, At(0.5) - SimDuration.OneTick));
+        Assert.Equal(1, CountAt(world, At(0.5)));
+        Assert.Equal(3, Count(world, 4));
+    }
+
+    [Fact]
+    public void CancelTimer_IsNotCalled()
+    {
+        Given rules = new()
+        {
+            Start = w =>
+            {
+                w.SetTimer(1, SimDuration.FromSeconds(1));
+                Assert.True(w.CancelTimer(1));
+                Assert.False(w.CancelTimer(1));
+            },
+            Timer = (w, _) => w.State<Score>().Count++,
+        };
+        Assert.Equal(0, Count(Run(Scene(rules), 2), 2));
+    }
+
+    [Fact]
+    public void OnCommand_LateOrOnTime_SameState()
+    {
+        Given rules = new() { Command = (w, player, command) => w.State<Score>().Count = (w.State<Score>().Count * 10) + (player * command.Number) };
+        ExternalEvent first = PlayerAction.Command(new GameCommand(2)).Stamp(At(0.5), 1, 1);
+        ExternalEvent second = PlayerAction.Command(new GameCommand(3)).Stamp(At(0.7), 2, 1);
+        Simulation onTime = Run(Scene(rules), 2, [first, second]);
+        Simulation late = Run(Scene(rules), 2, [second]);
+        Assert.Equal(SubmitResult.RolledBack, late.Submit(first));
+        Assert.Equal(SubmitResult.Duplicate, late.Submit(first));
+        late.AdvanceTo(At(3));
+        onTime.AdvanceTo(At(3));
+        Assert.Equal(26, Count(onTime, 3));
+        Assert.Equal(onTime.StateHash(At(3)), late.StateHash(At(3)));
+        Assert.True(late.Retract(first));
+        Assert.False(late.Retract(first));
+        late.AdvanceTo(At(3));
+        Assert.Equal(6, Count(late, 3));
+    }
+
+    [Fact]
+    public void Acts_HappenAtThatTickInTheNextRound()
+    {
+        Given rules = new()
+        {
+            Command = (w, _, _) =>
+            {
+                w.Teleport(First, V(0, 5, 0), V(1, 0, 0));
+                w.Spawn(Ball(0.25), V(3, 3, 0));
+            },
+        };
+        Simulation world = Run(Scene(rules), 1, [PlayerAction.Command(new GameCommand(1)).Stamp(At(0.25), 1, 1)]);
+        BodyState state = Read(world, First, At(0.25));
+        Assert.Equal(V(0, 5, 0), state.Position);
+        Assert.Equal(V(1, 0, 0), state.Velocity);
+        EventKey key = world.Timeline(First).Last(entry => entry.Key.Kind == EventKind.Teleport).Key;
+        Assert.Equal(1u, key.Round);
+        Assert.Equal(0, key.Peer);
+        Assert.NotEqual(MotionLaw.Absent, Read(world, new BodyId(0, 1, 0), At(0.25)).Motion);
+        Assert.Equal(MotionLaw.Absent, Read(world, new BodyId(0, 1, 0), At(0.25) - SimDuration.OneTick).Motion);
+    }
+
+    [Fact]
+    public void TryRead_OfABodyThatIsKnownBeyond_SeesItAtTheCall()
+    {
+        Given rules = new() { Command = (w, _, _) => w.State<Score>().Height = w.TryRead(First, out BodyState state) ? state.Position.Y : -1 };
+        Simulation world = Run(Scene(rules), 2);
+        world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1));
+        world.AdvanceTo(At(2));
+        Assert.True(world.TryReadRules(At(2), out Score score));
+        Assert.Equal(Read(world, First, At(0.5)).Position.Y, score.Height);
+    }
+
+    [Fact]
+    public void LateEvent_OfABodyThatNoCallRead_MakesNoCallAgain()
+    {
+        Given rules = new()
+        {
+            Start = w => w.SetTimer(1, SimDuration.FromSeconds(0.1)),
+            Timer = (w, timer) =>
+            {
+                w.SetTimer(timer, SimDuration.FromSeconds(0.1));
+                w.State<Score>().Height += w.TryRead(First, out BodyState state) ? state.Position.Y : 0;
+            },
+        };
+        Scene scene = new SceneBuilder("two").WithGravity(Floating).AddBody("read", Ball(), V(0, 0, 0), V(0.5)).AddBody("other", Ball(), V(0, 10, 0)).WithRules(rules).Build();
+        Simulation world = Run(scene, 2);
+        long made = world.Engine.Caller!.Made;
+        world.Submit(PlayerAction.Impulse(Second, V(0, 3, 0)).Stamp(At(0.55), 1, 1));
+        world.AdvanceTo(At(2));
+        Assert.Equal(made, world.Engine.Caller.Made);
+        world.Submit(PlayerAction.Impulse(First, V(0, 3, 0)).Stamp(At(0.55), 1, 2));
+        world.AdvanceTo(At(2));
+        Assert.Equal(made + 15, world.Engine.Caller.Made); // the calls from 0.6 s to 2 s
+    }
+
+    [Fact]
+    public void Random_IsOfTheSeedAndTheEvent()
+    {
+        Given rules = new() { Command = (w, _, _) => w.State<Score>().Draw = w.Random() ^ (ulong)w.Random(6) };
+        ExternalEvent one = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1);
+        ExternalEvent other = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 2);
+        ulong[] draws = [Draw(0, one), Draw(0, one), Draw(7, one), Draw(0, other)];
+        Assert.Equal(draws[0], draws[1]);
+        Assert.Equal(3, draws.Distinct().Count());
+
+        ulong Draw(ulong seed, ExternalEvent command)
+        {
+            Run(Scene(rules, seed), 1, [command]).TryReadRules(At(1), out Score score);
+            return score.Draw;
+        }
+    }
+
+    [Fact]
+    public void BodyState_GoesWithTheBody()
+    {
+        Given rules = new(bodies: true)
+        {
+            HearsAll = true,
+            Spawned = (w, body) => w.State<Score>(body).Count = 5,
+            Removed = (w, body) => w.State<Score>().Count += w.State<Score>(body).Count,
+        };
+        BodyId spawned = new(1, 1, 0);
+        Simulation world = Run(Scene(rules), 2, [
+            PlayerAction.Spawn(Ball(), V(4, 4)).Stamp(At(0.5), 1, 1), PlayerAction.Remove(spawned).Stamp(At(1), 1, 2)]);
+        Assert.True(world.TryReadRules(spawned, At(0.75), out Score there));
+        Assert.Equal(5, there.Count);
+        Assert.False(world.TryReadRules(spawned, At(1), out Score _));
+        Assert.Equal(5, Count(world, 2));
+        Assert.False(world.TryReadRules(At(1), out long _));
+    }
+
+    [Theory]
+    [MemberData(nameof(Failures))]
+    public void Rules_ThatFail_AreNamedWithCallAndInstant(string which, string part)
+    {
+        Simulation world = new(Scene(Failing[which]), KeepAll);
+        SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(1)));
+        Assert.Contains("'given 1'", failure.Message, StringComparison.Ordinal);
+        Assert.Contains("0.25", failure.Message, StringComparison.Ordinal);
+        Assert.Contains(part, failure.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Rules_ThatFail_InAWorldThatWaits_BlockItUntilTheCauseIsGone()
+    {
+        Given rules = new() { Command = (_, _, command) => throw new InvalidOperationException("No such command.") };
+        Simulation world = new(Scene(rules), KeepAll) { WaitsForLateEvents = true };
+        ExternalEvent bad = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1);
+        world.Submit(bad);
+        long events = long.MaxValue;
+        Assert.False(world.TryAdvanceTo(At(1), ref events));
+        Assert.Equal(At(0.5), world.Engine.Loop.BlockedAt);
+        Assert.True(world.Retract(bad));
+        Assert.True(world.TryAdvanceTo(At(1), ref events));
+        Assert.Equal(Run(Scene(rules), 1).StateHash(At(1)), world.StateHash(At(1)));
+    }
+
+    [Fact]
+    public void State_WithPaddingOrTooLarge_IsRefused()
+    {
+        Assert.Contains("fields use 9", Assert.Throws<SceneException>(() => new Declares<Padded>()).Message, StringComparison.Ordinal);
+        Assert.Contains("at most 16384", Assert.Throws<SceneException>(() => new Declares<Large>()).Message, StringComparison.Ordinal);
+        Assert.Equal(24, new Declares<Score>().WorldBytes);
+        Assert.Equal(32, new Declares<Nested>().WorldBytes);
+    }
+
+    [Fact]
+    public void Command_WithoutRulesOrOfPeer0_IsRefused()
+    {
+        ExternalEvent command = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1);
+        Assert.Contains("has no rules", Assert.Throws<SceneException>(() => new Simulation(Drop(1, 1)).Submit(command)).Message, StringComparison.Ordinal);
+        Simulation world = new(Scene(new Given()));
+        Assert.Contains("of peer 0", Assert.Throws<SceneException>(() => world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 0, 1))).Message, StringComparison.Ordinal);
+        Assert.Contains("counts its events from 1", Assert.Throws<SceneException>(() => world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 0))).Message,
+            StringComparison.Ordinal);
+        Assert.Throws<ArgumentException>(() => new GameCommand(1, new byte[GameCommand.MaxBytes + 1]));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new GameCommand(65_536));
+    }
+
+    [Fact]
+    public void Command_OfAValue_ReadsItBack()
+    {
+        GameCommand command = GameCommand.Of(3, new Score { Count = 7, Draw = 9 });
+        Assert.True(command.TryRead(out Score score));
+        Assert.Equal((7, 9UL), (score.Count, score.Draw));
+        Assert.False(command.TryRead(out int _));
+        Assert.Equal(command, GameCommand.Of(3, score));
+        Assert.NotEqual(command, GameCommand.Of(4, score));
+    }
+
+    [Fact]
+    public void SyncTest_SeesRulesThatAreNoFunctionOfTheWorld()
+    {
+        int calls = 0;
+        long Stamp() => System.Diagnostics.Stopwatch.GetTimestamp();
+        Given[] faulty =
+        [
+            new() { Contact = (w, _) => w.State<Score>().Count = ++calls, Hears = (_, _, _) => true },
+            new() { Contact = (w, _) => w.State<Score>().Draw = (ulong)Stamp(), Hears = (_, _, _) => true },
+            new() { Contact = (w, _) => w.State<Score>().Count = new HashSet<object> { new(), new(), new() }.First().GetHashCode(), Hears = (_, _, _) => true },
+        ];
+        foreach (Given rules in faulty)
+        {
+            Simulation world = new(Scene(rules), new SimulationOptions(default, SimDuration.MaxValue, healing: HealingMode.SyncTest));
+            Assert.Contains("sync test", Assert.Throws<SimulationException>(() => world.AdvanceTo(At(3))).Message, StringComparison.Ordinal);
+        }
+
+        Given sound = new() { Contact = (w, _) => w.State<Score>().Count++, Hears = (_, _, _) => true };
+        Simulation right = new(Scene(sound), new SimulationOptions(default, SimDuration.MaxValue, healing: HealingMode.SyncTest));
+        right.AdvanceTo(At(3));
+        right.Submit(PlayerAction.Impulse(First, V(0, 2, 0)).Stamp(At(1), 1, 1));
+        right.AdvanceTo(At(3));
+    }
+
+    [Fact]
+    public void Hash_OfASceneWithRules_IsOfNameVersionAndSeed()
+    {
+        ulong[] hashes = [Scene(null!).Hash, Scene(new Given()).Hash, Scene(new Given(), 3).Hash, Scene(new Given(bodies: true)).Hash];
+        Assert.Equal(4, hashes.Distinct().Count());
+        Assert.Equal(hashes[1], Scene(new Given()).Hash);
+    }
+
+    public static TheoryData<string, string> Failures() => new()
+    {
+        { "throws", "broken" }, { "chains", "more than 64 rounds" }, { "timers", "more than 64 rounds" }, { "acts", "did 64 things" }, { "place", "deep inside plane" },
+        { "wrong state", "the rules declared" }, { "absent", "is not there" }, { "delay", "Timer 1 is set to" }, { "limit", "random number below 0" },
+    };
+
+    private static readonly Dictionary<string, Given> Failing = new()
+    {
+        ["throws"] = At025(_ => throw new InvalidOperationException("broken")),
+        ["chains"] = new() { Start = Later, Timer = (w, _) => w.Spawn(Ball(0.125), V(8, 8)), HearsAll = true, Spawned = (w, b) => w.Spawn(Ball(0.125), V(8, 8)) },
+        ["timers"] = new() { Start = Later, Timer = (w, t) => w.SetTimer(t, SimDuration.Zero) },
+        ["acts"] = At025(w =>
+        {
+            for (int n = 0; n < 65; n++)
+            {
+                w.Impulse(First, V(1));
+            }
+        }),
+        ["place"] = At025(w => w.Teleport(First, V(0, -3))),
+        ["wrong state"] = At025(w => w.State<long>()++),
+        ["absent"] = new(bodies: true) { Start = Later, Timer = (w, _) => w.State<Score>(new BodyId(3, 3, 0)).Count++ },
+        ["delay"] = At025(w => w.SetTimer(1, SimDuration.FromSeconds(-1))),
+        ["limit"] = At025(w => w.Random(0)),
+    };
+
+    private static Given At025(Action<RuleWorld> act) => new() { Start = Later, Timer = (w, _) => act(w) };
+
+    private static void Later(RuleWorld world) => world.SetTimer(1, SimDuration.FromSeconds(0.25));
+
+    private static Scene Scene(GameRules? rules, ulong seed = 0)
+    {
+        SceneBuilder builder = new SceneBuilder("ruled").AddPlane("floor", Vector3D.Up, V(0), 0.8).AddBody("ball", Ball(e: 0.8), V(0, 2)).WithSmallestRadius(0.125).WithSeed(seed);
+        return (rules is null ? builder : builder.WithRules(rules)).Build();
+    }
+
+    private static int Count(Simulation world, double seconds) => CountAt(world, At(seconds));
+
+    private static int CountAt(Simulation world, SimTime time) => world.TryReadRules(time, out Score score) ? score.Count : -1;
+
+#pragma warning disable CS0649 // sizes are all that matters of some
+    private struct Score
+    {
+        internal double Height;
+        internal ulong Draw;
+        internal int Count;
+        internal int Spare;
+    }
+
+    private struct Padded
+    {
+        internal long Wide;
+        internal byte Narrow;
+    }
+
+    private struct Nested
+    {
+        internal Score Score;
+        internal SimTime Time;
+    }
+
+    [System.Runtime.CompilerServices.InlineArray(16_385)]
+    private struct Large
+    {
+        internal byte First;
+    }
+
+#pragma warning restore CS0649
+
+    private sealed class Declares<T> : GameRules
+        where T : unmanaged
+    {
+        internal Declares()
+            : base("declares", 1) => WithWorldState<T>();
+    }
+
+    /// <summary>Rules of functions.</summary>
+    private sealed class Given : GameRules
+    {
+        internal Given(bool bodies = false)
+            : base("given", 1)
+        {
+            WithWorldState<Score>();
+            if (bodies)
+            {
+                WithBodyState<Score>();
+            }
+        }
+
+        internal Action<RuleWorld>? Start { get; init; }
+
+        internal Action<RuleWorld, int>? Timer { get; init; }
+
+        internal Action<RuleWorld, byte, GameCommand>? Command { get; init; }
+
+        internal Func<BodyId, BodyId, int, bool>? Hears { get; init; }
+
+        internal Action<RuleWorld, RuleContact>? Contact { get; init; }
+
+        internal Action<RuleWorld, BodyId>? Spawned { get; init; }
+
+        internal Action<RuleWorld, BodyId>? Removed { get; init; }
+
+        internal bool HearsAll { get; init; }
+
+        protected internal override bool HearsBodies => HearsAll;
+
+        protected internal override bool HearsContact(BodyId first, BodyId second, int surface) => Hears?.Invoke(first, second, surface) == true;
+
+        protected internal override void OnStart(RuleWorld world) => Start?.Invoke(world);
+
+        protected internal override void OnTimer(RuleWorld world, int timer) => Timer?.Invoke(world, timer);
+
+        protected internal override void OnCommand(RuleWorld world, byte player, GameCommand command) => Command?.Invoke(world, player, command);
+
+        protected internal override void OnContact(RuleWorld world, in RuleContact contact) => Contact?.Invoke(world, contact);
+
+        protected internal override void OnSpawned(RuleWorld world, BodyId body) => Spawned?.Invoke(world, body);
+
+        protected internal override void OnRemoved(RuleWorld world, BodyId body) => Removed?.Invoke(world, body);
+    }
+}
