@@ -32,10 +32,10 @@ internal static class SceneFormat
 
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24; // both kinds: a vector and three numbers
-    internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
+    internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 4;
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, four counts.
-    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (3 * 2);
+    private const int HeadBytes = EventFormat.VectorBytes + 24 + 4 + 1 + (3 * 2);
 
     /// <summary>Encodes a scene. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
@@ -52,7 +52,7 @@ internal static class SceneFormat
         writer.WriteDouble(scene.RestitutionThreshold);
         writer.WriteDouble(scene.ContactTolerance);
         writer.WriteDouble(scene.SmallestRadius);
-        writer.WriteUInt16(scene.Spawners.Mask);
+        writer.WriteUInt32(scene.Spawners.Mask);
         writer.WriteByte((byte)scene.Forces.Count);
         foreach (Force force in scene.Forces)
         {
@@ -86,7 +86,7 @@ internal static class SceneFormat
             EventFormat.WriteSpec(ref writer, body.Spec);
             writer.WriteVector(body.Position);
             writer.WriteVector(body.Velocity);
-            writer.WriteUInt16(body.Players.Mask);
+            writer.WriteUInt32(body.Players.Mask);
             writer.WriteVector(body.Spin);
         }
 
