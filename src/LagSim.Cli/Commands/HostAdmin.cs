@@ -15,6 +15,8 @@ internal sealed class HostAdmin
 {
     internal const string Syntax = "players, kick PLAYER, ban PLAYER, unban ADDRESS, remove-bodies PLAYER";
 
+    private const int MaxNumber = SessionOptions.MaxClients + SessionOptions.MaxSpectators;
+
     private readonly Dictionary<string, PeerAddress> banned = []; // by the text of the command
 
     /// <summary>Reads lines to the end of the input, on a background thread.</summary>
@@ -36,6 +38,13 @@ internal sealed class HostAdmin
         }
     }
 
+    private static string Described(LinkTraffic link, IReadOnlyList<RosterMember> roster)
+    {
+        RosterMember? member = roster.FirstOrDefault(one => one.Number == link.Peer);
+        string kind = member is null or { Role: PeerRole.Player } ? "player" : member.Role.ToString().ToLowerInvariant();
+        return $"{kind} {link.Peer}{(member is { Name.Length: > 0 } ? $" {member.Name}" : "")} at {link.Address}";
+    }
+
     /// <summary>Executes a line. For the session's thread.</summary>
     /// <returns>The result, as a sentence.</returns>
     internal string Do(string line, HostSession host)
@@ -43,7 +52,7 @@ internal sealed class HostAdmin
         string[] words = line.Split(' ', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
         if (words is ["players"])
         {
-            return host.Links.Count == 0 ? "There is no player." : string.Join("; ", host.Links.Select(link => $"player {link.Peer} at {link.Address}"));
+            return host.Links.Count == 0 ? "There is no player." : string.Join("; ", host.Links.Select(link => Described(link, host.Roster)));
         }
 
         if (words is ["unban", string address])
@@ -65,9 +74,9 @@ internal sealed class HostAdmin
             return $"'{line}' is no command; there are: {Syntax}.";
         }
 
-        if (!byte.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out byte player) || player is 0 or > SessionOptions.MaxClients)
+        if (!byte.TryParse(number, NumberStyles.None, CultureInfo.InvariantCulture, out byte player) || player is 0 or > MaxNumber)
         {
-            return $"'{number}' is no player's number; it must be 1 to {SessionOptions.MaxClients}.";
+            return $"'{number}' is no player's number; it must be 1 to {MaxNumber}.";
         }
 
         switch (words[0])
@@ -83,6 +92,8 @@ internal sealed class HostAdmin
 
                 banned[from] = its;
                 return $"Player {player} is disconnected, and nobody can join from {from} any more.";
+            case "remove-bodies" when player > SessionOptions.MaxClients:
+                return $"Player {player} is a spectator, and has no bodies.";
             default:
                 try
                 {

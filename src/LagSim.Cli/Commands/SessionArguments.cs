@@ -25,6 +25,15 @@ internal sealed class SessionArguments
         HelpName = "TEXT",
     };
 
+    private readonly Option<string> name = new("--name")
+    {
+        Description = $"What the others are shown as this peer's name; up to {SessionOptions.MaxNameBytes} bytes of UTF-8. None by default.",
+        HelpName = "TEXT",
+    };
+
+    private readonly Option<string> role = CommonOptions.Word(
+        "--as", "As what to take part; a spectator takes no player's place, and does nothing.", "player", "player", "spectator", "bot");
+
     private readonly Option<string[]> actions = new("--do") { Description = $"Do something: {ScriptedAction.Syntax}", HelpName = "ACTION" };
     private readonly Option<double?> length = Seconds(
         "--for-s", "How long to take part, counted from the session's start; by default until Ctrl-C.",
@@ -49,6 +58,13 @@ internal sealed class SessionArguments
                 result.AddError($"--key has {result.Tokens[0].Value.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
             }
         });
+        name.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && SessionOptions.WhyNoName(result.Tokens[0].Value) is string why)
+            {
+                result.AddError($"--name is not one to show: {why}");
+            }
+        });
         actions.Validators.Add(result =>
         {
             foreach (System.CommandLine.Parsing.Token token in result.Tokens)
@@ -68,6 +84,8 @@ internal sealed class SessionArguments
     internal void AddTo(Command command)
     {
         command.Options.Add(key);
+        command.Options.Add(name);
+        command.Options.Add(role);
         command.Options.Add(actions);
         command.Options.Add(length);
         command.Options.Add(record);
@@ -89,6 +107,12 @@ internal sealed class SessionArguments
             throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"--do is '{late.Text}', which is not before the end, --for-s {seconds}."));
         }
 
+        PeerRole chosen = Enum.Parse<PeerRole>(parsed.GetValue(role)!, ignoreCase: true);
+        if (chosen == PeerRole.Spectator && ordered.Length > 0)
+        {
+            throw new UsageException($"--as spectator contradicts --do '{ordered[0].Text}': a spectator does nothing.");
+        }
+
         string? file = parsed.GetValue(record);
         if (file == ResultFile.StandardOutput)
         {
@@ -104,6 +128,8 @@ internal sealed class SessionArguments
         ClientOptions options = new()
         {
             ConnectKey = parsed.GetValue(key) ?? "",
+            Name = parsed.GetValue(name) ?? "",
+            Role = chosen,
             Timeout = SimDuration.FromSeconds(silence),
             RejoinTime = SimDuration.FromSeconds(parsed.GetValue(rejoin)),
             KeepAlive = SimDuration.FromSeconds(Math.Min(MaxKeepAliveSeconds, silence / 4)),

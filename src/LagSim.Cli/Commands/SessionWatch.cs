@@ -39,6 +39,8 @@ internal sealed class SessionWatch
                 queue.Tell(() => printer.Problem(DivergenceOf(peer, time - session.World!.Simulation.Start)));
         }
 
+        session.RosterChanged += _ => TellRoster();
+        session.Begun += TellRoster;
         session.StateCommitted += OnCommitted;
         if (session is ClientSession client)
         {
@@ -118,6 +120,16 @@ internal sealed class SessionWatch
 
     private void TellRenewal(byte player) =>
         queue.Tell(() => printer.Problem($"In again as player {player}, with a fresh copy of the world."));
+
+    /// <summary>Reports who is there, once the world has begun. Changes of one moment are one line.</summary>
+    private void TellRoster()
+    {
+        if (session.World is not null)
+        {
+            IReadOnlyList<RosterMember> roster = session.Roster;
+            queue.Tell(() => printer.Here(roster));
+        }
+    }
 
     private void OnCommitted(CommittedState state)
     {

@@ -24,6 +24,7 @@ internal sealed class SessionPrinter
     private readonly string? recordFile;
     private readonly List<(double Seconds, CommittedState State)> states = [];
     private ClockReading? clock;
+    private string here = "";
 
     /// <param name="console">The console to print to.</param>
     /// <param name="json">Whether the summary is JSON.</param>
@@ -96,6 +97,17 @@ internal sealed class SessionPrinter
     {
         Links.End(link);
         Progress($"peer {link.Peer} at {link.Address} is gone");
+    }
+
+    /// <summary>Prints who is in the session, if that is another line than the last.</summary>
+    internal void Here(IReadOnlyList<RosterMember> roster)
+    {
+        string line = $"here: {string.Join(", ", roster.Select(one => $"{one}{(one.SilentSince is null ? "" : " (silent)")}"))}";
+        if (roster.Count > 0 && line != here)
+        {
+            here = line;
+            Line(line);
+        }
     }
 
     /// <summary>Takes a sample of the links, and reports a client's first one.</summary>
@@ -224,6 +236,19 @@ internal sealed class SessionPrinter
         JsonDocumentWriter.Number(document, "clock_offset_ms", clock?.Offset.ToMilliseconds());
         JsonDocumentWriter.Number(document, "clock_bound_ms", clock?.Bound.ToMilliseconds());
         JsonDocumentWriter.Number(document, "delay_ms", clock?.Delay.ToMilliseconds());
+        document.WriteString("role", session.Role.ToString().ToLowerInvariant());
+        document.WriteStartArray("roster");
+        foreach (RosterMember one in session.Roster)
+        {
+            document.WriteStartObject();
+            document.WriteNumber("number", one.Number);
+            document.WriteString("role", one.Role.ToString().ToLowerInvariant());
+            document.WriteString("name", one.Name);
+            document.WriteBoolean("silent", one.SilentSince is not null);
+            document.WriteEndObject();
+        }
+
+        document.WriteEndArray();
         document.WriteStartArray("links");
         foreach (LinkRow row in Links.Rows)
         {

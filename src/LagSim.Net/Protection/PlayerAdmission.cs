@@ -17,7 +17,7 @@ public sealed class PlayerAdmission
     /// </param>
     /// <param name="name">What to show others: up to <see cref="MaxTextBytes"/> bytes of UTF-8.</param>
     /// <param name="rights">What the player may do.</param>
-    /// <param name="number">The number that the player gets, 1 to 8; 0 for any that is free.</param>
+    /// <param name="number">The number that the player gets, 1 to 16; 0 for any that is free.</param>
     /// <exception cref="ArgumentException">A text is missing or too long, or is not valid Unicode.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The number or the rights are out of range.</exception>
     public PlayerAdmission(string playerId, string name = "", PlayerRights rights = PlayerRights.All, byte number = 0)

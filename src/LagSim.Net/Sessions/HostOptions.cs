@@ -70,6 +70,24 @@ public sealed record HostOptions : SessionOptions
     }
 
     /// <summary>
+    /// How many spectators may be in, 0 to <see cref="SessionOptions.MaxSpectators"/>; default all of these. They take no player's place.
+    /// </summary>
+    /// <remarks><see cref="MaxClientsPerAddress"/> limits them too, apart from the players.</remarks>
+    public int SpectatorPlaces { get; init; } = MaxSpectators;
+
+    /// <summary>
+    /// Whether what lies in the past becomes final as soon as the links of the players allow, rather than a history later; default false.
+    /// </summary>
+    /// <remarks>
+    /// <para>Clients then promise, at least each 50 ms, to stamp nothing before an instant any more. What all have promised is final: about
+    /// a round trip of the slowest player and a tenth of a second later, never later than without this, and at once where nobody else
+    /// plays. No event of an honest client is refused that would not be without this.</para>
+    /// <para>Cost: some 20 datagrams a second in both directions of each link, 2 to 3 KB/s with headers. What was done cannot be taken
+    /// back as far: <see cref="PlayerBudget"/> undoes less of what an expelled player did.</para>
+    /// </remarks>
+    public bool ConfirmsEarly { get; init; }
+
+    /// <summary>
     /// How many events per second are processed from each client, 1 to 100,000; default 500. Excess events are deferred. Thousands need a
     /// larger <see cref="PlayerBudget"/>, or none.
     /// </summary>
@@ -90,7 +108,7 @@ public sealed record HostOptions : SessionOptions
     public PlayerBudget? PlayerBudget { get; init; } = PlayerBudget.Default;
 
     /// <summary>
-    /// How many clients to wait for before the start, 0 to 8; default 0. Before the start there is no world, and no action is possible.
+    /// How many clients that play to wait for before the start, 0 to <see cref="SessionOptions.MaxClients"/>; default 0. Before the start there is no world, and no action is possible.
     /// </summary>
     public int ExpectedClients { get; init; }
 
@@ -126,6 +144,12 @@ public sealed record HostOptions : SessionOptions
         {
             throw new ArgumentOutOfRangeException(
                 nameof(MaxEventsPerSecond), MaxEventsPerSecond, "A host takes 1 to 100,000 events a second from a client.");
+        }
+
+        if (SpectatorPlaces is < 0 or > MaxSpectators)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(SpectatorPlaces), SpectatorPlaces, $"A host has places for 0 to {MaxSpectators} spectators.");
         }
 
         if (perAddress is < 1 or > MaxClients)

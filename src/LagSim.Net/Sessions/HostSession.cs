@@ -105,7 +105,7 @@ public sealed class HostSession : Session
 
     /// <summary>
     /// The time before which no event is accepted any more: the history before the clock, or before where the world stands if that is
-    /// behind. It never goes back.
+    /// behind. It never goes back. With <see cref="HostOptions.ConfirmsEarly"/> it is later, as far as the players have promised.
     /// </summary>
     /// <remarks>While a host is stuck, what it has not simulated can still be changed, above all by removing what it is stuck on.</remarks>
     public SimTime Watermark => host.Watermark.Now;
@@ -134,11 +134,11 @@ public sealed class HostSession : Session
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
-    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">It is no client's number: neither a player's nor a spectator's.</exception>
     public PlayerAdmission? AdmissionOf(byte player)
     {
         host.Parts.Owner.ThrowIfForeign();
-        ThrowIfNoPlayer(player);
+        ThrowIfNoClient(player);
         return host.Roster.AdmissionOf(player);
     }
 
@@ -159,11 +159,11 @@ public sealed class HostSession : Session
     /// </remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>False if no client has that number now.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">It is no client's number: neither a player's nor a spectator's.</exception>
     public bool Kick(byte player)
     {
         host.Parts.Owner.ThrowIfForeign();
-        ThrowIfNoPlayer(player);
+        ThrowIfNoClient(player);
         return host.Roster.Kick(j => j.Peer == player) > 0;
     }
 
@@ -174,11 +174,11 @@ public sealed class HostSession : Session
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
     /// <returns>The machine, for <see cref="Unban"/>; null if no client has that number now.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The number is not from 1 to <see cref="SessionOptions.MaxClients"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">It is no client's number: neither a player's nor a spectator's.</exception>
     public PeerAddress? Ban(byte player)
     {
         host.Parts.Owner.ThrowIfForeign();
-        ThrowIfNoPlayer(player);
+        ThrowIfNoClient(player);
         if (host.Roster.Seated(player) is not Client found)
         {
             return null;
@@ -229,6 +229,15 @@ public sealed class HostSession : Session
         {
             EndWorld(failure);
             throw;
+        }
+    }
+
+    private static void ThrowIfNoClient(byte number)
+    {
+        if (number is 0 or > SessionOptions.MaxNumber)
+        {
+            throw new ArgumentOutOfRangeException(
+                "player", number, $"A client's number is 1 to {SessionOptions.MaxNumber}; spectators have those from {SessionOptions.MaxClients + 1} on.");
         }
     }
 

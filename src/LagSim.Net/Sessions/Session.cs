@@ -43,6 +43,7 @@ public abstract class Session
     private readonly HandlerList<Action> ended;
     private readonly HandlerList<Action<LogEntry>> logged;
     private readonly HandlerList<Action<CommittedState>> stateCommitted;
+    private readonly HandlerList<Action<RosterChange>> rosterChanged;
 
     private protected Session(SessionParts parts, ISessionProtocol protocol)
     {
@@ -51,6 +52,7 @@ public abstract class Session
         ended = new(parts.Owner);
         logged = new(parts.Owner);
         stateCommitted = new(parts.Owner);
+        rosterChanged = new(parts.Owner);
         this.parts = parts;
         this.protocol = protocol;
         loop = new SessionLoop(parts, protocol);
@@ -60,6 +62,7 @@ public abstract class Session
         parts.Start.Renewed += why => renewed.Raise(why, static (handler, told) => handler(told));
         parts.Status.Ended += () => ended.Raise(0, static (handler, _) => handler());
         parts.Journal.Told += entry => logged.Raise(entry, static (handler, told) => handler(told));
+        parts.Peers.Changed += change => rosterChanged.Raise(change, static (handler, told) => handler(told));
         parts.Commits.Committed += state => stateCommitted.Raise(state, static (handler, told) => handler(told));
     }
 
@@ -102,6 +105,16 @@ public abstract class Session
     {
         add => stateCommitted.Add(value);
         remove => stateCommitted.Remove(value);
+    }
+
+    /// <summary>
+    /// Raised on the session's thread for every change of <see cref="Roster"/>, once it shows it: first those who are gone.
+    /// </summary>
+    /// <remarks>The host itself is in the roster from the beginning; a client is told of it, and of itself, like of all others.</remarks>
+    public event Action<RosterChange>? RosterChanged
+    {
+        add => rosterChanged.Add(value);
+        remove => rosterChanged.Remove(value);
     }
 
     /// <summary>
@@ -158,8 +171,21 @@ public abstract class Session
     /// <summary>The cause of the session's end. From any thread, as <see cref="EndReason"/>.</summary>
     public SessionEnd EndedBy => parts.Status.EndedBy;
 
+    /// <summary>As what this peer takes part: <see cref="SessionOptions.Role"/>. From any thread.</summary>
+    public PeerRole Role => parts.Options.Role;
+
     /// <summary>This peer's number; 0 is the host. Meaningful once joined.</summary>
     public byte Peer => parts.Self.Number;
+
+    /// <summary>
+    /// Who is in the session, by ascending number, the host and this peer included; empty for a client that has not heard of it. From any
+    /// thread: the list never changes, another replaces it.
+    /// </summary>
+    /// <remarks>
+    /// The host decides who is in, and whatever is lost reaches every peer in the end. A peer that leaves, or is silent for the
+    /// <see cref="SessionOptions.Timeout"/>, is not in it any more. After the session's end it stays as it was.
+    /// </remarks>
+    public IReadOnlyList<RosterMember> Roster => parts.Peers.Members;
 
     /// <summary>
     /// The world, once its start is known. It stays the same object, except for a client that gets a fresh snapshot
@@ -270,13 +296,19 @@ public abstract class Session
     /// try again once verdicts have arrived.
     /// </exception>
     /// <exception cref="SceneException">
-    /// A value may not enter the world, or this peer may not do that, or it exceeds this peer's <see cref="SessionOptions.MaxGivenSpeed"/>
+    /// A value may not enter the world, or this peer is a spectator or may not do that for another reason, or it exceeds this peer's <see cref="SessionOptions.MaxGivenSpeed"/>
     /// or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
     /// </exception>
     /// <exception cref="SimulationException">The world cannot be simulated with the action; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action)
     {
         parts.Owner.ThrowIfForeign();
+        if (Role == PeerRole.Spectator)
+        {
+            throw new SceneException(
+                $"{action.Kind} is not for a spectator, which only watches; join as a player (SessionOptions.Role) to do something.");
+        }
+
         try
         {
             SimTime time = SharedTime.IsSet ? SharedTime.Now + parts.Options.Window.LocalLag(action.Kind) : SimTime.MinValue;

@@ -2,6 +2,7 @@ using System;
 using System.Threading;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
+using LagSim.Net.Wire;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -17,8 +18,17 @@ public abstract record SessionOptions
     /// <summary>The default <see cref="Timeout"/>: 10 s.</summary>
     public static readonly SimDuration DefaultTimeout = SimDuration.FromSeconds(10);
 
-    /// <summary>The most clients a host can have.</summary>
-    public const int MaxClients = 8;
+    /// <summary>The most clients a host can have that play; they have the numbers from 1 on.</summary>
+    public const int MaxClients = 16;
+
+    /// <summary>The most spectators a host can have besides; they have the numbers after those of the players.</summary>
+    public const int MaxSpectators = 32;
+
+    /// <summary>The longest <see cref="Name"/>, in bytes of UTF-8.</summary>
+    public const int MaxNameBytes = RosterEntry.MaxNameBytes;
+
+    /// <summary>The highest number of a client.</summary>
+    internal const byte MaxNumber = MaxClients + MaxSpectators;
 
     /// <summary>The longest <see cref="ConnectKey"/>, in characters.</summary>
     public const int MaxKeyLength = 256;
@@ -30,6 +40,19 @@ public abstract record SessionOptions
     private protected SessionOptions()
     {
     }
+
+    /// <summary>
+    /// What the others are shown as this peer's name in <see cref="Session.Roster"/>: up to <see cref="MaxNameBytes"/> bytes of UTF-8
+    /// without control characters; default empty. Two peers may have the same.
+    /// </summary>
+    /// <remarks>If a host admits by connect tokens, the name in a player's token counts instead, if there is one.</remarks>
+    public string Name { get; init; } = "";
+
+    /// <summary>
+    /// As what this peer takes part; default <see cref="PeerRole.Player"/>. A <see cref="PeerRole.Spectator"/> takes no player's place, and
+    /// <see cref="Session.Do"/> throws for it.
+    /// </summary>
+    public PeerRole Role { get; init; } = PeerRole.Player;
 
     /// <summary>
     /// The shared secret: a host requires it, and a client must present it. Up to <see cref="MaxKeyLength"/> characters, default none. It
@@ -52,7 +75,7 @@ public abstract record SessionOptions
 
     /// <summary>
     /// The highest speed in m/s that a player's event may give, above 0, up to <see cref="double.PositiveInfinity"/> for no limit beyond
-    /// the world's own; default 1,000. A host refuses more as <see cref="Wire.Verdict.Invalid"/>, by its own option; a client's own
+    /// the world's own; default 1,000. A host refuses more as <see cref="Verdict.Invalid"/>, by its own option; a client's own
     /// <see cref="Session.Do"/> goes by the client's.
     /// </summary>
     /// <remarks>
@@ -65,7 +88,7 @@ public abstract record SessionOptions
 
     /// <summary>How many bodies spawned by one player may exist at a time, 0 to 1,000,000; default 64.</summary>
     /// <remarks>
-    /// Those of former holders of the player's number count too. A host refuses more as <see cref="Wire.Verdict.NoRight"/>, by its own
+    /// Those of former holders of the player's number count too. A host refuses more as <see cref="Verdict.NoRight"/>, by its own
     /// option; a client's own <see cref="Session.Do"/> goes by the client's.
     /// </remarks>
     public int MaxSpawned { get; init; } = 64;
@@ -182,6 +205,12 @@ public abstract record SessionOptions
     public CancellationToken Cancellation { get; init; }
 
     /// <summary>Whether datagrams are encrypted and authenticated.</summary>
+    /// <summary>
+    /// Why a text cannot be a <see cref="Name"/>, as the rest of a sentence; null if it can. From any thread.
+    /// </summary>
+    /// <exception cref="ArgumentNullException">The text is null.</exception>
+    public static string? WhyNoName(string name) => RosterEntry.WhyNoName(name ?? throw new ArgumentNullException(nameof(name)));
+
     internal abstract bool IsProtected { get; }
 
     /// <summary>The type's name only: keys are secret and must not end up in a log.</summary>
@@ -221,6 +250,21 @@ public abstract record SessionOptions
         {
             throw new ArgumentOutOfRangeException(
                 nameof(ConnectKey), $"{ConnectKey.Length} characters", $"A connect key has 0 to {MaxKeyLength} characters.");
+        }
+
+        if (Name is null)
+        {
+            throw new ArgumentException("A peer's name may be empty, but not null.", nameof(Name));
+        }
+
+        if (RosterEntry.WhyNoName(Name) is string why)
+        {
+            throw new ArgumentException($"The peer's name is not one to show: {why}", nameof(Name));
+        }
+
+        if (Role is < PeerRole.Player or > PeerRole.Bot)
+        {
+            throw new ArgumentOutOfRangeException(nameof(Role), (int)Role, "A peer is a player, a spectator or a bot.");
         }
 
         if (!(MaxGivenSpeed > 0))

@@ -62,4 +62,10 @@ internal enum DatagramType : byte
 
     /// <summary>A <see cref="SealedDatagram"/>: another datagram of a link, encrypted.</summary>
     Sealed = 19,
+
+    /// <summary>A <see cref="RosterDatagram"/>: who has which number.</summary>
+    Roster = 20,
+
+    /// <summary>A <see cref="RosterReceivedDatagram"/>: acknowledges that.</summary>
+    RosterReceived = 21,
 }

@@ -1,4 +1,6 @@
 using System;
+using System.Text;
+using LagSim.Net.Protection;
 
 namespace LagSim.Net.Wire;
 
@@ -6,8 +8,12 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread.</remarks>
 internal readonly struct JoinDatagram
 {
+    private readonly string? name;
+
     /// <summary>Creates a request from its fields.</summary>
-    public JoinDatagram(ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash, uint foldVersion, byte player = 0, Token128 playerProof = default)
+    public JoinDatagram(
+        ulong nonce, Token128 cookie, Token128 proof, ulong sceneHash, uint foldVersion, byte player = 0, Token128 playerProof = default,
+        byte role = 1, string? name = null)
     {
         Nonce = nonce;
         Cookie = cookie;
@@ -16,6 +22,8 @@ internal readonly struct JoinDatagram
         FoldVersion = foldVersion;
         Player = player;
         PlayerProof = playerProof;
+        Role = role;
+        this.name = name;
     }
 
     /// <summary>The <see cref="ConnectRequestDatagram.Nonce"/> of this attempt.</summary>
@@ -41,8 +49,20 @@ internal readonly struct JoinDatagram
     /// <summary>Proves that the client has that player's pass, without revealing it: a keyed hash of nonce and cookie.</summary>
     public Token128 PlayerProof { get; }
 
+    /// <summary>As what it takes part: 1 a player, 2 a spectator, 3 a bot.</summary>
+    public byte Role { get; }
+
+    /// <summary>What it calls itself; may be empty.</summary>
+    public string Name => name ?? "";
+
+    /// <summary>The encoded length of the claims.</summary>
+    internal int ClaimBytes => WireFormat.JoinClaimBytes + Encoding.UTF8.GetByteCount(Name);
+
+    /// <summary>The encoded length.</summary>
+    public int EncodedLength => WireFormat.JoinPrologueBytes + ClaimBytes;
+
     /// <summary>Writes the datagram.</summary>
-    /// <returns>Its length, <see cref="WireFormat.JoinBytes"/>.</returns>
+    /// <returns>Its length, <see cref="EncodedLength"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
     public int Encode(Span<byte> destination)
     {
@@ -62,7 +82,7 @@ internal readonly struct JoinDatagram
     }
 
     /// <summary>Writes what the client claims: all but nonce and cookie.</summary>
-    /// <returns>Its length, <see cref="WireFormat.JoinClaimBytes"/>.</returns>
+    /// <returns>Its length, <see cref="ClaimBytes"/>.</returns>
     internal int EncodeClaims(Span<byte> destination)
     {
         WireWriter writer = new(destination);
@@ -71,6 +91,8 @@ internal readonly struct JoinDatagram
         writer.WriteUInt32(FoldVersion);
         writer.WriteByte(Player);
         PlayerProof.Write(ref writer);
+        writer.WriteByte(Role);
+        WireText.Write(ref writer, Name);
         return writer.Position;
     }
 
@@ -81,22 +103,29 @@ internal readonly struct JoinDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out JoinDatagram join, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Join);
-        return TryReadClaims(ref reader, reader.ReadUInt64(), Token128.Read(ref reader), out join, out refusal);
+        join = ReadClaims(ref reader, reader.ReadUInt64(), Token128.Read(ref reader));
+        return reader.Finish(out refusal);
     }
 
-    /// <summary>Reads what a client claims in a <see cref="SecureJoinDatagram"/> of that nonce and cookie; never throws.</summary>
-    internal static bool TryDecodeClaims(ReadOnlySpan<byte> claims, ulong nonce, Token128 cookie, out JoinDatagram join)
+    /// <summary>
+    /// Reads what a client claims in a <see cref="SecureJoinDatagram"/> of that nonce and cookie, and how many bytes that took; never
+    /// throws. What follows is a connect token.
+    /// </summary>
+    internal static bool TryDecodeClaims(ReadOnlySpan<byte> claims, ulong nonce, Token128 cookie, out JoinDatagram join, out int length)
     {
         WireReader reader = new(claims);
-        return TryReadClaims(ref reader, nonce, cookie, out join, out _);
+        join = ReadClaims(ref reader, nonce, cookie);
+        length = claims.Length - reader.Remaining;
+        return reader.Refusal == WireRefusal.None && reader.Remaining <= IHostProtection.MaxTokenBytes;
     }
 
-    private static bool TryReadClaims(ref WireReader reader, ulong nonce, Token128 cookie, out JoinDatagram join, out WireRefusal refusal)
+    private static JoinDatagram ReadClaims(ref WireReader reader, ulong nonce, Token128 cookie)
     {
-        join = new JoinDatagram(
+        JoinDatagram join = new(
             nonce, cookie, Token128.Read(ref reader), reader.ReadUInt64(), reader.ReadUInt32(), reader.ReadByte(),
-            Token128.Read(ref reader));
+            Token128.Read(ref reader), reader.ReadByte(), RosterEntry.ReadName(ref reader));
         reader.Require(join.Player != 0 || join.PlayerProof == default);
-        return reader.Finish(out refusal);
+        reader.Require(join.Role is > RosterEntry.NoRole and <= RosterEntry.MaxRole);
+        return join;
     }
 }

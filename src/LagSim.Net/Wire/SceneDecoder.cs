@@ -64,7 +64,7 @@ internal ref struct SceneDecoder
         builder.WithRestitutionThreshold(reader.ReadDouble());
         builder.WithContactTolerance(reader.ReadDouble());
         builder.WithSmallestRadius(reader.ReadDouble());
-        builder.WithSpawners(PeerSet.FromMask(reader.ReadUInt16()));
+        builder.WithSpawners(ReadPeers(ref reader));
         ReadForces(builder);
         ReadPlanes(builder);
         ReadSpheres(builder);
@@ -184,7 +184,7 @@ internal ref struct SceneDecoder
             BodySpec spec = EventFormat.ReadSpec(ref reader);
             Vector3D position = reader.ReadVector();
             Vector3D velocity = reader.ReadVector();
-            PeerSet players = PeerSet.FromMask(reader.ReadUInt16());
+            PeerSet players = ReadPeers(ref reader);
             Vector3D spin = reader.ReadVector();
             if (IsSound && spec.Flight == MotionLaw.Automatic)
             {
@@ -326,6 +326,13 @@ internal ref struct SceneDecoder
         return null;
     }
 
+    private PeerSet ReadPeers(ref WireReader from)
+    {
+        uint mask = from.ReadUInt32();
+        from.Require(mask <= PeerSet.Everyone.Mask);
+        return PeerSet.FromMask(mask);
+    }
+
     private IAcceleration? Known(string name, int version)
     {
         IAcceleration? namesake = null;
@@ -387,7 +394,7 @@ internal ref struct SceneDecoder
             WireRefusal.TooLong => $"The scene takes {length} bytes; at most {SceneFormat.MaxBytes} are allowed.",
             WireRefusal.TooShort => $"The {length} bytes of the scene end within {what}.",
             WireRefusal.TrailingBytes => $"Of the scene's {length} bytes {reader.Remaining} follow its last part.",
-            _ => $"In {what} a number is not finite, a step is zero, or a name is not UTF-8.",
+            _ => $"In {what} a number is not finite, a step is zero, a set names a peer above 16, or a name is not UTF-8.",
         };
     }
 }

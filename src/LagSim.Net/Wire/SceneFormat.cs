@@ -32,12 +32,12 @@ internal static class SceneFormat
 
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
-    internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 2;
+    internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 4;
     internal const int SensorBytes = EventFormat.VectorBytes + 10; // shape, coverage, a vector and a number
     private const int RulesBytes = 9 + MaxTextBytes + 12; // seed, whether there are any; name, author's version, two sizes
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, five counts.
-    private const int HeadBytes = EventFormat.VectorBytes + 24 + 2 + 1 + (4 * 2);
+    private const int HeadBytes = EventFormat.VectorBytes + 24 + 4 + 1 + (4 * 2);
 
     /// <summary>Encodes a scene. Cost: O(n) in its parts.</summary>
     /// <exception cref="ArgumentException">
@@ -54,7 +54,7 @@ internal static class SceneFormat
         writer.WriteDouble(scene.RestitutionThreshold);
         writer.WriteDouble(scene.ContactTolerance);
         writer.WriteDouble(scene.SmallestRadius);
-        writer.WriteUInt16(scene.Spawners.Mask);
+        writer.WriteUInt32(scene.Spawners.Mask);
         writer.WriteByte((byte)scene.Forces.Count);
         foreach (Force force in scene.Forces)
         {
@@ -90,7 +90,7 @@ internal static class SceneFormat
             EventFormat.WriteSpec(ref writer, body.Spec);
             writer.WriteVector(body.Position);
             writer.WriteVector(body.Velocity);
-            writer.WriteUInt16(body.Players.Mask);
+            writer.WriteUInt32(body.Players.Mask);
             writer.WriteVector(body.Spin);
         }
 

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
@@ -9,12 +10,15 @@ namespace LagSim.Net.Wire;
 internal readonly struct SeatDatagram
 {
     /// <summary>Creates a place from its fields.</summary>
-    public SeatDatagram(ulong sessionId, byte peer, uint lastSequence, Token128 pass)
+    public SeatDatagram(
+        ulong sessionId, byte peer, uint lastSequence, Token128 pass, SimTime? earliest = null, ushort promiseMilliseconds = 0)
     {
         SessionId = sessionId;
         Peer = peer;
         LastSequence = lastSequence;
         Pass = pass;
+        Earliest = earliest ?? SimTime.MinValue;
+        PromiseMilliseconds = promiseMilliseconds;
     }
 
     /// <summary>The session.</summary>
@@ -28,6 +32,15 @@ internal readonly struct SeatDatagram
 
     /// <summary>Proves, after a silence, that the client is the same player: see <see cref="JoinDatagram.PlayerProof"/>. Secret.</summary>
     public Token128 Pass { get; }
+
+    /// <summary>The shared time before which the client stamps no event; <see cref="SimTime.MinValue"/> for none.</summary>
+    public SimTime Earliest { get; }
+
+    /// <summary>
+    /// The longest pause between the client's updates, each with a promise of how early its next event may be stamped, in ms; 0 for a host
+    /// that has no use for promises.
+    /// </summary>
+    public ushort PromiseMilliseconds { get; }
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.SeatBytes"/>.</returns>
@@ -46,6 +59,8 @@ internal readonly struct SeatDatagram
         writer.WriteByte(Peer);
         writer.WriteUInt32(LastSequence);
         Pass.Write(ref writer);
+        writer.WriteOptionalTime(Earliest);
+        writer.WriteUInt16(PromiseMilliseconds);
         return writer.Position;
     }
 
@@ -56,8 +71,11 @@ internal readonly struct SeatDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out SeatDatagram seat, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Seat);
-        seat = new SeatDatagram(reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), Token128.Read(ref reader));
+        seat = new SeatDatagram(
+            reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), Token128.Read(ref reader),
+            reader.ReadOptionalTime(), reader.ReadUInt16());
         reader.Require(seat.Peer != 0);
+        reader.Require((seat.Earliest == SimTime.MinValue) == (seat.PromiseMilliseconds == 0)); // both or none
         return reader.Finish(out refusal);
     }
 }

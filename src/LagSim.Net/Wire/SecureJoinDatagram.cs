@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 /// <remarks>Its bytes are those of the datagram it was read from; valid as long as those are.</remarks>
 internal readonly ref struct SecureJoinDatagram
 {
-    /// <summary>The length of a message without a connect token.</summary>
+    /// <summary>The length of a message without a name and a connect token.</summary>
     private const int LeastMessageBytes = IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes;
 
     private SecureJoinDatagram(ulong nonce, Token128 cookie, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message)
@@ -38,7 +38,7 @@ internal readonly ref struct SecureJoinDatagram
 
     /// <summary>Writes the datagram, whose message the handshake writes.</summary>
     /// <param name="destination">
-    /// At least <see cref="WireFormat.SecureJoinBytes"/>, and as many more as the token has.
+    /// At least <see cref="WireFormat.SecureJoinBytes"/>, and as many more as name and token have.
     /// </param>
     /// <param name="join">What the client claims.</param>
     /// <param name="token">Its connect token; empty for none.</param>
@@ -53,7 +53,7 @@ internal readonly ref struct SecureJoinDatagram
         Span<byte> shown = stackalloc byte[IHostProtection.IdentityBytes];
         WireWriter writer = new(shown);
         identity.Write(ref writer);
-        Span<byte> claims = stackalloc byte[WireFormat.JoinClaimBytes + token.Length];
+        Span<byte> claims = stackalloc byte[join.ClaimBytes + token.Length];
         token.CopyTo(claims.Slice(join.EncodeClaims(claims)));
         return protection.Begin(
             shown, prologue, claims, destination.Slice(prologue.Length, IHostProtection.HandshakeOverhead + claims.Length));
@@ -70,7 +70,7 @@ internal readonly ref struct SecureJoinDatagram
         Token128 cookie = Token128.Read(ref reader);
         int length = reader.Remaining;
         reader.Require(length >= LeastMessageBytes, WireRefusal.TooShort);
-        reader.Require(length <= LeastMessageBytes + IHostProtection.MaxTokenBytes, WireRefusal.TrailingBytes);
+        reader.Require(length <= LeastMessageBytes + RosterEntry.MaxNameBytes + IHostProtection.MaxTokenBytes, WireRefusal.TrailingBytes);
         ReadOnlySpan<byte> message = reader.ReadBytes(length);
         bool isOne = reader.Finish(out refusal);
         join = isOne ? new SecureJoinDatagram(nonce, cookie, datagram.Slice(0, WireFormat.JoinPrologueBytes), message) : default;

@@ -32,13 +32,13 @@ internal static class WireFormat
     /// <summary>The length of what a <see cref="JoinDatagram"/> begins with: header, nonce and cookie.</summary>
     public const int JoinPrologueBytes = 28;
 
-    /// <summary>The length of the rest of a <see cref="JoinDatagram"/>, and of the payload of a <see cref="SecureJoinDatagram"/>.</summary>
-    public const int JoinClaimBytes = 45;
+    /// <summary>The length of the rest of a <see cref="JoinDatagram"/> without a name, and of the payload of a <see cref="SecureJoinDatagram"/>.</summary>
+    public const int JoinClaimBytes = 47;
 
-    /// <summary>The length of a <see cref="JoinDatagram"/>.</summary>
+    /// <summary>The length of a <see cref="JoinDatagram"/> without a name.</summary>
     public const int JoinBytes = JoinPrologueBytes + JoinClaimBytes;
 
-    /// <summary>The length of a <see cref="SecureJoinDatagram"/> without a connect token.</summary>
+    /// <summary>The length of a <see cref="SecureJoinDatagram"/> without a name and a connect token.</summary>
     public const int SecureJoinBytes = JoinPrologueBytes + IHostProtection.HandshakeOverhead + JoinClaimBytes;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/> after its nonce.</summary>
@@ -65,7 +65,7 @@ internal static class WireFormat
     public const int ResetBytes = 29;
 
     /// <summary>The length of a <see cref="SeatDatagram"/>: shorter than any update.</summary>
-    public const int SeatBytes = 33;
+    public const int SeatBytes = 43;
 
     /// <summary>The length of a <see cref="MoveDatagram"/>.</summary>
     public const int MoveBytes = 29;
@@ -87,6 +87,12 @@ internal static class WireFormat
 
     /// <summary>The length of an <see cref="DesyncReportDatagram"/> without an event.</summary>
     public const int EmptyDesyncReportBytes = 21;
+
+    /// <summary>The length of a <see cref="RosterDatagram"/> without entries.</summary>
+    public const int EmptyRosterBytes = 25;
+
+    /// <summary>The length of a <see cref="RosterReceivedDatagram"/>.</summary>
+    public const int RosterReceivedBytes = 17;
 
     /// <summary>The length of an <see cref="UpdateDatagram"/> without start, state hash and entries.</summary>
     public const int EmptyUpdateBytes = 59;

@@ -9,11 +9,11 @@ namespace LagSim.Scenes;
 public readonly struct PeerSet : IEquatable<PeerSet>
 {
     /// <summary>The highest number that can be named.</summary>
-    public const int MaxPeer = 15;
+    public const int MaxPeer = 16;
 
-    private const int All = (1 << (MaxPeer + 1)) - 1;
+    private const uint All = (1u << (MaxPeer + 1)) - 1;
 
-    private PeerSet(ushort others) => Others = others;
+    private PeerSet(uint others) => Others = others;
 
     /// <summary>Every peer there is.</summary>
     public static PeerSet Everyone => default;
@@ -22,13 +22,17 @@ public readonly struct PeerSet : IEquatable<PeerSet>
     public static PeerSet Nobody => new(All);
 
     /// <summary>Bit n: peer n is not among them.</summary>
-    internal ushort Others { get; }
+    internal uint Others { get; }
+
+    /// <summary>What a scene's hash takes in of a set that is not <see cref="Everyone"/>: 49 bits.</summary>
+    /// <remarks>Peer 16 counts where it is among them, so that sets of the others have the hash they always had.</remarks>
+    internal ulong HashBits => (Others & 0xFFFF) | ((ulong)(~Others >> MaxPeer & 1) << 48);
 
     /// <summary>The peers of these numbers, 0 to <see cref="MaxPeer"/>; none gives <see cref="Nobody"/>.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A number is out of range.</exception>
     public static PeerSet Of(params int[] peers)
     {
-        int others = All;
+        uint others = All;
         foreach (int peer in peers ?? throw new ArgumentNullException(nameof(peers)))
         {
             if (peer is < 0 or > MaxPeer)
@@ -36,17 +40,17 @@ public readonly struct PeerSet : IEquatable<PeerSet>
                 throw new ArgumentOutOfRangeException(nameof(peers), peer, $"A peer that is granted a right has a number from 0 to {MaxPeer}.");
             }
 
-            others &= ~(1 << peer);
+            others &= ~(1u << peer);
         }
 
-        return new PeerSet((ushort)others);
+        return new PeerSet(others);
     }
 
     /// <summary>The set with bit n of the mask for peer n, as <see cref="Mask"/> gives it.</summary>
-    public static PeerSet FromMask(ushort mask) => new((ushort)(All & ~mask));
+    public static PeerSet FromMask(uint mask) => new(All & ~mask);
 
     /// <summary>Bit n: peer n is among them.</summary>
-    public ushort Mask => (ushort)(All & ~Others);
+    public uint Mask => All & ~Others;
 
     /// <summary>Whether that peer is among them; above <see cref="MaxPeer"/> only <see cref="Everyone"/> has any.</summary>
     public bool Contains(int peer) => peer >= 0 && (peer <= MaxPeer ? (Others >> peer & 1) == 0 : Others == 0);
@@ -58,7 +62,7 @@ public readonly struct PeerSet : IEquatable<PeerSet>
     public override bool Equals(object? obj) => obj is PeerSet other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => Others;
+    public override int GetHashCode() => (int)Others;
 
     /// <summary>Same peers.</summary>
     public static bool operator ==(PeerSet a, PeerSet b) => a.Equals(b);

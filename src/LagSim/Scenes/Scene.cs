@@ -343,14 +343,14 @@ public sealed class Scene
     {
         if (Spawners != PeerSet.Everyone)
         {
-            hash.Add((ulong)Spawners.Others | (1UL << 63));
+            hash.Add(Spawners.HashBits | (1UL << 63));
         }
 
         for (int i = 0; i < BodyArray.Length; i++)
         {
             if (BodyArray[i].Players != PeerSet.Everyone)
             {
-                hash.Add(BodyArray[i].Players.Others | ((ulong)(uint)i << 16) | (1UL << 62));
+                hash.Add(BodyArray[i].Players.HashBits | ((ulong)(uint)i << 16) | (1UL << 62));
             }
         }
     }

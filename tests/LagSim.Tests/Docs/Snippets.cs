@@ -82,7 +82,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         // where the world is
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
 
-        // up to eight others join, at any time; the scene comes from the host
+        // up to sixteen others join, at any time; the scene comes from the host
         using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
         if (!peer.WaitUntilRunning(TimeSpan.FromSeconds(15)))
         {
@@ -103,14 +103,17 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
-    internal async Task Spawn(PeerThread peer, ConcurrentQueue<(byte Player, bool IsHere)> arrivals, Vector3D position, Vector3D velocity)
+    internal async Task Spawn(PeerThread peer, ConcurrentQueue<RosterChange> changes, Vector3D position, Vector3D velocity)
     {
-        // who is here; called on the session's thread, so hand it on to your own
-        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, setUp: session =>
+        // on host and clients alike: how this peer is called, and who comes and goes; called on the session's thread, so hand it on to your own
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Name = "Hedy" }, setUp: session =>
+            session.RosterChanged += change => changes.Enqueue(change));
+
+        // each frame, or whenever you like: who is here, on any thread
+        foreach (RosterMember one in peer.Session.Roster)
         {
-            session.ClientCame += link => arrivals.Enqueue((link.Peer, true));
-            session.ClientGone += link => arrivals.Enqueue((link.Peer, false));
-        });
+            DrawName(one.Number, one.Name, isWatching: one.Role == PeerRole.Spectator, isSilent: one.SilentSince is not null);
+        }
 
         // this player fires; the answer has the new body's identity
         ExternalEvent shot = await peer.Do(PlayerAction.Spawn(new BodySpec(radius: 0.05, mass: 0.02, restitution: 0.5), position, velocity));
@@ -257,6 +260,9 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     private void Draw(Vector3D place) => show(place);
 
     private void DrawBall(Vector3D place, double radius, bool isOwn) => show(isOwn ? place * radius : place);
+
+    private void DrawName(byte number, string name, bool isWatching, bool isSilent) =>
+        show(new Vector3D(number, name.Length, isWatching || isSilent ? 1 : 0));
 
     private void DrawHand(Vector3D place) => show(place);
 

@@ -33,7 +33,7 @@ internal static class SceneGen
         from normal in Direction from point in Within(1e11) select (normal, point);
 
     private static readonly Gen<PeerSet> Peers = Gen.OneOf(
-        Gen.Elements(PeerSet.Everyone, PeerSet.Nobody), Gen.Choose(0, ushort.MaxValue).Select(mask => PeerSet.FromMask((ushort)mask)));
+        Gen.Elements(PeerSet.Everyone, PeerSet.Nobody), Gen.Choose(0, (int)PeerSet.Everyone.Mask).Select(mask => PeerSet.FromMask((uint)mask)));
 
     /// <summary>Any scene without supplied accelerations. Its planes lie far below, so that nothing overlaps at the start.</summary>
     internal static readonly Gen<Scene> Any =

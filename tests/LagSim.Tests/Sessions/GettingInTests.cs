@@ -23,7 +23,7 @@ public sealed class GettingInTests
     public void SessionId_OfAClient_TellsNothingOfAnothers()
     {
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
-        ulong[] ids = Enumerable.Range(100, 8).Select(address => new RawClient(group, address).SessionId).ToArray();
+        ulong[] ids = Enumerable.Range(100, SessionOptions.MaxClients).Select(address => new RawClient(group, address).SessionId).ToArray();
         Assert.Equal(8, ids.Distinct().Count());
         Assert.DoesNotContain(ids, id => ids.Any(other => id != other && (id ^ other) <= uint.MaxValue));
 
@@ -94,8 +94,8 @@ public sealed class GettingInTests
     public void Join_WhereSilentOnesHaveAllPlaces_IsLetInOnceTheyAreGivenUp()
     {
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.PureDelay(1)).Connect();
-        RawClient[] silent = Enumerable.Range(100, 8).Select(address => new RawClient(group, address)).ToArray();
-        Assert.Equal(8, silent.Select(s => s.Peer).Distinct().Count());
+        RawClient[] silent = Enumerable.Range(100, SessionOptions.MaxClients).Select(address => new RawClient(group, address)).ToArray();
+        Assert.Equal(SessionOptions.MaxClients, silent.Select(s => s.Peer).Distinct().Count());
         ClientSession early = group.Join(7, 99);
         Assert.True(group.RunUntil(() => early.State == SessionState.Ended, 1));
         Assert.Equal("The host at virtual:0 refused: the session is full.", early.EndReason);
@@ -155,7 +155,7 @@ public sealed class GettingInTests
     }
 
     [Theory]
-    [InlineData(9, "x")]
+    [InlineData(17, "x")]
     [InlineData(0, "x")]
     [InlineData(1, "")]
     [InlineData(1, "the connect key")]

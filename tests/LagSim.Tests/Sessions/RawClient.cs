@@ -16,12 +16,14 @@ internal sealed class RawClient
     private readonly SessionGroup group;
     private readonly IDatagramPort port;
     private readonly byte[] buffer = new byte[WireFormat.MaxBytes];
+    private readonly byte role;
     private Token128 cookie;
     private uint number;
 
-    internal RawClient(SessionGroup group, int address = 50, bool sits = true)
+    internal RawClient(SessionGroup group, int address = 50, bool sits = true, byte role = 1)
     {
         this.group = group;
+        this.role = role;
         group.Network.Connect(address, 0, LinkProfiles.PureDelay(1));
         port = group.Network.CreatePort(address);
         if (sits)
@@ -86,12 +88,12 @@ internal sealed class RawClient
     {
         Received();
         byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.Hash, (uint)Simulation.FoldVersion).Encode(bytes);
+        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.Hash, (uint)Simulation.FoldVersion, role: role).Encode(bytes);
         Send(bytes);
         group.Run(0.01);
         while (port.TryReceive(buffer, out _, out _))
         {
-            if ((DatagramType)buffer[3] is not (DatagramType.Update or DatagramType.Leave)) // of a former link
+            if ((DatagramType)buffer[3] is not (DatagramType.Update or DatagramType.Leave or DatagramType.Roster)) // of a former link
             {
                 return (DatagramType)buffer[3];
             }
@@ -160,6 +162,19 @@ internal sealed class RawClient
         byte[] bytes = new byte[update.EncodedLength];
         update.Encode(bytes);
         return bytes;
+    }
+
+    /// <summary>An update without events that promises to stamp nothing earlier from that number on; sent and delivered.</summary>
+    internal void Promise(uint firstIndex, SimTime earliest)
+    {
+        UpdateDatagram update = new()
+        {
+            SessionId = SessionId, Peer = Peer, Number = ++number, Sent = SimTime.FromSeconds(number), FirstIndex = firstIndex, Ready = true, Watermark = earliest,
+        };
+        byte[] bytes = new byte[update.EncodedLength];
+        update.Encode(bytes);
+        Send(bytes);
+        group.Run(0.01);
     }
 
     internal void Send(byte[] datagram) => port.Send(datagram, PeerAddress.Virtual(0));

@@ -70,8 +70,8 @@ public sealed class RightsTests
 
         Assert.Equal(("0, 3, 15", "nobody", "everyone"), ($"{some}", $"{PeerSet.Of()}", $"{default(PeerSet)}"));
         Assert.Equal(some, PeerSet.FromMask(some.Mask));
-        Assert.Equal(PeerSet.Everyone, PeerSet.FromMask(ushort.MaxValue));
-        Assert.Throws<ArgumentOutOfRangeException>(() => PeerSet.Of(16));
+        Assert.Equal(PeerSet.Everyone, PeerSet.FromMask(uint.MaxValue));
+        Assert.Throws<ArgumentOutOfRangeException>(() => PeerSet.Of(17));
         Assert.Throws<ArgumentOutOfRangeException>(() => PeerSet.Of(-1));
     }
 

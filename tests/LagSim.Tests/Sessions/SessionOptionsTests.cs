@@ -21,7 +21,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class SessionOptionsTests
 {
     private static readonly string[] OfHosts =
-        ["ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "StartLead"];
+        ["ConfirmsEarly", "ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "SpectatorPlaces", "StartLead"];
 
     private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection", "Token"];
 
@@ -29,6 +29,8 @@ public sealed class SessionOptionsTests
 
     private static readonly ClientOptions Changed = new()
     {
+        Name = "Ann",
+        Role = PeerRole.Bot,
         ConnectKey = "secret",
         RejoinTime = SimDuration.FromSeconds(3),
         MaxGivenSpeed = 5,
@@ -57,7 +59,7 @@ public sealed class SessionOptionsTests
         ["CommitInterval"] = new ClientOptions { CommitInterval = Long },
         ["ConnectKey"] = new ClientOptions { ConnectKey = new string('x', 257) },
         ["DisplayDelay"] = new ClientOptions { DisplayDelay = Long },
-        ["ExpectedClients"] = new HostOptions { ExpectedClients = 9 },
+        ["ExpectedClients"] = new HostOptions { ExpectedClients = 17 },
         ["ExtraHistory"] = new ClientOptions { ExtraHistory = Long },
         ["KeepAlive"] = new ClientOptions { KeepAlive = Long },
         ["MaxClientsPerAddress"] = new HostOptions { MaxClientsPerAddress = 0 },
@@ -65,10 +67,13 @@ public sealed class SessionOptionsTests
         ["MaxGivenSpeed"] = new HostOptions { MaxGivenSpeed = double.NaN },
         ["MaxSegments"] = new ClientOptions { MaxSegments = 0 },
         ["MaxSpawned"] = new ClientOptions { MaxSpawned = -1 },
-        ["PlayerKeys"] = new HostOptions { PlayerKeys = new Dictionary<byte, string> { [9] = "nine" } },
+        ["Name"] = new ClientOptions { Name = "a\nb" },
+        ["PlayerKeys"] = new HostOptions { PlayerKeys = new Dictionary<byte, string> { [17] = "seventeen" } },
         ["RejoinTime"] = new ClientOptions { RejoinTime = Long },
         ["RenderedPast"] = new ClientOptions { RenderedPast = Long },
         ["ResendInterval"] = new ClientOptions { ResendInterval = Long },
+        ["Role"] = new ClientOptions { Role = 0 },
+        ["SpectatorPlaces"] = new HostOptions { SpectatorPlaces = 33 },
         ["StartLead"] = new HostOptions { StartLead = Long },
         ["Timeout"] = new ClientOptions { Timeout = Long },
         ["Window"] = new ClientOptions { Window = null! },

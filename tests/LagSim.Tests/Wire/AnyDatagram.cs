@@ -80,6 +80,11 @@ internal static class AnyDatagram
                 return SecureAnswerDatagram.TryDecode(bytes, type, out SecureAnswerDatagram said, out refusal) ? SecureAnswerBytes(type, said.Nonce, said.Message) : null;
             case DatagramType.Sealed:
                 return SealedDatagram.TryDecode(bytes, out SealedDatagram closed, out refusal) ? SealedBytes(closed.SessionId, closed.Number, closed.Body) : null;
+            case DatagramType.Roster:
+                RosterDatagram roster = new();
+                return roster.TryDecode(bytes, out refusal) ? Bytes(roster.Encode) : null;
+            case DatagramType.RosterReceived:
+                return RosterReceivedDatagram.TryDecode(bytes, out RosterReceivedDatagram received, out refusal) ? Bytes(received.Encode) : null;
             case DatagramType.DesyncReport:
                 return DesyncReportDatagram.TryDecode(bytes, out DesyncReportDatagram report, out refusal) ? Bytes(report.Encode) : null;
             default:

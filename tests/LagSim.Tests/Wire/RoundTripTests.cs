@@ -59,7 +59,27 @@ public class RoundTripTests
     [Fact]
     public void Encode_AnySeat_DecodesToTheSame() => Holds(WireGen.Seat, seat =>
         SeatDatagram.TryDecode(AnyDatagram.Bytes(seat.Encode), out SeatDatagram again, out _)
-        && (again.SessionId, again.Peer, again.LastSequence, again.Pass) == (seat.SessionId, seat.Peer, seat.LastSequence, seat.Pass));
+        && (again.SessionId, again.Peer, again.LastSequence, again.Pass) == (seat.SessionId, seat.Peer, seat.LastSequence, seat.Pass)
+        && (again.Earliest, again.PromiseMilliseconds) == (seat.Earliest, seat.PromiseMilliseconds));
+
+    [Fact]
+    public void Encode_AnyRoster_DecodesToTheSame()
+    {
+        RosterDatagram again = new();
+        Holds(WireGen.Roster, roster =>
+        {
+            byte[] bytes = AnyDatagram.Bytes(roster.Encode);
+            return bytes.Length == roster.EncodedLength && again.TryDecode(bytes, out _)
+                && (again.SessionId, again.After, again.UpTo, again.Newest) == (roster.SessionId, roster.After, roster.UpTo, roster.Newest)
+                && again.Entries.ToArray().Zip(roster.Entries.ToArray(), (a, b) => a.IsSame(b)).All(same => same)
+                && again.Entries.Length == roster.Entries.Length;
+        });
+    }
+
+    [Fact]
+    public void Encode_AnyRosterReceived_DecodesToTheSame() => Holds(WireGen.RosterReceived, received =>
+        RosterReceivedDatagram.TryDecode(AnyDatagram.Bytes(received.Encode), out RosterReceivedDatagram again, out _)
+        && (again.SessionId, again.Peer, again.Revision) == (received.SessionId, received.Peer, received.Revision));
 
     [Fact]
     public void Encode_AnyMove_DecodesToTheSame() => Holds(WireGen.Move, move =>
@@ -92,11 +112,11 @@ public class RoundTripTests
     public void Encode_Join_GivesTheDocumentedBytes()
     {
         byte[] bytes = AnyDatagram.Bytes(
-            new JoinDatagram(0x0102030405060708, new Token128(Counting(1)), new Token128(Counting(0x41)), 0x2200000000000000, 0x01020304, 5, new Token128(Counting(0x61))).Encode);
+            new JoinDatagram(0x0102030405060708, new Token128(Counting(1)), new Token128(Counting(0x41)), 0x2200000000000000, 0x01020304, 5, new Token128(Counting(0x61)), 2, "Zoë").Encode);
 
         Assert.Equal(
             "534C0A07" + "0807060504030201" + "0102030405060708090A0B0C0D0E0F10" + "4142434445464748494A4B4C4D4E4F50" + "0000000000000022"
-            + "04030201" + "05" + "6162636465666768696A6B6C6D6E6F70",
+            + "04030201" + "05" + "6162636465666768696A6B6C6D6E6F70" + "02" + "045A6FC3AB",
             Convert.ToHexString(bytes));
 
         static byte[] Counting(int from) => Enumerable.Range(from, Token128.Bytes).Select(value => (byte)value).ToArray();
@@ -132,6 +152,8 @@ public class RoundTripTests
         Assert.Equal(WireFormat.RefusalBytes, AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode).Length);
         Assert.Equal(WireFormat.LeaveBytes, AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode).Length);
         Assert.Equal(WireFormat.SeatBytes, AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default).Encode).Length);
+        Assert.Equal(WireFormat.EmptyRosterBytes, AnyDatagram.Bytes(new RosterDatagram().Encode).Length);
+        Assert.Equal(WireFormat.RosterReceivedBytes, AnyDatagram.Bytes(default(RosterReceivedDatagram).Encode).Length);
         Assert.Equal(WireFormat.MoveBytes, AnyDatagram.Bytes(default(MoveDatagram).Encode).Length);
         Assert.Equal(WireFormat.EmptyUpdateBytes + WireFormat.StartBytes, AnyDatagram.Bytes(new UpdateDatagram { Start = SimTime.Zero }.Encode).Length);
         Assert.Equal(WireFormat.EmptyUpdateBytes, AnyDatagram.Bytes(new UpdateDatagram().Encode).Length);

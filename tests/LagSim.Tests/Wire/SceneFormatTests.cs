@@ -23,22 +23,23 @@ public sealed class SceneFormatTests
     private const int ToleranceOfContactAt = 35;
     private const int SmallestAt = 43;
     private const int SpawnersAt = 51;
-    private const int ForcesAt = 53;
-    private const int PlanesAt = 54;
-    private const int PlaneNameAt = 56;
-    private const int NormalAt = 58;
-    private const int SpheresAt = 114;
-    private const int BodiesAt = 174;
-    private const int BodyNameAt = 177;
-    private const int RestitutionAt = 194;
-    private const int FlightAt = 202;
-    private const int StepAt = 203;
-    private const int SpecForcesAt = 211;
-    private const int ToleranceAt = 215;
-    private const int PositionAt = 255;
-    private const int VelocityAt = 279;
-    private const int PlayersAt = 303;
-    private const int Length = 329;
+    private const int ForcesAt = 55;
+    private const int PlanesAt = 56;
+    private const int PlaneNameAt = 58;
+    private const int NormalAt = 60;
+    private const int SpheresAt = 116;
+    private const int BodiesAt = 176;
+    private const int BodyNameAt = 179;
+    private const int RestitutionAt = 196;
+    private const int FlightAt = 204;
+    private const int StepAt = 205;
+    private const int SpecForcesAt = 213;
+    private const int ToleranceAt = 217;
+    private const int PositionAt = 257;
+    private const int VelocityAt = 281;
+    private const int PlayersAt = 305;
+    private const int SensorsAt = 333;
+    private const int Length = 344;
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -92,16 +93,16 @@ public sealed class SceneFormatTests
     [Fact]
     public void Encode_Rights_AreTheBitsOfThePeersThatHaveThem()
     {
-        Assert.Equal([0xFF, 0xFF], SceneFormat.Encode(One())[PlayersAt..(PlayersAt + 2)]);
+        Assert.Equal([0xFF, 0xFF, 0x01, 0x00], SceneFormat.Encode(One())[PlayersAt..(PlayersAt + 4)]);
         Scene scene = new SceneBuilder("s").WithSpawners(PeerSet.Of(1, 9)).AddBody("b", Ball(), V(0), players: PeerSet.Nobody)
-            .AddBody("c", Ball(), V(3), players: PeerSet.Of(0, 15)).Build();
+            .AddBody("c", Ball(), V(3), players: PeerSet.Of(0, 16)).Build();
         byte[] bytes = SceneFormat.Encode(scene);
         Scene again = Decoded(bytes);
 
-        Assert.Equal([0x02, 0x02], bytes[SpawnersAt..ForcesAt]);
-        Assert.Equal([0x01, 0x80], bytes[^26..^24]); // its spin follows
+        Assert.Equal([0x02, 0x02, 0x00, 0x00], bytes[SpawnersAt..ForcesAt]);
+        Assert.Equal([0x01, 0x00, 0x01, 0x00], bytes[^28..^24]); // its spin follows
         Assert.Equal(PeerSet.Of(1, 9), again.Spawners);
-        Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 15)], again.Bodies.Select(b => b.Players));
+        Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 16)], again.Bodies.Select(b => b.Players));
     }
 
     [Fact]
@@ -115,14 +116,15 @@ public sealed class SceneFormatTests
         }
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
-        Refused(whole.AsSpan(0, PlanesAt), "The 54 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 328 bytes of the scene end within body 1 of the scene.");
-        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 152 bytes or more, and has 151 bytes left");
+        Refused(whole.AsSpan(0, PlanesAt), "The 56 bytes of the scene end within the scene's plane count.");
+        Refused(whole.AsSpan(0, Length - 1), "The 343 bytes of the scene end within the scene's rules.");
+        Refused(whole.AsSpan(0, SensorsAt - 1), "The 332 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, SensorsAt - 2), "announces 1 parts of the kind 'body', of 154 bytes or more, and has 153 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 330 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 345 bytes of the scene end within the scene's periodic box.");
         }
     }
 
@@ -179,6 +181,8 @@ public sealed class SceneFormatTests
         Refused(WithByte(FlightAt, 3), "The motion law of body 'b' is Sliding;");
         Refused(WithByte(SpecForcesAt, 1), "names force 0, counted from 0, but the scene has none");
         Refused(With(ToleranceAt, 2), "The tolerance of body 'b' is 2;");
+        Refused(WithByte(SpawnersAt + 2, 2), "In the scene's head a number is not"); // a peer there cannot be
+        Refused(WithByte(PlayersAt + 3, 0x80), "In body 1 of the scene a number is not");
         Refused(WithInt64(StepAt, 5), "The integrator step of body 'b' is");
     }
 
@@ -196,7 +200,7 @@ public sealed class SceneFormatTests
         Scene scene = new SceneBuilder("s").AddForce(Force.QuadraticDrag("a", 0.1), out ForceSet air)
             .AddBody("b", new BodySpec(0.5, 1, 0.5, forces: air), V(1)).Build();
         byte[] bytes = SceneFormat.Encode(scene);
-        int spec = bytes.Length - 24 - 2 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it
+        int spec = bytes.Length - 24 - 4 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it
         Assert.Equal((byte)MotionLaw.DormandPrince54, bytes[spec + 24]); // after radius, mass and restitution
         bytes[spec + 24] = (byte)MotionLaw.Automatic;
         Refused(bytes, "Body 1 of the scene leaves its law of flight open");
@@ -226,7 +230,7 @@ public sealed class SceneFormatTests
     [Fact]
     public void TryDecode_NameNotUtf8_IsRefused()
     {
-        Refused(WithByte(PlaneNameAt + 1, 0x80), "In plane 1 of the scene a number is not finite, a step is zero, or a name is not UTF-8.");
+        Refused(WithByte(PlaneNameAt + 1, 0x80), "In plane 1 of the scene a number is not finite, a step is zero, a set names a peer above 16, or a name is not UTF-8.");
         Refused(WithByte(2, 0xFF), "In the scene's head");
         Refused(WithByte(PlaneNameAt + 1, 0xC3), "In plane 1"); // the first half of a character
     }

@@ -154,8 +154,8 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, WireFormat.Version - 1, 1);
         AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 20);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 19);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 22);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 21);
     }
 
     [Fact]
@@ -184,8 +184,32 @@ public class ValueRangeTests
         seat[12] = 0;
         AssertRefused(seat);
         byte[] join = AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3).Encode);
-        join[^1] = 1; // a proof of no player
+        join[^3] = 1; // a proof of no player
         AssertRefused(join);
+        foreach (byte role in new byte[] { 0, 4, 255 })
+        {
+            AssertRefused(AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3, role: role).Encode));
+        }
+
+        foreach (string name in new[] { "a\tb", "\u0007", new string('m', RosterEntry.MaxNameBytes + 1) })
+        {
+            AssertRefused(AnyDatagram.Bytes(new JoinDatagram(1, default, default, 2, 3, name: name).Encode));
+            RosterDatagram roster = new() { SessionId = 1, UpTo = 1, Newest = 1 };
+            roster.TryAdd(new RosterEntry(1, 1, 1, SimTime.MinValue, name));
+            AssertRefused(AnyDatagram.Bytes(roster.Encode));
+        }
+
+        foreach ((uint after, uint upTo, uint newest) in new[] { (0u, 0u, 1u), (2u, 1u, 3u), (0u, 2u, 1u) })
+        {
+            RosterDatagram roster = new() { SessionId = 1, After = after, UpTo = upTo, Newest = newest };
+            roster.TryAdd(new RosterEntry(1));
+            AssertRefused(AnyDatagram.Bytes(roster.Encode));
+        }
+
+        AssertRefused(AnyDatagram.Bytes(new RosterDatagram { SessionId = 1, UpTo = 1, Newest = 1 }.Encode)); // of nobody
+        byte[] half = AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default, SimTime.Zero, 1).Encode);
+        half[^2] = 0; // an earliest stamp, and no promise
+        AssertRefused(half);
         foreach (byte reason in new byte[] { 0, 17, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);

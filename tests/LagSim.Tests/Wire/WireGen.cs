@@ -96,6 +96,9 @@ internal static class WireGen
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };
 
+    internal static readonly Gen<string> Name = Gen.Elements(
+        "", "a", "Ann", "Zoë", "日本の人", new string('m', Net.Wire.RosterEntry.MaxNameBytes), new string('ä', Net.Wire.RosterEntry.MaxNameBytes / 2), "🎱🎱");
+
     internal static readonly Gen<Token128> Token = Gen.ArrayOf(Byte, Token128.Bytes).Select(bytes => new Token128(bytes));
 
     internal static readonly Gen<ConnectRequestDatagram> ConnectRequest = Bits64.Select(nonce => new ConnectRequestDatagram(nonce));
@@ -145,10 +148,41 @@ internal static class WireGen
         from fold in Bits32
         from player in Byte
         from playerProof in Token
-        select new JoinDatagram(nonce, cookie, proof, scene, fold, player, player == 0 ? default : playerProof);
+        from role in Gen.Choose(1, 3)
+        from name in Name
+        select new JoinDatagram(nonce, cookie, proof, scene, fold, player, player == 0 ? default : playerProof, (byte)role, name);
 
     internal static readonly Gen<SeatDatagram> Seat =
-        from session in Bits64 from peer in Gen.Choose(1, 255) from sequence in Bits32 from pass in Token select new SeatDatagram(session, (byte)peer, sequence, pass);
+        from session in Bits64
+        from peer in Gen.Choose(1, 255)
+        from sequence in Bits32
+        from pass in Token
+        from earliest in OptionalTime
+        from promise in Gen.Choose(1, ushort.MaxValue)
+        select earliest == SimTime.MinValue
+            ? new SeatDatagram(session, (byte)peer, sequence, pass)
+            : new SeatDatagram(session, (byte)peer, sequence, pass, earliest, (ushort)promise);
+
+    internal static readonly Gen<RosterEntry> RosterEntry =
+        from number in Byte
+        from role in Gen.Choose(0, Net.Wire.RosterEntry.MaxRole)
+        from visit in Bits32
+        from silent in OptionalTime
+        from name in Name
+        select role == 0 ? new RosterEntry(number) : new RosterEntry(number, (byte)role, visit, silent, name);
+
+    internal static readonly Gen<RosterDatagram> Roster =
+        from session in Bits64
+        from after in Gen.Choose(0, 1000)
+        from more in Gen.Choose(1, 1000)
+        from rest in Gen.Choose(0, 1000)
+        from count in Gen.Choose(1, 20)
+        from entries in Gen.ArrayOf(RosterEntry, count)
+        select Fill(
+            new RosterDatagram { SessionId = session, After = (uint)after, UpTo = (uint)(after + more), Newest = (uint)(after + more + rest) }, entries);
+
+    internal static readonly Gen<RosterReceivedDatagram> RosterReceived =
+        from session in Bits64 from peer in Byte from revision in Bits32 select new RosterReceivedDatagram(session, peer, revision);
 
     internal static readonly Gen<MoveDatagram> Move =
         from session in Bits64 from peer in Byte from cookie in Token select new MoveDatagram(session, peer, cookie);
@@ -210,6 +244,16 @@ internal static class WireGen
             events,
             (Verdict)verdict,
             own);
+
+    private static RosterDatagram Fill(RosterDatagram roster, RosterEntry[] entries)
+    {
+        foreach (RosterEntry entry in entries)
+        {
+            roster.TryAdd(entry);
+        }
+
+        return roster;
+    }
 
     private static UpdateDatagram Fill(UpdateDatagram update, SimTime hashTime, ulong hash, int hashes, ExternalEvent[] events, Verdict verdict, int own)
     {

@@ -34,7 +34,7 @@ public sealed class WirePageTests
             checkedOnes++;
         }
 
-        Assert.Equal(19 * 60, checkedOnes);
+        Assert.Equal(21 * 60, checkedOnes);
     }
 
     [Fact]
@@ -78,7 +78,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 12 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 29 + 5, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 12 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 30 + 5 + 4 + 10 + 3 + 3, rows);
     }
 
     [Fact]
@@ -106,6 +106,8 @@ public sealed class WirePageTests
             [DatagramType.SecureWelcome] = WireFormat.SecureWelcomeBytes,
             [DatagramType.SecureRefusal] = WireFormat.SecureRefusalBytes,
             [DatagramType.Reset] = WireFormat.ResetBytes,
+            [DatagramType.Roster] = WireFormat.EmptyRosterBytes + RosterEntry.GoneBytes,
+            [DatagramType.RosterReceived] = WireFormat.RosterReceivedBytes,
             [DatagramType.Sealed] = SealedDatagram.PrologueBytes + 1 + IDatagramCipher.TagBytes,
         };
         foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type != DatagramType.None))
@@ -244,9 +246,9 @@ public sealed class WirePageTests
                 page, DatagramType.SecureJoin, ("nonce", nonce), ("cookie", cookie), ("message", identity)));
             yield return (AnyDatagram.SealedBytes(nonce, nonce >> 16, cookie), page => Datagram(
                 page, DatagramType.Sealed, ("session id", nonce), ("number", (uint)(nonce >> 16)), ("more number", (ushort)(nonce >> 48)), ("body", cookie)));
-            yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce, (uint)nonce, 7, new Token128(cookie)).Encode), page => Datagram(
+            yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce, (uint)nonce, 7, new Token128(cookie), 3, "Zoë").Encode), page => Datagram(
                 page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce),
-                ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie)));
+                ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie), ("role", 3), ("name", "Zoë")));
             yield return (AnyDatagram.ChunkBytes(nonce, 77, cookie), page => Datagram(
                 page, DatagramType.SnapshotChunk, ("session id", nonce), ("index", 77), ("data", cookie)));
         }
@@ -255,7 +257,19 @@ public sealed class WirePageTests
         {
             byte[] bytes = AnyDatagram.Bytes(d.Encode);
             yield return (bytes, page => Datagram(
-                page, DatagramType.Seat, ("session id", d.SessionId), ("peer", d.Peer), ("last sequence", d.LastSequence), ("pass", bytes[^16..])));
+                page, DatagramType.Seat, ("session id", d.SessionId), ("peer", d.Peer), ("last sequence", d.LastSequence), ("pass", bytes[17..33]),
+                ("earliest", d.Earliest), ("promise", d.PromiseMilliseconds)));
+        }
+
+        foreach (RosterDatagram d in Sample(WireGen.Roster, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Roster(page, d));
+        }
+
+        foreach (RosterReceivedDatagram d in Sample(WireGen.RosterReceived, each))
+        {
+            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
+                page, DatagramType.RosterReceived, ("session id", d.SessionId), ("peer", d.Peer), ("revision", d.Revision)));
         }
 
         foreach (MoveDatagram d in Sample(WireGen.Move, each))
@@ -304,6 +318,27 @@ public sealed class WirePageTests
         Write(bytes, rows, Values(
             ("session id", d.SessionId), ("whole", d.IsWhole ? 1 : 0), ("total", d.Total), ("index", d.Index), ("log index", d.LogIndex),
             ("event", d.Total > 0 ? Event(page, d.Event) : [])));
+        return bytes.ToArray();
+    }
+
+    private static byte[] Roster(string[] page, RosterDatagram d)
+    {
+        LayoutRow[] rows = Table(page, "## 20 Roster");
+        int head = Array.FindIndex(rows, row => row.Field == "count") + 1;
+        MemoryStream bytes = new();
+        Header(bytes, page, DatagramType.Roster);
+        Write(bytes, rows[..head], Values(
+            ("session id", d.SessionId), ("after", d.After), ("up to", d.UpTo), ("newest", d.Newest), ("count", d.Entries.Length)));
+        foreach (RosterEntry entry in d.Entries)
+        {
+            Write(
+                bytes,
+                rows[head..].Where(row => entry.Role != RosterEntry.NoRole || !row.Value.Contains("only with a role", StringComparison.Ordinal)),
+                Values(
+                    ("entry number", entry.Number), ("entry role", entry.Role), ("entry visit", entry.Visit),
+                    ("entry silent since", entry.SilentSince), ("entry name", entry.Name)));
+        }
+
         return bytes.ToArray();
     }
 

@@ -87,7 +87,7 @@ public sealed class HostileDatagrams
     {
         byte[] bytes = Noise();
         byte version = Below(8) == 0 ? (byte)Below(256) : WireFormat.Version;
-        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below((int)DatagramType.Sealed + 2)];
+        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below((int)DatagramType.RosterReceived + 2)];
         head.AsSpan(0, Math.Min(head.Length, bytes.Length)).CopyTo(bytes);
         return bytes;
     }
@@ -128,7 +128,7 @@ public sealed class HostileDatagrams
     /// <summary>Returns a valid form with random values, sometimes with the session number of a real datagram.</summary>
     private byte[] MadeUp()
     {
-        int length = Below(14) switch
+        int length = Below(16) switch
         {
             0 => new ConnectRequestDatagram(random.NextUInt64()).Encode(buffer),
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
@@ -140,11 +140,13 @@ public sealed class HostileDatagrams
             6 => new DesyncQueryDatagram(
                 Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
             7 => DesyncReport().Encode(buffer),
-            8 => new SeatDatagram(Session(), (byte)(1 + Below(9)), (uint)Below(9), Token()).Encode(buffer),
+            8 => Seat().Encode(buffer),
             9 => new MoveDatagram(Session(), (byte)Below(10), Token()).Encode(buffer),
             10 => new MoveChallengeDatagram(Session(), Token()).Encode(buffer),
             11 => new ResetDatagram(Session(), (LeaveReason)(1 + Below(7)), Token()).Encode(buffer),
             12 => Sealed(),
+            13 => Roster().Encode(buffer),
+            14 => new RosterReceivedDatagram(Session(), (byte)Below(10), (uint)Below(20)).Encode(buffer),
             _ => Update().Encode(buffer),
         };
         return buffer.AsSpan(0, length).ToArray();
@@ -170,7 +172,25 @@ public sealed class HostileDatagrams
     {
         byte player = (byte)Below(10);
         return new JoinDatagram(
-            random.NextUInt64(), Token(), Token(), random.NextUInt64(), (uint)(Simulation.FoldVersion + Below(2)), player, player == 0 ? default : Token());
+            random.NextUInt64(), Token(), Token(), random.NextUInt64(), (uint)(Simulation.FoldVersion + Below(2)), player, player == 0 ? default : Token(),
+            (byte)(1 + Below(3)), Below(2) == 0 ? "" : "made up");
+    }
+
+    private SeatDatagram Seat() => Below(2) == 0
+        ? new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token())
+        : new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token(), SimTime.FromSeconds(Below(40)), (ushort)(1 + Below(99)));
+
+    private RosterDatagram Roster()
+    {
+        uint after = (uint)Below(3);
+        RosterDatagram roster = new() { SessionId = Session(), After = after, UpTo = after + 1 + (uint)Below(9), Newest = after + 10 };
+        for (int n = 1 + Below(40); n > 0; n--)
+        {
+            roster.TryAdd(new RosterEntry(
+                (byte)Below(60), (byte)Below(4), (uint)Below(9), Below(2) == 0 ? SimTime.MinValue : SimTime.FromSeconds(Below(40)), "made up"));
+        }
+
+        return roster;
     }
 
     private DesyncReportDatagram DesyncReport() => Below(4) == 0

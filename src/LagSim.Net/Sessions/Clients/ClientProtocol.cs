@@ -25,6 +25,7 @@ internal sealed class ClientProtocol : ISessionProtocol
     private readonly LogFollower log;
     private readonly ClientUpdates updates;
     private readonly SuspendDetector suspend;
+    private readonly RosterFollower peers;
 
     internal ClientProtocol(SessionParts parts, ClientOptions options, PeerAddress host, ulong nonce)
     {
@@ -41,7 +42,8 @@ internal sealed class ClientProtocol : ISessionProtocol
         entry = new WorldEntry(attempts, Connection, parts.Start, parts.SharedTime, parts.Status, parts.Clock, options.Timeout);
         log = new LogFollower(
             Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
-        updates = new ClientUpdates(Connection, attempts, parts.World, parts.KeepAlive, parts.Sender);
+        updates = new ClientUpdates(Connection, attempts, parts.World, parts.SharedTime, parts.KeepAlive, parts.Sender);
+        peers = new RosterFollower(Connection, parts.Peers, parts.SharedTime, parts.Sender, parts.Counters, options.Timeout / 2);
         Loss = new HostLoss(attempts, Connection, unproven, parts.World, parts.Status, parts.Counters, parts.Clock, options);
         Finder = new DivergenceFinder(
             Connection, parts.World, parts.Journal, parts.Self, parts.Sender, parts.Counters, parts.Clock, options.Timeout);
@@ -88,7 +90,7 @@ internal sealed class ClientProtocol : ISessionProtocol
                 + " and that is the most that may.");
         }
 
-        ExternalEvent external = Parts.Actions.Submit(action, time);
+        ExternalEvent external = Parts.Actions.Submit(action, SimTime.Max(time, Connection.Earliest));
         Connection.Publish(external, Parts.Clock.Now);
         return external;
     }
@@ -150,8 +152,11 @@ internal sealed class ClientProtocol : ISessionProtocol
             case DatagramType.Seat when counters.IsWellFormed(SeatDatagram.TryDecode(datagram, out SeatDatagram seat, out _)):
                 Seat.OnSeat(seat);
                 break;
+            case DatagramType.Roster:
+                peers.OnRoster(datagram);
+                break;
             case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery
-                or DatagramType.Move or DatagramType.SecureJoin:
+                or DatagramType.Move or DatagramType.SecureJoin or DatagramType.RosterReceived:
                 counters.DatagramsIgnored++; // only a client sends these
                 break;
         }
@@ -197,6 +202,7 @@ internal sealed class ClientProtocol : ISessionProtocol
             return;
         }
 
+        peers.Tend(now);
         if (attempts.IsAsking)
         {
             requests.Tend(now);

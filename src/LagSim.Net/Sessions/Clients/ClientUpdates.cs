@@ -1,3 +1,4 @@
+using LagSim.Net.Clocks;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
@@ -7,7 +8,7 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>Sends a client's updates to the host: its events, what it has of the log, and how far along its join is.</summary>
 internal sealed class ClientUpdates(
-    HostConnection connection, JoinAttempts attempts, SharedWorld world, KeepAlivePolicy keepAlive,
+    HostConnection connection, JoinAttempts attempts, SharedWorld world, SharedClock sharedTime, KeepAlivePolicy keepAlive,
     DatagramSender sender)
 {
     /// <summary>Sends the updates that are due.</summary>
@@ -32,6 +33,15 @@ internal sealed class ClientUpdates(
         SimDuration wanted = link.Trips.HasQueue ? link.Trips.Mean : link.Trips.Mean / 8;
         SimDuration pace = wanted > JoinAttempt.Pace ? wanted : JoinAttempt.Pace;
         SimDuration rest = isComingIn ? pace : keepAlive.RestAfterUpdate(link, false, now, keepAlive.KeepAlive);
+        if (attempt is null && connection.PromisePace > SimDuration.Zero)
+        {
+            // A link with a queue is full enough already.
+            update.Watermark = connection.Promise(update.FirstIndex + (uint)update.Held.Length - 1, sharedTime.Now);
+            SimDuration half = link.Trips.HasQueue ? link.Trips.Mean / 2 : SimDuration.Zero;
+            SimDuration promise = half > connection.PromisePace ? half : connection.PromisePace;
+            rest = promise < rest ? promise : rest;
+        }
+
         sender.Send(link.Complete(unconfirmed, now, rest, isUrgent: link.Outgoing.Acknowledged < connection.LastUrgent), link);
     }
 }

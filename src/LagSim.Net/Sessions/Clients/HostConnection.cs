@@ -45,6 +45,12 @@ internal sealed class HostConnection
     /// <summary>The newest own event that no later event supersedes.</summary>
     internal uint LastUrgent { get; private set; }
 
+    /// <summary>The shared time before which this peer stamps nothing any more: the host may have settled it.</summary>
+    internal SimTime Earliest { get; private set; } = SimTime.MinValue;
+
+    /// <summary>The longest pause between promises to the host; zero if it has no use for them.</summary>
+    internal SimDuration PromisePace { get; private set; }
+
     /// <summary>Whether the host still sends the start: it does until it knows that it has arrived here.</summary>
     internal bool IsStartTold { get; set; }
 
@@ -70,13 +76,34 @@ internal sealed class HostConnection
     }
 
     /// <summary>Takes the number that the host gave over the link.</summary>
-    internal void Sit(UpdateLink link, byte number, uint lastSequence)
+    internal void Sit(UpdateLink link, in SeatDatagram seat)
     {
+        (byte number, uint lastSequence) = (seat.Peer, seat.LastSequence);
+        Earliest = seat.Earliest;
+        PromisePace = SimDuration.FromMilliseconds(seat.PromiseMilliseconds);
         self.Take(number, lastSequence);
         FirstSequence = LastUrgent = lastSequence;
         Unconfirmed = new OwnEvents(lastSequence);
         link.Self = number;
         link.Outgoing.StartAfter(lastSequence);
+    }
+
+    /// <summary>
+    /// Promises the host that no own event after that one is stamped before an instant, and keeps to it: see <see cref="Earliest"/>.
+    /// </summary>
+    /// <param name="after">The number of the last own event that the promise comes with.</param>
+    /// <param name="now">The shared time: whatever is done from now on is stamped no earlier.</param>
+    internal SimTime Promise(uint after, SimTime now)
+    {
+        SimTime promised = SimTime.Max(now, Earliest);
+        uint oldest = Unconfirmed.Count > 0 ? Unconfirmed.Oldest.Sequence : uint.MaxValue;
+        for (uint number = Unconfirmed.Last; number > after && number >= oldest; number--)
+        {
+            promised = SimTime.Min(promised, Unconfirmed[number].Event.Time);
+        }
+
+        Earliest = SimTime.Max(Earliest, promised);
+        return promised;
     }
 
     /// <summary>Queues an own event for sending to the host.</summary>

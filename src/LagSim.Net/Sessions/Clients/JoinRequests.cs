@@ -212,10 +212,11 @@ internal sealed class JoinRequests(
         JoinDatagram join = new(
             attempt.Nonce, challenge.Cookie, JoinCookies.Prove(options.ConnectKey, attempt.Nonce, challenge.Cookie, shown),
             world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number,
-            former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie, shown));
+            former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie, shown),
+            (byte)options.Role, options.Name);
         if (options.Protection is not IClientProtection protection)
         {
-            byte[] plain = new byte[WireFormat.JoinBytes];
+            byte[] plain = new byte[join.EncodedLength];
             join.Encode(plain);
             attempt.Take(new PreparedJoin(challenge.Cookie, plain, null, now), now);
         }
@@ -230,7 +231,7 @@ internal sealed class JoinRequests(
         }
         else
         {
-            byte[] secure = new byte[WireFormat.SecureJoinBytes + options.Token.Length];
+            byte[] secure = new byte[WireFormat.JoinPrologueBytes + IHostProtection.HandshakeOverhead + join.ClaimBytes + options.Token.Length];
             if (SecureJoinDatagram.Encode(secure, join, options.Token.Span, challenge.Identity, protection) is IClientHandshake handshake)
             {
                 attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);

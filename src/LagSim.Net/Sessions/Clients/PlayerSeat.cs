@@ -61,7 +61,7 @@ internal sealed class PlayerSeat
         }
 
         attempt.Seat = seat;
-        connection.Sit(link, seat.Peer, seat.LastSequence);
+        connection.Sit(link, seat);
         LogStart = attempt.LogStart;
         PlayerPass given = new(seat.Peer, seat.Pass);
         pass = given;

@@ -48,7 +48,8 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
     /// <summary>Whether datagrams of a type are sent over a link and nowhere else.</summary>
     private static bool MustBeSealed(DatagramType type) => type is DatagramType.Update or DatagramType.Leave
         or DatagramType.SnapshotRequest or DatagramType.SnapshotChunk or DatagramType.DesyncQuery or DatagramType.DesyncReport
-        or DatagramType.Seat or DatagramType.Move or DatagramType.MoveChallenge;
+        or DatagramType.Seat or DatagramType.Move or DatagramType.MoveChallenge
+        or DatagramType.Roster or DatagramType.RosterReceived;
 
     private void Open(ReadOnlySpan<byte> datagram, PeerAddress from)
     {

@@ -53,6 +53,8 @@ internal sealed class SessionParts
 
     internal EventJournal Journal { get; } = new();
 
+    internal PeerRoster Peers { get; } = new();
+
     internal SharedClock SharedTime { get; }
 
     internal SessionStatus Status { get; }

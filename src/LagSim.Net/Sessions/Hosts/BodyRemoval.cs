@@ -7,7 +7,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>Removes bodies that players spawned, by events of the host.</summary>
-internal sealed class BodyRemoval(SharedWorld world, HostActions actions)
+internal sealed class BodyRemoval(SharedWorld world, HostActions actions, Watermark watermark)
 {
     /// <summary>
     /// Removes a player's spawned bodies, all if none are named, as of an instant, and those spawned later at their spawn.
@@ -17,10 +17,18 @@ internal sealed class BodyRemoval(SharedWorld world, HostActions actions)
     {
         HashSet<BodyId>? named = some is null ? null : [.. some];
         int removed = 0;
-        foreach ((BodyId body, SimTime since) in world.Limits.Spawned(player, named))
+        watermark.Hold();
+        try
         {
-            actions.Do(PlayerAction.Remove(body), SimTime.Max(from, since));
-            removed++;
+            foreach ((BodyId body, SimTime since) in world.Limits.Spawned(player, named))
+            {
+                actions.Do(PlayerAction.Remove(body), SimTime.Max(from, since));
+                removed++;
+            }
+        }
+        finally
+        {
+            watermark.Resume();
         }
 
         return removed;

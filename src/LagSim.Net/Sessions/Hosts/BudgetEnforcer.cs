@@ -34,7 +34,16 @@ internal sealed class BudgetEnforcer(
             return false;
         }
 
-        Expel(budget.Culprit(worst), now);
+        watermark.Hold();
+        try
+        {
+            Expel(budget.Culprit(worst), now);
+        }
+        finally
+        {
+            watermark.Resume();
+        }
+
         return true;
     }
 

@@ -70,8 +70,19 @@ internal sealed class Client
     /// <summary>The events received from it.</summary>
     internal ReceiveWindow Incoming { get; private set; } = new(0);
 
+    /// <summary>
+    /// The shared time before which none of its events is stamped but those that were validated; the earliest instant without a promise.
+    /// </summary>
+    internal SimTime Promised { get; private set; } = SimTime.MinValue;
+
+    /// <summary>The shared time before which it was told to stamp nothing.</summary>
+    internal SimTime Earliest { get; private set; } = SimTime.MinValue;
+
     /// <summary>The newest committed state whose hash it is known to have, or that lies before its own first one.</summary>
     internal SimTime Told { get; private set; } = SimTime.MinValue;
+
+    /// <summary>How far it has the roster.</summary>
+    internal RosterDelivery Roster { get; } = new();
 
     /// <summary>Records up to which committed state an update reports hashes.</summary>
     internal void NoteTold(uint number, SimTime upTo) => tellings[number % (uint)tellings.Length] = (number, upTo);
@@ -83,9 +94,15 @@ internal sealed class Client
         Told = number > 0 && telling.Number == number ? SimTime.Max(Told, telling.UpTo) : Told;
     }
 
+    /// <summary>Takes over what it promised about the events after those that were all validated by now.</summary>
+    internal void NotePromise() => Promised = Incoming.Promised;
+
     /// <summary>Gives it a number.</summary>
-    internal void Sit(PlayerPlaces.Place place)
+    /// <param name="place">The number.</param>
+    /// <param name="earliest">The watermark: it is to stamp nothing before.</param>
+    internal void Sit(PlayerPlaces.Place place, SimTime earliest)
     {
+        Earliest = earliest;
         Link.Peer = place.Number;
         FirstSequence = place.LastSequence;
         Incoming = new ReceiveWindow(FirstSequence);

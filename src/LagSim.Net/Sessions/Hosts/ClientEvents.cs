@@ -26,8 +26,10 @@ internal sealed class ClientEvents(
             UpdateEntry entry = client.Incoming.Take();
             places[client.Peer].LastSequence = client.EventsReceived;
             Validate(entry, client.Peer, client.EventsReceived);
+            client.NotePromise(); // not before: the event itself may be stamped earlier
         }
 
+        client.NotePromise();
         return true;
     }
 

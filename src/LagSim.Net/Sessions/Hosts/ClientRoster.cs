@@ -19,17 +19,25 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     internal List<Client> All => clients;
 
     /// <summary>The number of clients that are in.</summary>
-    internal int SeatedCount
+    internal int SeatedCount => CountUpTo(SessionOptions.MaxNumber);
+
+    /// <summary>The number of those of them that play.</summary>
+    internal int PlayerCount => CountUpTo(SessionOptions.MaxClients);
+
+    /// <summary>
+    /// The time before which none of those who play will stamp an event any more; the latest instant if nobody plays besides the host.
+    /// </summary>
+    internal SimTime Promised
     {
         get
         {
-            int count = 0;
+            SimTime promised = SimTime.MaxValue;
             foreach (Client client in clients)
             {
-                count += client.Peer > 0 ? 1 : 0;
+                promised = PlayerPlaces.IsFor(client.Peer, isSpectator: false) ? SimTime.Min(promised, client.Promised) : promised;
             }
 
-            return count;
+            return promised;
         }
     }
 
@@ -52,6 +60,17 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
 
     /// <summary>What a backend says of the player with that number; null without a connect token.</summary>
     internal PlayerAdmission? AdmissionOf(byte player) => Seated(player) is null ? null : places[player].Admission;
+
+    private int CountUpTo(byte number)
+    {
+        int count = 0;
+        foreach (Client client in clients)
+        {
+            count += client.Peer > 0 && client.Peer <= number ? 1 : 0;
+        }
+
+        return count;
+    }
 
     /// <summary>Forgets a client, and wipes its keys.</summary>
     /// <returns>False if it was gone already.</returns>

@@ -22,9 +22,14 @@ internal sealed class EventValidator(
             : world.Limits.WhyNot(external, world.Live.Simulation, now, out _);
     }
 
-    /// <summary>Whether the player's connect token, if it has one, grants what it does.</summary>
+    /// <summary>Whether it is a player's event, and the player's connect token, if it has one, grants it.</summary>
     private bool IsAdmittedTo(in ExternalEvent external)
     {
+        if (external.Peer > SessionOptions.MaxClients)
+        {
+            return false; // a spectator
+        }
+
         PlayerRights needed = external.Kind == EventKind.Spawn ? PlayerRights.Spawn : PlayerRights.Act;
         return places[external.Peer].Admission is not PlayerAdmission admission || (admission.Rights & needed) != 0;
     }

@@ -21,6 +21,7 @@ internal sealed class HostProtocol : ISessionProtocol
     private readonly ClientEvents events;
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
+    private readonly RosterBroadcast peers;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
@@ -30,21 +31,26 @@ internal sealed class HostProtocol : ISessionProtocol
         SimTime now = parts.Clock.Now;
         PlayerPlaces places = new(options, now);
         Roster = new ClientRoster(places, parts.Sender, parts.Clock);
-        Watermark = new Watermark(parts.SharedTime, parts.World, options.Window.History);
+        Watermark = new Watermark(
+            parts.SharedTime, parts.World, options.Window.History, options.ConfirmsEarly ? Roster : null);
         Log = new AuthoritativeLog(parts.World, Watermark, parts.Journal, parts.Counters, parts.Clock);
         broadcast = new LogBroadcast(Roster, Log, Watermark, parts.World, parts.Commits, parts.KeepAlive, parts.Sender, parts.Clock);
         Log.Recorded += broadcast.NoteRecorded;
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
         timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestDownload, now);
-        Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts);
+        Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts, Watermark);
+        peers = new RosterBroadcast(Roster, places, timeouts, parts);
+        Handshake.Seating.Came += _ => peers.Refresh();
+        Roster.Gone += _ => peers.Refresh();
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
-        Removal = new BodyRemoval(parts.World, actions);
+        Removal = new BodyRemoval(parts.World, actions, Watermark);
         Enforcer = new BudgetEnforcer(Budget, acts, Roster, Handshake.BanList, Removal, actions, parts.World, Watermark, parts.Status);
         DesyncReport = new DesyncReporter(Roster, parts.Journal, parts.World, Watermark, parts.Sender, parts.Counters, parts.Clock);
         parts.SharedTime.Adjust(SimDuration.Zero);
+        peers.Refresh();
     }
 
     public IReadOnlyList<LinkTraffic> Traffic => Roster.All.FindAll(j => j.Peer > 0).ConvertAll(j => j.Link.Traffic);
@@ -120,12 +126,16 @@ internal sealed class HostProtocol : ISessionProtocol
             case DatagramType.DesyncQuery when counters.IsWellFormed(DesyncQueryDatagram.TryDecode(datagram, out DesyncQueryDatagram query, out _)):
                 DesyncReport.OnDesyncQuery(query, from);
                 break;
+            case DatagramType.RosterReceived when counters.IsWellFormed(
+                RosterReceivedDatagram.TryDecode(datagram, out RosterReceivedDatagram received, out _)):
+                peers.OnReceived(received, from);
+                break;
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave, from);
                 break;
             case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.SnapshotChunk
                 or DatagramType.DesyncReport or DatagramType.Seat or DatagramType.MoveChallenge or DatagramType.SecureWelcome
-                or DatagramType.SecureRefusal or DatagramType.Reset:
+                or DatagramType.SecureRefusal or DatagramType.Reset or DatagramType.Roster:
                 counters.DatagramsIgnored++; // only a host sends these
                 break;
         }
@@ -179,7 +189,7 @@ internal sealed class HostProtocol : ISessionProtocol
             return;
         }
 
-        if (Parts.World.Live is null && Roster.SeatedCount >= options.ExpectedClients)
+        if (Parts.World.Live is null && Roster.PlayerCount >= options.ExpectedClients)
         {
             Parts.Start.Begin(now + options.StartLead);
             Flush();
@@ -196,11 +206,14 @@ internal sealed class HostProtocol : ISessionProtocol
         Log.Lines.ForgetUpTo(Roster.All.Aggregate(
             Handshake.Snapshots.NeededAfter, (least, client) => Math.Min(least, client.Acknowledged)));
         broadcast.Tend(now);
+        peers.Tend(now);
     }
 
     public SimTime NextDue(SimTime now)
     {
         SimTime due = Parts.Commits.NextDue(options.Window.History);
+        due = SimTime.Min(due, peers.NextDue());
+        due = options.ConfirmsEarly && Parts.World.Live is not null ? SimTime.Min(due, now + Hosts.Watermark.Pace) : due;
         foreach (Client client in Roster.All)
         {
             due = SimTime.Min(due, client.HasWritten ? client.Link.Due : timeouts.GivenUpAt(client));
@@ -270,6 +283,11 @@ internal sealed class HostProtocol : ISessionProtocol
         {
             isNear &= client.Incoming.Put(sequence++, entry);
             canWait &= !entry.IsOwn && SendWindow.IsMadeUpFor(entry.Event);
+        }
+
+        if (update.Watermark != SimTime.MinValue && sequence > 0)
+        {
+            client.Incoming.Promise(sequence - 1, update.Watermark);
         }
 
         Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any genuine client goes

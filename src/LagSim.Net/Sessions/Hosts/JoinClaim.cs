@@ -18,6 +18,8 @@ internal sealed class JoinClaim
         Cookie = join.Cookie;
         Handshake = handshake;
         Wanted = join.Player;
+        Role = join.Role;
+        Name = join.Name;
         Who = who;
         ClaimedPass = who.Claimed?.Pass;
         Token = who.IsByToken ? token.ToArray() : [];
@@ -36,6 +38,15 @@ internal sealed class JoinClaim
 
     /// <summary>The number that it says it had; 0 for none.</summary>
     internal byte Wanted { get; }
+
+    /// <summary>As what it takes part, as on the wire.</summary>
+    internal byte Role { get; }
+
+    /// <summary>What it calls itself.</summary>
+    internal string Name { get; }
+
+    /// <summary>Whether it wants a spectator's number.</summary>
+    internal bool IsSpectator => Role == (byte)PeerRole.Spectator;
 
     /// <summary>The connect token that lets it in; empty if something else does.</summary>
     internal byte[] Token { get; }

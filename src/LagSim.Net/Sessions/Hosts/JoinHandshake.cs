@@ -31,17 +31,18 @@ internal sealed class JoinHandshake
     /// <param name="log">The log, which continues where a snapshot ends.</param>
     /// <param name="budget">Where a client with a new number gets an account.</param>
     /// <param name="timeouts">How long a client may take to join.</param>
+    /// <param name="watermark">Before it a client that comes in stamps nothing.</param>
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal JoinHandshake(
         SessionParts parts, HostOptions options, ulong sessionId, ClientRoster roster, PlayerPlaces places, AuthoritativeLog log,
-        WorkBudget budget, ClientTimeouts timeouts)
+        WorkBudget budget, ClientTimeouts timeouts, Watermark watermark)
     {
         this.roster = roster;
         sender = parts.Sender;
         counters = parts.Counters;
         clock = parts.Clock;
         challenge = new AddressChallenge(PublicIdentity.Of(options.Protection), cookies, parts.Sender, clock);
-        Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress);
+        Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress, watermark);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
         MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
         server = new SnapshotServer(roster, chunks, challenge, parts.Sender, counters, clock);

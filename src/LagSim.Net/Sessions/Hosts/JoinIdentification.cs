@@ -16,7 +16,9 @@ internal sealed class JoinIdentification(HostOptions options, PlayerPlaces place
 
     internal JoinIdentity Of(in JoinDatagram join, ReadOnlySpan<byte> token)
     {
+        bool isSpectator = join.Role == (byte)PeerRole.Spectator;
         (byte keyed, string? key) = KeyOf(join);
+        keyed = isSpectator ? (byte)0 : keyed; // whoever watches takes nobody's place, not even the own
         PlayerPlaces.Place? claimed = places.Claimed(join, keyed, identity);
         if (key is null || options.Protection is not { RequiresToken: true } protection)
         {
@@ -26,8 +28,8 @@ internal sealed class JoinIdentification(HostOptions options, PlayerPlaces place
         TokenReading reading = token.IsEmpty ? default : protection.ReadToken(token);
         if (reading.Admission is PlayerAdmission admission)
         {
-            byte number = admission.Number > 0 ? admission.Number : keyed;
-            return new JoinIdentity(key, number, places.OfPlayer(admission.PlayerId), admission, IsByToken: true);
+            byte number = admission.Number > 0 && !isSpectator ? admission.Number : keyed;
+            return new JoinIdentity(key, number, places.OfPlayer(admission.PlayerId, isSpectator), admission, IsByToken: true);
         }
 
         return claimed is not null || token.IsEmpty

@@ -98,10 +98,10 @@ internal sealed class JoinIntake(
 
         using JoinReply reply = new(join.Nonce, from, by, handshake, sender) { Handshake = join.Handshake };
         bool isWellFormed = JoinDatagram.TryDecodeClaims(
-            claims.Slice(0, WireFormat.JoinClaimBytes), join.Nonce, join.Cookie, out JoinDatagram claimed);
+            claims, join.Nonce, join.Cookie, out JoinDatagram claimed, out int length);
         if (counters.IsWellFormed(isWellFormed))
         {
-            Decide(claimed, claims.Slice(WireFormat.JoinClaimBytes), from, reply);
+            Decide(claimed, claims.Slice(length), from, reply);
         }
     }
 

@@ -17,5 +17,5 @@ internal sealed class JoinRules(ulong sceneHash, BanList shutOuts, Seating seati
             : who.Key is null ? RefusalReason.WrongKey
             : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
             : join.SceneHash != 0 && join.SceneHash != sceneHash ? RefusalReason.SceneDiffers
-            : who.Fault ?? seating.WhyNone(who, from, now);
+            : who.Fault ?? seating.WhyNone(who, from, now, join.Role == (byte)PeerRole.Spectator);
 }

@@ -10,13 +10,14 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>The players' numbers in a session: what is known about each, and which are reserved for a player that is away.</summary>
+/// <summary>The clients' numbers in a session: what is known about each, and which are reserved for a player that is away.</summary>
 /// <remarks>A number is reserved for a player that fell silent, as long as the host's option says and no newcomer needs it.</remarks>
 internal sealed class PlayerPlaces
 {
-    private readonly Place[] places = new Place[SessionOptions.MaxClients + 1];
+    private readonly Place[] places = new Place[SessionOptions.MaxNumber + 1];
     private readonly HostOptions options;
     private readonly SimTime began;
+    private uint visits;
 
     internal PlayerPlaces(HostOptions options, SimTime now)
     {
@@ -31,19 +32,32 @@ internal sealed class PlayerPlaces
     internal Place this[byte number] => places[number];
 
     /// <summary>
-    /// Returns the place that a join claims, if it proves that its client was that player; otherwise null. Without protection a pass
-    /// travels in clear text, so it never opens a number that has a key.
+    /// Returns the place that a join claims, if it proves that its client was that player, and wants to be that again rather than a
+    /// spectator, or the other way round; otherwise null. Without protection a pass travels in clear text, so it never opens a number that
+    /// has a key.
     /// </summary>
     /// <param name="join">The join.</param>
     /// <param name="keyed">The player whose key it presents; 0 for none.</param>
     /// <param name="host">The host's identity; none in a session without protection.</param>
     internal Place? Claimed(in JoinDatagram join, byte keyed, in PublicIdentity host = default) =>
-        join.Player is > 0 and <= SessionOptions.MaxClients && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
+        IsFor(join.Player, join.Role == (byte)PeerRole.Spectator) && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
             && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join, host) ? places[join.Player] : null;
 
     /// <summary>Returns the place of the player that a backend knows by that identity; null if it has none.</summary>
     internal Place? OfPlayer(string playerId, Place? except = null) =>
         System.Array.Find(places, place => place != except && place?.Admission?.PlayerId == playerId);
+
+    /// <summary>The same, if the place is a spectator's, or a player's, as is wanted.</summary>
+    internal Place? OfPlayer(string playerId, bool isSpectator) => System.Array.Find(
+        places, place => place?.Admission?.PlayerId == playerId && IsFor(place.Number, isSpectator));
+
+    /// <summary>Whether a number is one for spectators, or one for players, as is wanted.</summary>
+    internal static bool IsFor(byte number, bool isSpectator) => isSpectator
+        ? number is > SessionOptions.MaxClients and <= SessionOptions.MaxNumber
+        : number is > 0 and <= SessionOptions.MaxClients;
+
+    /// <summary>A number for the next client that is another than all before.</summary>
+    internal uint NextVisit() => ++visits;
 
     /// <summary>Whether the number that a token gives is another player's: one that is in, or the owner of its key.</summary>
     internal bool IsOfAnother(PlayerAdmission admission) =>
@@ -63,20 +77,23 @@ internal sealed class PlayerPlaces
     /// The new player's machine. Once a machine's players hold or reserve as many numbers as one machine may have, it gets one of those
     /// reserved for it, so that joining again and again takes no numbers from others.
     /// </param>
-    internal byte Free(SimTime now, byte wanted, PeerAddress machine)
+    /// <param name="isSpectator">Whether it is to be a spectator's number.</param>
+    internal byte Free(SimTime now, byte wanted, PeerAddress machine, bool isSpectator = false)
     {
-        if (wanted is > 0 and <= SessionOptions.MaxClients && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
+        if (IsFor(wanted, isSpectator) && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
             && !options.PlayerKeys.ContainsKey(wanted))
         {
             return wanted;
         }
 
         bool IsKept(Place place) => place.IsKept(now, options.RejoinTime);
-        List<Place> free = places.Skip(1)
+        List<Place> all = places.Skip(1).Where(place => IsFor(place.Number, isSpectator)).ToList();
+        all = isSpectator ? all.Take(options.SpectatorPlaces).ToList() : all;
+        List<Place> free = all
             .Where(place => !place.IsTaken && !options.PlayerKeys.ContainsKey(place.Number) && place.LastSequence != uint.MaxValue)
             .ToList();
         List<Place> keptHere = free.FindAll(place => place.Machine == machine && IsKept(place));
-        bool hasEnough = places.Skip(1).Count(place => place.Machine == machine && (place.IsTaken || IsKept(place))) >= options.MaxClientsPerAddress;
+        bool hasEnough = all.Count(place => place.Machine == machine && (place.IsTaken || IsKept(place))) >= options.MaxClientsPerAddress;
         List<Place> choice = hasEnough && keptHere.Count > 0 ? keptHere : free;
         Place? chosen = choice.Find(place => !IsKept(place)) ?? choice.OrderBy(place => place.LeftAt).FirstOrDefault();
         return chosen?.Number ?? 0;
@@ -129,6 +146,9 @@ internal sealed class PlayerPlaces
         /// <summary>The secret of its player; null if it has none.</summary>
         internal Token128? Pass { get; private set; }
 
+        /// <summary>Distinguishes those who have the number one after the other; the same player that comes back keeps it.</summary>
+        internal uint Visit { get; private set; }
+
         /// <summary>Where its player is, or was; null if no player had it.</summary>
         internal PeerAddress? Machine { get; private set; }
 
@@ -139,8 +159,10 @@ internal sealed class PlayerPlaces
         /// <param name="isSamePlayer">Whether it is the player that had it, and keeps its pass.</param>
         /// <param name="machine">Where the player is.</param>
         /// <param name="admission">What its connect token says of it; null without one.</param>
-        internal void Take(bool isSamePlayer, PeerAddress machine, PlayerAdmission? admission = null)
+        /// <param name="visit">What tells it from those before, if it is another.</param>
+        internal void Take(bool isSamePlayer, PeerAddress machine, PlayerAdmission? admission = null, uint visit = 0)
         {
+            Visit = isSamePlayer || (admission is not null && admission.PlayerId == Admission?.PlayerId) ? Visit : visit;
             IsTaken = true;
             Admission = admission;
             Machine = machine;

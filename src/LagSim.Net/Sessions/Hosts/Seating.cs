@@ -15,8 +15,10 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="sender">Sends them their numbers.</param>
 /// <param name="protection">Takes each connect token once; null in a session without protection.</param>
 /// <param name="maxOfOneMachine">The most clients that may be in from one machine.</param>
+/// <param name="watermark">Before it a client that comes in stamps nothing.</param>
 internal sealed class Seating(
-    ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, IHostProtection? protection, int maxOfOneMachine)
+    ClientRoster roster, PlayerPlaces places, WorkBudget budget, DatagramSender sender, IHostProtection? protection, int maxOfOneMachine,
+    Watermark watermark)
 {
     /// <summary>Raised for each client that got its number, with its link.</summary>
     internal event Action<LinkTraffic>? Came;
@@ -25,7 +27,8 @@ internal sealed class Seating(
     /// <param name="who">Who it proved to be.</param>
     /// <param name="from">Its address.</param>
     /// <param name="now">The time by the local clock.</param>
-    internal RefusalReason? WhyNone(JoinIdentity who, PeerAddress from, SimTime now)
+    /// <param name="isSpectator">Whether it wants to be a spectator.</param>
+    internal RefusalReason? WhyNone(JoinIdentity who, PeerAddress from, SimTime now, bool isSpectator)
     {
         if (protection is { RequiresToken: true } && !who.IsByToken && who.Claimed is null)
         {
@@ -40,9 +43,10 @@ internal sealed class Seating(
         // A client that proves to be an absent player has a number, but counts: otherwise a machine could collect passes, and then join
         // with all of them. Players whom a backend admits have one place each, wherever they are.
         byte own = who.Claimed?.Number ?? 0;
-        int others = roster.All.Count(j => j.Peer > 0 && j.Peer != own && !IsRestarted(j, from) && j.Link.Other.IsSameMachine(from));
+        int others = roster.All.Count(j => PlayerPlaces.IsFor(j.Peer, isSpectator) && j.Peer != own && !IsRestarted(j, from) && j.Link.Other.IsSameMachine(from));
         return others >= maxOfOneMachine && who.Admission is null ? RefusalReason.TooManyFromOneAddress
-            : own == 0 && places.Free(now, 0, from.Machine) == 0 && !roster.All.Exists(j => j.Peer > 0 && IsRestarted(j, from))
+            : own == 0 && places.Free(now, 0, from.Machine, isSpectator) == 0
+                && !roster.All.Exists(j => PlayerPlaces.IsFor(j.Peer, isSpectator) && IsRestarted(j, from))
                 ? RefusalReason.Full
             : null;
     }
@@ -56,7 +60,7 @@ internal sealed class Seating(
         JoinIdentity who = claim.Identity;
         if (who is { IsByToken: true, Admission: PlayerAdmission admission })
         {
-            who = who with { Claimed = places.OfPlayer(admission.PlayerId) }; // it may have got a place since, by another of its tokens
+            who = who with { Claimed = places.OfPlayer(admission.PlayerId, claim.IsSpectator) }; // it may have got a place since, by another of its tokens
         }
 
         PlayerPlaces.Place? claimed = who.Claimed;
@@ -66,7 +70,7 @@ internal sealed class Seating(
             roster.Disconnect(gone, LeaveReason.TimedOut); // restarted, or gone and its port reused: it may still come back
         }
 
-        if (WhyNone(who, address, now) is RefusalReason reason)
+        if (WhyNone(who, address, now, claim.IsSpectator) is RefusalReason reason)
         {
             return reason;
         }
@@ -76,20 +80,21 @@ internal sealed class Seating(
             return RefusalReason.TokenUsed;
         }
 
-        place ??= places[places.Free(now, claim.Wanted, address.Machine)];
+        place ??= places[places.Free(now, claim.Wanted, address.Machine, claim.IsSpectator)];
         if (who.Admission is PlayerAdmission player)
         {
             ReleaseOthers(player, place);
         }
 
         MakeRoom(place);
-        client.Sit(place);
-        if (claimed != place)
+        client.Sit(place, watermark.Now);
+        if (claimed != place && !claim.IsSpectator)
         {
             budget.BeginAccount(place.Number);
         }
 
-        place.Take(isSamePlayer: claimed == place && !who.IsByToken, address.Machine, who.Admission); // a token gives another pass
+        // A token gives another pass.
+        place.Take(isSamePlayer: claimed == place && !who.IsByToken, address.Machine, who.Admission, places.NextVisit());
         Tell(client);
         Came?.Invoke(client.Link.Traffic);
         return null;
@@ -124,7 +129,11 @@ internal sealed class Seating(
     internal void Tell(Client client)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.SeatBytes];
-        SeatDatagram seat = new(client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value);
+        SeatDatagram seat = watermark.CountsPromises
+            ? new(
+                client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value, client.Earliest,
+                (ushort)Watermark.Pace.ToMilliseconds())
+            : new(client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value);
         sender.Send(bytes.Slice(0, seat.Encode(bytes)), client.Link);
     }
 }
