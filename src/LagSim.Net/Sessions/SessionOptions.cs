@@ -128,6 +128,12 @@ public abstract record SessionOptions
     public ContactNotices? Contacts { get; init; }
 
     /// <summary>
+    /// Receives crossings of sensors, for a goal or a checkpoint; null, the default, for none. An instance serves one session only.
+    /// Crossings are confirmed as contacts are.
+    /// </summary>
+    public CrossingNotices? Crossings { get; init; }
+
+    /// <summary>
     /// How late events are handled; default <see cref="LateEventStrategy.Healing"/>. Peers with <see cref="LateEventStrategy.Healing"/>,
     /// <see cref="LateEventStrategy.FullRollback"/> and <see cref="LateEventStrategy.Interpolation"/> agree bit for bit, so these may be
     /// mixed; a peer with another agrees with no other peer.

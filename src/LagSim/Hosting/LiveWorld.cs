@@ -44,10 +44,12 @@ public sealed class LiveWorld
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
+    /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
-    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null)
-        : this(new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts)), lookAhead, renderedPast, contacts)
+    /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
+    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null,
+        CrossingNotices? crossings = null)
+        : this(new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings)), lookAhead, renderedPast, contacts, crossings)
     {
     }
 
@@ -58,20 +60,24 @@ public sealed class LiveWorld
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
+    /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
-    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
+    /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
         Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
-        ContactNotices? contacts = null)
-        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts)), lookAhead, renderedPast, contacts)
+        ContactNotices? contacts = null, CrossingNotices? crossings = null)
+        : this(
+            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings)), lookAhead, renderedPast, contacts, crossings)
     {
     }
 
-    private LiveWorld(Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts)
+    private LiveWorld(
+        Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings)
     {
         Simulation = simulation;
         Contacts = contacts;
+        Crossings = crossings;
         events = EventsAStep;
         LookAhead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
         this.renderedPast = renderedPast ?? DefaultRenderedPast;
@@ -85,6 +91,9 @@ public sealed class LiveWorld
 
     /// <summary>Receives its contacts; null for none.</summary>
     public ContactNotices? Contacts { get; }
+
+    /// <summary>Receives its crossings of sensors; null for none.</summary>
+    public CrossingNotices? Crossings { get; }
 
     /// <summary>
     /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a
@@ -132,10 +141,14 @@ public sealed class LiveWorld
     private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.UsualCandidates) + 8));
 
     /// <summary>
-    /// Gives the contact notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to
-    /// be stepped again.
+    /// Gives the notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be
+    /// stepped again.
     /// </summary>
-    public void Retire() => Contacts?.Restart();
+    public void Retire()
+    {
+        Contacts?.Restart();
+        Crossings?.Restart();
+    }
 
     /// <summary>
     /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an
@@ -241,9 +254,12 @@ public sealed class LiveWorld
         if (!Simulation.Engine.Loop.IsPartDone)
         {
             Contacts?.Tell(Simulation);
+            Crossings?.Tell(Simulation);
         }
 
-        SimTime confirmation = Contacts?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue;
+        SimDuration history = Simulation.Engine.Progress.History;
+        SimTime confirmation = SimTime.Min(
+            Contacts?.NextDue(history, LookAhead) ?? SimTime.MaxValue, Crossings?.NextDue(history, LookAhead) ?? SimTime.MaxValue);
         if (Simulation.Engine.Loop.Blocked is not null)
         {
             return SimTime.Min(confirmation, now + LookAhead); // there is nothing to do before an event comes
@@ -253,7 +269,8 @@ public sealed class LiveWorld
     }
 
     /// <summary>The options, if they and the spans go together.</summary>
-    private static SimulationOptions Checked(SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts)
+    private static SimulationOptions Checked(
+        SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings)
     {
         if (options is null)
         {
@@ -279,7 +296,9 @@ public sealed class LiveWorld
         }
 
         contacts?.Follow();
-        return contacts is null ? options : options.WithObserver(contacts);
+        crossings?.Follow();
+        options = contacts is null ? options : options.WithObserver(contacts);
+        return crossings is null ? options : options.WithCrossingObserver(crossings);
     }
 
     /// <summary>

@@ -41,12 +41,13 @@ public sealed class SimulationHost : IDisposable
     /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
-    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null)
+    /// <param name="crossings">Receives the crossings of sensors of this world alone, likewise; null, the default, for none.</param>
+    /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
+    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, CrossingNotices? crossings = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
         SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token);
-        world = new LiveWorld(scene, options, lookAhead, contacts: contacts);
+        world = new LiveWorld(scene, options, lookAhead, contacts: contacts, crossings: crossings);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
@@ -71,6 +72,9 @@ public sealed class SimulationHost : IDisposable
 
     /// <summary>Receives contacts; null for none. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
     public ContactNotices? Contacts => world.Contacts;
+
+    /// <summary>Receives crossings of sensors; null for none. For the game's thread <see cref="CrossingNotices.TryRead"/>.</summary>
+    public CrossingNotices? Crossings => world.Crossings;
 
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
     public long LateSteps => world.LateSteps;

@@ -37,7 +37,7 @@ public sealed class RecordingsPageTests
     [Fact]
     public void Tables_OfTheScene_AreTheSceneWithAllItsParts()
     {
-        foreach (Scene scene in Gen.Sample(SceneGen.Any, 20, new Rnd(20261121, 1), 10).Append(new RandomWorld(6).Scene).Append(new RandomWorld(7).Scene))
+        foreach (Scene scene in Gen.Sample(SceneGen.Any, 20, new Rnd(20261121, 1), 10).Append(new RandomWorld(6).Scene).Append(new RandomWorld(7, sensors: true).Scene))
         {
             Assert.Equal(Convert.ToHexString(SceneFormat.Encode(scene)), Convert.ToHexString(SceneFromPage(Page, scene)));
         }
@@ -65,7 +65,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 5 + 34 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 5 + 40 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -97,7 +97,8 @@ public sealed class RecordingsPageTests
         IAcceleration force = new FunctionForce((_, _, v) => -v);
         Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddForce(Force.Supplied(force)).AddForce(Force.Spring("spring", V(8, 9, 10), 11, 12)).AddForce(Force.Central("pull", V(13, 14, 15), 16, -3))
             .AddPlane("floor", Vector3D.Up, -3.0, 0.5, 0.625)
-            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9)).Build();
+            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9))
+            .AddSensorSphere("hole", V(20, 21, 22), 23, SensorCoverage.Whole).AddSensorPlane("goal", V(0, 0, 1), 24.0, SensorCoverage.Part).Build();
         Simulation world = new(scene, new SimulationOptions(Start, SimDuration.MaxValue));
         world.AdvanceTo(Start + Seconds(1));
         byte[] bytes = Recorded.Bytes(
@@ -193,6 +194,7 @@ public sealed class RecordingsPageTests
             ["planes"] = scene.Planes.Count,
             ["static spheres"] = scene.StaticSpheres.Count,
             ["bodies"] = scene.Bodies.Count,
+            ["sensors"] = scene.Sensors.Count,
         };
         Dictionary<string, (string Prefix, IEnumerable<Dictionary<string, object>> Items)> lists = new()
         {
@@ -205,6 +207,8 @@ public sealed class RecordingsPageTests
                 ("sphere name", s.Name), ("sphere centre", s.Centre), ("sphere radius", s.Radius), ("sphere restitution", s.Restitution), ("sphere friction", s.Friction)))),
             ["bodies"] = ("body ", scene.Bodies.Select(b => LayoutPage.Values(
                 ("body name", b.Name), ("body spec", b.Spec), ("body position", b.Position), ("body velocity", b.Velocity), ("body players", b.Players.Mask), ("body spin", b.Spin)))),
+            ["sensors"] = ("sensor ", scene.Sensors.Select(s => LayoutPage.Values(
+                ("sensor name", s.Name), ("sensor shape", (byte)s.Shape), ("sensor coverage", (byte)s.Coverage), ("sensor vector", s.Shape == SensorShape.Plane ? s.Normal : s.Centre), ("sensor measure", s.Shape == SensorShape.Plane ? s.Offset : s.Radius)))),
         };
         LayoutPage.Write(bytes, Table(page, "2 Scene"), head, lists);
         return bytes.ToArray();

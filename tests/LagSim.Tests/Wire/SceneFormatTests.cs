@@ -38,7 +38,7 @@ public sealed class SceneFormatTests
     private const int PositionAt = 223;
     private const int VelocityAt = 247;
     private const int PlayersAt = 271;
-    private const int Length = 297;
+    private const int Length = 299; // two are the count of sensors
 
     [Fact]
     public void Encode_AnyScene_DecodesToTheSameWorldInTheSameBytes() => Prop.ForAll(
@@ -99,7 +99,7 @@ public sealed class SceneFormatTests
         Scene again = Decoded(bytes);
 
         Assert.Equal([0x02, 0x02], bytes[SpawnersAt..ForcesAt]);
-        Assert.Equal([0x01, 0x80], bytes[^26..^24]); // its spin follows
+        Assert.Equal([0x01, 0x80], bytes[^28..^26]); // its spin follows, and the count of sensors
         Assert.Equal(PeerSet.Of(1, 9), again.Spawners);
         Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 15)], again.Bodies.Select(b => b.Players));
     }
@@ -116,13 +116,14 @@ public sealed class SceneFormatTests
 
         Refused(whole.AsSpan(0, 0), "The 0 bytes of the scene end within the scene's head.");
         Refused(whole.AsSpan(0, PlanesAt), "The 54 bytes of the scene end within the scene's plane count.");
-        Refused(whole.AsSpan(0, Length - 1), "The 296 bytes of the scene end within body 1 of the scene.");
-        Refused(whole.AsSpan(0, Length - 2), "announces 1 parts of the kind 'body', of 136 bytes or more, and has 135 bytes left");
+        Refused(whole.AsSpan(0, Length - 1), "The 298 bytes of the scene end within the scene's sensor count.");
+        Refused(whole.AsSpan(0, Length - 3), "The 296 bytes of the scene end within body 1 of the scene.");
+        Refused(whole.AsSpan(0, Length - 4), "announces 1 parts of the kind 'body', of 136 bytes or more, and has 135 bytes left");
         Refused([.. whole, .. new byte[24]], "The scene's periodic box has no size");
         Refused([.. whole, .. new byte[25]], "The scene's periodic box has no size");
         for (int value = 0; value <= 255; value++)
         {
-            Refused([.. whole, (byte)value], "The 298 bytes of the scene end within the scene's periodic box.");
+            Refused([.. whole, (byte)value], "The 300 bytes of the scene end within the scene's periodic box.");
         }
     }
 
@@ -196,7 +197,7 @@ public sealed class SceneFormatTests
         Scene scene = new SceneBuilder("s").AddForce(Force.QuadraticDrag("a", 0.1), out ForceSet air)
             .AddBody("b", new BodySpec(0.5, 1, 0.5, forces: air), V(1)).Build();
         byte[] bytes = SceneFormat.Encode(scene);
-        int spec = bytes.Length - 24 - 2 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it
+        int spec = bytes.Length - 2 - 24 - 2 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it, and a count
         Assert.Equal((byte)MotionLaw.DormandPrince54, bytes[spec + 24]); // after radius, mass and restitution
         bytes[spec + 24] = (byte)MotionLaw.Automatic;
         Refused(bytes, "Body 1 of the scene leaves its law of flight open");

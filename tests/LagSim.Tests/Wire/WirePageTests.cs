@@ -41,7 +41,7 @@ public sealed class WirePageTests
     public void Tables_OfCopyAndSnapshot_AreThoseOfWorlds()
     {
         int dense = 0, carried = 0, held = 0, inContact = 0;
-        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true)))
+        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true, sensors: seed % 2 == 0)))
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
             Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
@@ -78,7 +78,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 28 + 5, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 9 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 29 + 5, rows);
     }
 
     [Fact]
@@ -183,7 +183,8 @@ public sealed class WirePageTests
                 [new(Second, PersistentContact.NoSurface, true, V(1, 2, 3), V(4, 5, 6)), new(First, 7, false, V(7, 8, 9), V(-1, -2, -0.0))];
             BodySnapshot member = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.Constrained, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: V(10, 11, 12),
-                centre: At(0.125), stillSince: At(0.25), contacts: contacts);
+                centre: At(0.125), stillSince: At(0.25), contacts: contacts, inside: [3, 7],
+                crossings: [new Crossing(new EventKey(At(0.5), 2, EventKind.Crossing, b.Id, b.Id, 0, 7), true)]);
             BodySnapshot sleeper = new(
                 Second, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, centre: At(0.375),
                 contacts: contacts.AsSpan(0, 1));
@@ -402,11 +403,18 @@ public sealed class WirePageTests
         ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54
             ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
-        ("turns", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0),
+        ("flags", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Inside.Length + b.Crossings.Length > 0 ? 2 : 0)),
+        ("sensors", Sensors(b)),
         ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),
         ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!),
         ("member", IsMember(b) ? (b.Centre, b.StillSince, b.Contacts.Length) : null!),
         ("contacts", IsMember(b) ? b.Contacts.ToArray().SelectMany(contact => Contact(page, contact)).ToArray() : []));
+
+    private static byte[] Sensors(BodySnapshot b) => b.Inside.Length + b.Crossings.Length == 0 ? [] :
+    [
+        .. LayoutPage.Bytes("u16", b.Inside.Length), .. b.Inside.ToArray().SelectMany(sensor => LayoutPage.Bytes("u16", sensor)), .. LayoutPage.Bytes("u16", b.Crossings.Length),
+        .. b.Crossings.ToArray().SelectMany(c => (byte[])[.. LayoutPage.Bytes("ticks", c.Time), .. LayoutPage.Bytes("u32", c.Key.Round), .. LayoutPage.Bytes("u16", c.Sensor), (byte)(c.Entered ? 1 : 0)]),
+    ];
 
     private static bool IsMember(BodySnapshot b) => b.Law == MotionLaw.Constrained || (b.Law == MotionLaw.Resting && b.SupportCount == 0);
 

@@ -32,6 +32,7 @@ internal sealed class CheckCase
     private const int MaxPeersOfHeap = 3;
 
     private const double FullLinkPercent = 25;
+    private const double SensorPercent = 30;
 
     /// <summary>
     /// The lowest rate of links, in bit/s. The traffic of a seeded session fits into 64 kbit/s with all repeats. A fifth of that shows a
@@ -53,6 +54,7 @@ internal sealed class CheckCase
     private const ulong SortStream = 3;
     private const ulong TroubleStream = 4;
     private const ulong IndexStream = 5;
+    private const ulong SensorStream = 6;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MaxAttempts = 20;
@@ -97,6 +99,12 @@ internal sealed class CheckCase
             {
                 break;
             }
+        }
+
+        SeededRandom sensed = random.Fork(SensorStream);
+        if (room is not BoxScene && sensed.IsLucky(SensorPercent))
+        {
+            room.Sensors = new CheckSensors(sensed); // after its events are counted, so that all else that is drawn stays the same
         }
 
         LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));

@@ -14,6 +14,7 @@ namespace LagSim.Harness.Verification.Check;
 public readonly record struct SceneFeatures
 {
     private const int Large = 5;
+    private const int Often = 10;
     private const double Touching = 1e-6; // metres
 
     /// <summary>The features, by the names that scripts use, in order.</summary>
@@ -23,6 +24,7 @@ public readonly record struct SceneFeatures
         ("magnus", met => met.Magnus), ("force_in_contact", met => met.ForceInContact), ("steps_ahead", met => met.ContactSteps),
         ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
+        ("crossings", met => met.Crossings),
     ];
 
     /// <summary>Five or more touching bodies moved as an island.</summary>
@@ -64,12 +66,15 @@ public readonly record struct SceneFeatures
     /// <summary>A body with a force other than gravity was in persistent contact with rolling resistance.</summary>
     public bool ForceWithRolling { get; init; }
 
+    /// <summary>Bodies entered and left sensors, ten times or more.</summary>
+    public bool Crossings { get; init; }
+
     /// <param name="alone">The world, advanced to its end, with unlimited history.</param>
     /// <param name="accepted">The accepted events of players.</param>
     /// <param name="contactSteps">The number of contact steps.</param>
     internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long contactSteps)
     {
-        SceneFeatures met = new() { ContactSteps = contactSteps > 0, PeriodicBox = alone.Scene.Box.Exists };
+        SceneFeatures met = new() { ContactSteps = contactSteps > 0, PeriodicBox = alone.Scene.Box.Exists, Crossings = alone.Crossings(alone.Start, alone.SimulatedTo).Count >= Often };
         List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
         Dictionary<EventKey, int> steps = [];
         for (int n = 0; n < alone.BodyCount; n++)

@@ -97,7 +97,7 @@ internal sealed class SharedWorld
     {
         live?.Retire();
         begunAt = start;
-        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts)
+        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -111,7 +111,7 @@ internal sealed class SharedWorld
     {
         live?.Retire();
         LiveWorld copied = new(
-            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts)
+            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,

@@ -3,21 +3,22 @@ using System.Threading;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Hands contact notices from the simulation's thread to one reading thread, in order, without a lock and without waiting: a ring of fixed
+/// Hands notices from the simulation's thread to one reading thread, in order, without a lock and without waiting: a ring of fixed
 /// size.
 /// </summary>
-internal sealed class ContactQueue
+internal sealed class NoticeQueue<T>
+    where T : struct
 {
-    private readonly ContactNotice[] ring;
+    private readonly T[] ring;
     private long written; // by the writer alone
     private long read; // by the reader alone
 
-    internal ContactQueue(int capacity) => ring = new ContactNotice[capacity];
+    internal NoticeQueue(int capacity) => ring = new T[capacity];
 
     internal int Capacity => ring.Length;
 
     /// <summary>Puts one in, if no more than that would then be waiting. For the writer.</summary>
-    internal bool TryWrite(in ContactNotice notice, int most)
+    internal bool TryWrite(in T notice, int most)
     {
         if (written - Volatile.Read(ref read) >= most)
         {
@@ -30,7 +31,7 @@ internal sealed class ContactQueue
     }
 
     /// <summary>Takes the oldest out. For the reader.</summary>
-    internal bool TryRead(out ContactNotice notice)
+    internal bool TryRead(out T notice)
     {
         if (read == Volatile.Read(ref written))
         {
