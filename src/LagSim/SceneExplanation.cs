@@ -244,6 +244,11 @@ public sealed class SceneExplanation
                     : $"{Count(bodies, "body", "bodies")}. Up to {SimulationOptions.DefaultBruteForceLimit}, brute force: every pair is tested."),
             new FeatureExplanation(
                 "periodic box", scene.Box.Exists, scene.Box.Exists ? "A flight is opened anew after an eighth of the least side." : "The scene has none."),
+            new FeatureExplanation(
+                "sensors", scene.SensorArray.Length > 0,
+                scene.SensorArray.Length > 0
+                    ? $"{Count(scene.SensorArray.Length, "sensor")}: each is asked for every piece of path, and changes none."
+                    : "There is none."),
         };
     }
 

@@ -39,10 +39,11 @@ internal static class CheckCommand
         Option<string> strategy = CommonOptions.Word("--strategy", "What a peer does with an event that arrives late.", LateEventStrategies.Default, [.. LateEventStrategies.Names]);
         Option<string?> bodies = new("--bodies") { Description = "For a single session: the numbers of the bodies of its scene that take part.", HelpName = "N,N,..." };
         Option<string?> events = new("--events") { Description = $"For a single session: the numbers of the drawn events that are done, or {None}.", HelpName = "N,N,..." };
+        Option<string> rules = CommonOptions.Word("--rules", "Which sessions have rules of a game, drawn too: 15 in a hundred, all or none.", "some", ["some", "all", "none"]);
         Command command = new("check", "Plays random seeded sessions and compares every peer with one that never had any delay; a failing seed is shrunk to a smaller case"
             + " that can be replayed.")
         {
-            sessions, peers, profile, strategy, bodies, events,
+            sessions, peers, profile, strategy, rules, bodies, events,
         };
         common.AddTo(command);
         command.SetAction(parsed =>
@@ -56,6 +57,7 @@ internal static class CheckCommand
                 ToPeers = to,
                 Profile = Profile(parsed.GetValue(profile)!),
                 Strategy = parsed.GetValue(strategy)!,
+                Rules = parsed.GetValue(rules) switch { "all" => RulesOfSessions.All, "none" => RulesOfSessions.None, _ => RulesOfSessions.Some },
                 Bodies = Indices("--bodies", parsed.GetValue(bodies)),
                 Events = Indices("--events", parsed.GetValue(events)),
             };

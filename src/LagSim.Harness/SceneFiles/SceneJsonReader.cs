@@ -10,7 +10,7 @@ namespace LagSim.Harness.SceneFiles;
 internal ref struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies", "sensors"]);
 
     private readonly string? locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // parts to build once the name is known
@@ -104,6 +104,9 @@ internal ref struct SceneJsonReader
                     break;
                 case "static_spheres":
                     Add(PartJson.Sphere(ref cursor));
+                    break;
+                case "sensors":
+                    Add(SensorJson.Read(ref cursor));
                     break;
                 case "forces":
                     Force force = ForceJson.Read(ref cursor);

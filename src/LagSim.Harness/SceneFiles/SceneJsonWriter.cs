@@ -67,6 +67,11 @@ internal static class SceneJsonWriter
             Filter(json, sphere.Filter);
         });
         List(json, "bodies", scene.Bodies, body => Body(json, scene, body));
+        if (scene.Sensors.Count > 0)
+        {
+            List(json, "sensors", scene.Sensors, sensor => WriteSensor(json, sensor));
+        }
+
         json.WriteEndObject();
     }
 
@@ -184,6 +189,20 @@ internal static class SceneJsonWriter
         {
             json.WriteNumber("mask", filter.Mask);
         }
+    }
+
+    private static void WriteSensor(Utf8JsonWriter json, in Sensor sensor)
+    {
+        json.WriteString("name", sensor.Name);
+        json.WriteString("shape", SensorNames.Of(sensor.Shape));
+        if (sensor.Coverage != SensorCoverage.Centre)
+        {
+            json.WriteString("coverage", SensorNames.Of(sensor.Coverage));
+        }
+
+        bool isPlane = sensor.Shape == SensorShape.Plane;
+        Vector(json, isPlane ? "normal" : "centre_m", isPlane ? sensor.Normal : sensor.Centre);
+        json.WriteNumber(isPlane ? "offset_m" : "radius_m", isPlane ? sensor.Offset : sensor.Radius);
     }
 
     private static void WriteForce(Utf8JsonWriter json, Force force)

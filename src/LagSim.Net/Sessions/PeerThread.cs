@@ -185,6 +185,9 @@ public sealed class PeerThread : IDisposable
     /// <summary>The contact notices given in the session's options; null if none were, and before there is a world.</summary>
     public ContactNotices? Contacts => Session.World?.Contacts;
 
+    /// <summary>The crossing notices given in the session's options; null if none were, and before there is a world.</summary>
+    public CrossingNotices? Crossings => Session.World?.Crossings;
+
     /// <summary>The number of steps done so far.</summary>
     public long Steps => thread.Steps;
 

@@ -151,6 +151,12 @@ public abstract record SessionOptions
     public ContactNotices? Contacts { get; init; }
 
     /// <summary>
+    /// Receives crossings of sensors, for a goal or a checkpoint; null, the default, for none. An instance serves one session only.
+    /// Crossings are confirmed as contacts are.
+    /// </summary>
+    public CrossingNotices? Crossings { get; init; }
+
+    /// <summary>
     /// Receives what the scene's rules tell; null, the default, for none. An instance serves one session only. Confirmed as contacts are.
     /// </summary>
     public RuleNotices? RuleNotices { get; init; }

@@ -220,7 +220,11 @@ internal sealed class SessionRun
     private ClientOptions ClientsOf(SessionOptions chosen)
     {
         ClientOptions options = ClientOptions.From(chosen);
-        return options with { Accelerations = options.Accelerations ?? scene.Accelerations };
+        return options with
+        {
+            Accelerations = options.Accelerations ?? scene.Accelerations,
+            Rules = options.Rules ?? (scene.Rules is SceneRules rules ? new[] { rules } : null),
+        };
     }
 
     /// <summary>A lead long enough for every initial client to receive the start in time, unless much is lost.</summary>

@@ -17,9 +17,9 @@ public static class ExternalEventCheck
             throw new System.ArgumentNullException(nameof(scene));
         }
 
-        if (external.Peer == 0 && scene.Rules is not null)
+        if (external.Peer == SceneRules.Peer && scene.Rules is not null)
         {
-            throw new SceneException($"{external} is of peer 0; in a scene with rules that is what they do, and peers count from 1.");
+            throw new SceneException($"{external} is of peer {SceneRules.Peer}; in a scene with rules that number stands for them.");
         }
 
         ThrowIfUnfit(external, scene);

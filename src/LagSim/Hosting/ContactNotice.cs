@@ -14,7 +14,7 @@ namespace LagSim.Hosting;
 /// Immutable, safe on any thread. The data of the contact has the same bits on every peer. <see cref="Number"/>, and which contacts come as
 /// predicted, are each peer's own.
 /// </remarks>
-public readonly struct ContactNotice : IEquatable<ContactNotice>
+public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<ContactNotice>
 {
     internal ContactNotice(ContactNoticeKind kind, long number, in EventKey key, in ImpactContact contact)
     {
@@ -119,5 +119,9 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>
         return bySecond != 0 ? bySecond : a.Surface.CompareTo(b.Surface);
     }
 
-    internal ContactNotice As(ContactNoticeKind kind, long number) => new(kind, number, this);
+    int INotice<ContactNotice>.CompareWith(ContactNotice other) => Compare(this, other);
+
+    bool INotice<ContactNotice>.IsSameAs(ContactNotice other) => IsSameContact(other);
+
+    ContactNotice INotice<ContactNotice>.As(NoticeKind kind, long number) => new((ContactNoticeKind)kind, number, this);
 }

@@ -1,6 +1,4 @@
 using System;
-using System.Collections.Generic;
-using System.Threading;
 using LagSim.Events;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -50,19 +48,7 @@ public sealed class ContactNotices : IImpactObserver
     /// <summary>The largest queue.</summary>
     public const int MaxCapacity = 1 << 20;
 
-    private const int MinCapacity = 16;
-    private const int FewChanges = 1024;
-
-    private readonly NoticeQueue<ContactNotice> queue;
-    private readonly List<ContactNotice> tail = new(); // the known contacts, while they are merged with the changes
-    private List<Change> changes = new(); // since the last step that was reported, in the order in which they came
-    private List<Change> spare = new();
-    private readonly List<ContactNotice> standing = new(); // predicted and neither confirmed nor retracted, in order
-    private int confirmed; // the number of these at the front that have been confirmed
-    private int settledChanges; // how many changes were left when they were last put together
-    private long number;
-    private long lost;
-    private bool isFollowing;
+    private readonly NoticeLedger<ContactNotice> ledger;
 
     /// <summary>Creates the notices for the contacts of one world, which is given them.</summary>
     /// <param name="minClosingSpeed">Slower contacts are not reported, in m/s; at least zero, default <see cref="DefaultMinClosingSpeed"/>.
@@ -79,264 +65,58 @@ public sealed class ContactNotices : IImpactObserver
                 + " least zero.");
         }
 
-        if (capacity is < MinCapacity or > MaxCapacity)
-        {
-            throw new ArgumentOutOfRangeException(nameof(capacity), capacity, $"From {MinCapacity} to {MaxCapacity} notices may wait to be read.");
-        }
-
         MinClosingSpeed = minClosingSpeed;
-        queue = new NoticeQueue<ContactNotice>(capacity);
+        ledger = new NoticeLedger<ContactNotice>(capacity);
     }
 
     /// <summary>
     /// Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.
     /// </summary>
-    public event Action<ContactNotice>? Noticed;
+    public event Action<ContactNotice>? Noticed
+    {
+        add => ledger.Noticed += value;
+        remove => ledger.Noticed -= value;
+    }
 
     /// <summary>Slower contacts are not reported, in m/s.</summary>
     public double MinClosingSpeed { get; }
 
     /// <summary>How many notices may wait to be read.</summary>
-    public int Capacity => queue.Capacity;
+    public int Capacity => ledger.Capacity;
 
     /// <summary>
     /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Predictions take at most half of the
     /// queue; other notices that find no room are left out too, each with a gap in <see cref="ContactNotice.Number"/>.
     /// <see cref="Noticed"/> had them. From any thread.
     /// </summary>
-    public long Lost => Volatile.Read(ref lost);
+    public long Lost => ledger.Lost;
 
     /// <summary>How many contacts are predicted and neither confirmed nor retracted. On the simulation's thread.</summary>
-    public int Pending => standing.Count - confirmed;
+    public int Pending => ledger.Pending;
 
     /// <summary>The next notice, in order; for one thread only, the game's. Takes no lock and allocates nothing.</summary>
     /// <returns>False if there is none at the moment.</returns>
-    public bool TryRead(out ContactNotice notice) => queue.TryRead(out notice);
+    public bool TryRead(out ContactNotice notice) => ledger.TryRead(out notice);
 
     void IImpactObserver.OnContact(in EventKey impact, in ImpactContact contact)
     {
         if (contact.ClosingSpeed >= MinClosingSpeed)
         {
-            Note(new Change(changes.Count, false, new ContactNotice(ContactNoticeKind.Predicted, 0, impact, contact)));
+            ledger.Made(new ContactNotice(ContactNoticeKind.Predicted, 0, impact, contact));
         }
     }
 
-    void IImpactObserver.OnCut(in EventKey impact) => Note(new Change(changes.Count, true, new ContactNotice(ContactNoticeKind.Retracted, 0, impact, default)));
+    void IImpactObserver.OnCut(in EventKey impact) => ledger.Cut(impact);
 
-    /// <summary>Takes one world on, once.</summary>
-    /// <exception cref="InvalidOperationException">It follows a world already.</exception>
-    internal void Follow()
-    {
-        if (isFollowing)
-        {
-            throw new InvalidOperationException("These contact notices follow a world already; each world needs its own.");
-        }
+    /// <inheritdoc cref="NoticeLedger{T}.Follow"/>
+    internal void Follow() => ledger.Follow("contact");
 
-        isFollowing = true;
-    }
+    /// <inheritdoc cref="NoticeLedger{T}.Restart"/>
+    internal void Restart() => ledger.Restart();
 
-    /// <summary>Lets go of a world that another takes the place of: what it predicted and did not confirm is retracted.</summary>
-    internal void Restart()
-    {
-        changes.Clear();
-        settledChanges = 0;
-        for (; confirmed < standing.Count; confirmed++)
-        {
-            Emit(ContactNoticeKind.Retracted, standing[confirmed]);
-        }
+    /// <inheritdoc cref="NoticeLedger{T}.Tell"/>
+    internal void Tell(Simulation simulation) => ledger.Tell(simulation);
 
-        standing.Clear();
-        confirmed = 0;
-        isFollowing = false;
-    }
-
-    /// <summary>
-    /// Reports what a step changed and what can no longer change. While a heal is under way it waits: most of what a heal undoes it makes
-    /// again.
-    /// </summary>
-    internal void Tell(Simulation simulation)
-    {
-        if (simulation.Engine.Rollback.IsActive)
-        {
-            return;
-        }
-
-        Merge();
-        while (confirmed < standing.Count && standing[confirmed].Time < simulation.HistoryEdge)
-        {
-            Emit(ContactNoticeKind.Confirmed, standing[confirmed++]);
-        }
-
-        if (confirmed > FewChanges && confirmed > standing.Count / 2)
-        {
-            standing.RemoveRange(0, confirmed);
-            confirmed = 0;
-        }
-    }
-
-    /// <summary>
-    /// When a world that forgets by itself has the next to be confirmed; <see cref="SimTime.MaxValue"/> if none waits for that.
-    /// </summary>
-    internal SimTime NextDue(SimDuration history, SimDuration lookAhead)
-    {
-        if (Pending == 0 || history > SimDuration.FromSeconds(1 << 20))
-        {
-            return SimTime.MaxValue; // the owner that forgets for it has it step
-        }
-
-        return standing[confirmed].Time + history - lookAhead + SimDuration.OneTick;
-    }
-
-    private void Note(in Change change)
-    {
-        changes.Add(change);
-        if (changes.Count > FewChanges + (2 * settledChanges))
-        {
-            PutTogether(); // a heal that is long under way: of each impact only what came last matters
-        }
-    }
-
-    /// <summary>
-    /// Leaves of the changes of each impact whether it was cut, and what was made after that; in the order of the impacts.
-    /// </summary>
-    private void PutTogether()
-    {
-        changes.Sort(static (a, b) =>
-        {
-            int byKey = EventKey.Compare(a.Contact.Key, b.Contact.Key);
-            return byKey != 0 ? byKey : a.Place.CompareTo(b.Place);
-        });
-        spare.Clear();
-        for (int from = 0; from < changes.Count;)
-        {
-            int end = from;
-            int lastCut = -1;
-            for (; end < changes.Count && changes[end].Contact.Key == changes[from].Contact.Key; end++)
-            {
-                lastCut = changes[end].IsCut ? end : lastCut;
-            }
-
-            for (int i = lastCut < 0 ? from : lastCut; i < end; i++)
-            {
-                spare.Add(new Change(spare.Count, changes[i].IsCut, changes[i].Contact));
-            }
-
-            from = end;
-        }
-
-        (changes, spare) = (spare, changes);
-        settledChanges = changes.Count;
-    }
-
-    /// <summary>Merges the changes into the known contacts, and reports the difference.</summary>
-    private void Merge()
-    {
-        if (changes.Count == 0)
-        {
-            return;
-        }
-
-        PutTogether();
-        int from = FirstFrom(changes[0].Contact.Key);
-        tail.Clear();
-        for (int i = from; i < standing.Count; i++)
-        {
-            tail.Add(standing[i]);
-        }
-
-        standing.RemoveRange(from, standing.Count - from);
-        int old = 0;
-        for (int at = 0; at < changes.Count;)
-        {
-            EventKey key = changes[at].Contact.Key;
-            while (old < tail.Count && EventKey.Compare(tail[old].Key, key) < 0)
-            {
-                standing.Add(tail[old++]);
-            }
-
-            at += changes[at].IsCut ? 1 : 0;
-
-            // An impact is made again only after it was cut. So this compares its old contacts with its new ones; both are in the order of
-            // contacts.
-            while ((old < tail.Count && tail[old].Key == key) || (at < changes.Count && changes[at].Contact.Key == key))
-            {
-                bool hasOld = old < tail.Count && tail[old].Key == key;
-                bool hasNew = at < changes.Count && changes[at].Contact.Key == key;
-                int compared = !hasOld ? 1 : !hasNew ? -1 : ContactNotice.Compare(tail[old], changes[at].Contact);
-                if (compared == 0 && tail[old].IsSameContact(changes[at].Contact))
-                {
-                    standing.Add(tail[old++]);
-                    at++;
-                }
-                else if (compared <= 0)
-                {
-                    Emit(ContactNoticeKind.Retracted, tail[old++]);
-                }
-                else
-                {
-                    standing.Add(changes[at].Contact);
-                    Emit(ContactNoticeKind.Predicted, changes[at++].Contact);
-                }
-            }
-        }
-
-        for (; old < tail.Count; old++)
-        {
-            standing.Add(tail[old]);
-        }
-
-        changes.Clear();
-        settledChanges = 0;
-    }
-
-    /// <summary>
-    /// The place in the known contacts of the first contact of that impact or a later one; confirmed contacts come first.
-    /// </summary>
-    private int FirstFrom(in EventKey key)
-    {
-        int low = confirmed;
-        int high = standing.Count;
-        while (low < high)
-        {
-            int middle = (low + high) >> 1;
-            if (EventKey.Compare(standing[middle].Key, key) < 0)
-            {
-                low = middle + 1;
-            }
-            else
-            {
-                high = middle;
-            }
-        }
-
-        return low;
-    }
-
-    private void Emit(ContactNoticeKind kind, in ContactNotice contact)
-    {
-        ContactNotice notice = contact.As(kind, ++number);
-        Noticed?.Invoke(notice);
-        if (!queue.TryWrite(notice, kind == ContactNoticeKind.Predicted ? queue.Capacity / 2 : queue.Capacity))
-        {
-            Volatile.Write(ref lost, lost + 1); // no other thread writes it
-        }
-    }
-
-    /// <summary>A contact of an impact that was made, or an impact that was cut.</summary>
-    private readonly struct Change
-    {
-        internal Change(int place, bool isCut, in ContactNotice contact)
-        {
-            Place = place;
-            IsCut = isCut;
-            Contact = contact;
-        }
-
-        /// <summary>Which came first.</summary>
-        internal int Place { get; }
-
-        internal bool IsCut { get; }
-
-        internal ContactNotice Contact { get; }
-    }
+    /// <inheritdoc cref="NoticeLedger{T}.NextDue"/>
+    internal SimTime NextDue(SimDuration history, SimDuration lookAhead) => ledger.NextDue(history, lookAhead);
 }

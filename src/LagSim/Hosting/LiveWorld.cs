@@ -44,11 +44,14 @@ public sealed class LiveWorld
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
+    /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
-    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null, RuleNotices? notices = null)
-        : this(new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, notices)), lookAhead, renderedPast, contacts, notices)
+    public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null,
+        CrossingNotices? crossings = null, RuleNotices? notices = null)
+        : this(
+            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices)), lookAhead, renderedPast, contacts, crossings, notices)
     {
     }
 
@@ -59,19 +62,23 @@ public sealed class LiveWorld
     /// <param name="lookAhead">How far ahead of the clock, above zero and at most 1 s; default two frames.</param>
     /// <param name="renderedPast">How much of the past render snapshots show, at least zero; default 250 ms.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
+    /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
         Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
-        ContactNotices? contacts = null, RuleNotices? notices = null)
-        : this(new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, notices)), lookAhead, renderedPast, contacts, notices)
+        ContactNotices? contacts = null, CrossingNotices? crossings = null, RuleNotices? notices = null)
+        : this(
+            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices)), lookAhead, renderedPast, contacts,
+            crossings, notices)
     {
     }
 
     private LiveWorld(
-        Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, RuleNotices? notices)
+        Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings,
+        RuleNotices? notices)
     {
         Notices = notices;
         if (notices is not null)
@@ -81,6 +88,7 @@ public sealed class LiveWorld
 
         Simulation = simulation;
         Contacts = contacts;
+        Crossings = crossings;
         events = EventsAStep;
         LookAhead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
         this.renderedPast = renderedPast ?? DefaultRenderedPast;
@@ -94,6 +102,9 @@ public sealed class LiveWorld
 
     /// <summary>Receives its contacts; null for none.</summary>
     public ContactNotices? Contacts { get; }
+
+    /// <summary>Receives its crossings of sensors; null for none.</summary>
+    public CrossingNotices? Crossings { get; }
 
     /// <summary>Receives what its rules tell; null for none.</summary>
     public RuleNotices? Notices { get; }
@@ -144,12 +155,13 @@ public sealed class LiveWorld
     private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.UsualCandidates) + 8));
 
     /// <summary>
-    /// Gives the notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to
-    /// be stepped again.
+    /// Gives the notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be
+    /// stepped again.
     /// </summary>
     public void Retire()
     {
         Contacts?.Restart();
+        Crossings?.Restart();
         Notices?.Restart();
     }
 
@@ -257,12 +269,14 @@ public sealed class LiveWorld
         if (!Simulation.Engine.Loop.IsPartDone)
         {
             Contacts?.Tell(Simulation);
+            Crossings?.Tell(Simulation);
             Notices?.Tell(Simulation);
         }
 
+        SimDuration history = Simulation.Engine.Progress.History;
         SimTime confirmation = SimTime.Min(
-            Contacts?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue,
-            Notices?.NextDue(Simulation.Engine.Progress.History, LookAhead) ?? SimTime.MaxValue);
+            Contacts?.NextDue(history, LookAhead) ?? SimTime.MaxValue, Crossings?.NextDue(history, LookAhead) ?? SimTime.MaxValue);
+        confirmation = SimTime.Min(confirmation, Notices?.NextDue(history, LookAhead) ?? SimTime.MaxValue);
         if (Simulation.Engine.Loop.Blocked is not null)
         {
             return SimTime.Min(confirmation, now + LookAhead); // there is nothing to do before an event comes
@@ -273,7 +287,8 @@ public sealed class LiveWorld
 
     /// <summary>The options, if they and the spans go together.</summary>
     private static SimulationOptions Checked(
-        SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, RuleNotices? notices)
+        SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings,
+        RuleNotices? notices)
     {
         if (options is null)
         {
@@ -300,7 +315,9 @@ public sealed class LiveWorld
 
         contacts?.Follow();
         notices?.Follow();
-        return contacts is null ? options : options.WithObserver(contacts);
+        crossings?.Follow();
+        options = contacts is null ? options : options.WithObserver(contacts);
+        return crossings is null ? options : options.WithCrossingObserver(crossings);
     }
 
     /// <summary>

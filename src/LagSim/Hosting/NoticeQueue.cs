@@ -7,6 +7,7 @@ namespace LagSim.Hosting;
 /// size.
 /// </summary>
 internal sealed class NoticeQueue<T>
+    where T : struct
 {
     private readonly T[] ring;
     private long written; // by the writer alone

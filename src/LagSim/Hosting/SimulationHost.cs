@@ -41,13 +41,16 @@ public sealed class SimulationHost : IDisposable
     /// <param name="clock">The clock; usually a <see cref="StopwatchClock"/>.</param>
     /// <param name="lookAhead">How far ahead of the clock the world is simulated; default two frames.</param>
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
-    /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none. As above.</param>
-    /// <exception cref="InvalidOperationException">The contact notices follow a world already.</exception>
-    public SimulationHost(Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, RuleNotices? notices = null)
+    /// <param name="crossings">Receives the crossings of sensors of this world alone, likewise; null, the default, for none.</param>
+    /// <param name="notices">Receives what the scene's rules tell in this world alone, likewise; null, the default, for none.</param>
+    /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
+    public SimulationHost(
+        Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, CrossingNotices? crossings = null,
+        RuleNotices? notices = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
         SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token);
-        world = new LiveWorld(scene, options, lookAhead, contacts: contacts, notices: notices);
+        world = new LiveWorld(scene, options, lookAhead, contacts: contacts, crossings: crossings, notices: notices);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
@@ -72,6 +75,9 @@ public sealed class SimulationHost : IDisposable
 
     /// <summary>Receives contacts; null for none. For the game's thread <see cref="ContactNotices.TryRead"/>.</summary>
     public ContactNotices? Contacts => world.Contacts;
+
+    /// <summary>Receives crossings of sensors; null for none. For the game's thread <see cref="CrossingNotices.TryRead"/>.</summary>
+    public CrossingNotices? Crossings => world.Crossings;
 
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
     public long LateSteps => world.LateSteps;

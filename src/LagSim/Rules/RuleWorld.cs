@@ -242,36 +242,36 @@ public sealed class RuleWorld
     {
         CheckCalled();
         uint number = checked((uint)++memory.Spawned);
-        BodyId body = new(0, number, 0);
-        Act(ExternalEvent.Spawn(key.Time, 0, number, spec, position, velocity, spin));
+        BodyId body = new(SceneRules.Peer, number, 0);
+        Act(ExternalEvent.Spawn(key.Time, SceneRules.Peer, number, spec, position, velocity, spin));
         return body;
     }
 
     /// <summary>A body disappears; see <see cref="PlayerAction.Remove"/>.</summary>
     /// <exception cref="SceneException">There can be no such body.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
-    public void Remove(BodyId body) => Act(ExternalEvent.Remove(key.Time, 0, 1, body));
+    public void Remove(BodyId body) => Act(ExternalEvent.Remove(key.Time, SceneRules.Peer, 1, body));
 
     /// <summary>A body is put somewhere, with a velocity. One that is held stays in the hand.</summary>
     /// <exception cref="SceneException">A value may not enter the world.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
     public void Teleport(BodyId body, Vector3D position, Vector3D velocity = default) =>
-        Act(ExternalEvent.Teleport(key.Time, 0, 1, body, position, velocity));
+        Act(ExternalEvent.Teleport(key.Time, SceneRules.Peer, 1, body, position, velocity));
 
     /// <summary>A body's velocity becomes this, in m/s. One that is held moves with the hand.</summary>
     /// <exception cref="SceneException">A value may not enter the world.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
-    public void SetVelocity(BodyId body, Vector3D velocity) => Act(ExternalEvent.SetVelocity(key.Time, 0, 1, body, velocity));
+    public void SetVelocity(BodyId body, Vector3D velocity) => Act(ExternalEvent.SetVelocity(key.Time, SceneRules.Peer, 1, body, velocity));
 
     /// <summary>A body's momentum changes, in newton seconds; see <see cref="PlayerAction.Impulse"/>.</summary>
     /// <exception cref="SceneException">A value may not enter the world.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
-    public void Impulse(BodyId body, Vector3D impulse) => Act(ExternalEvent.Impulse(key.Time, 0, 1, body, impulse));
+    public void Impulse(BodyId body, Vector3D impulse) => Act(ExternalEvent.Impulse(key.Time, SceneRules.Peer, 1, body, impulse));
 
     /// <summary>A body collides by this filter from now on; see <see cref="PlayerAction.SetFilter"/>.</summary>
     /// <exception cref="SceneException">There can be no such body.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
-    public void SetFilter(BodyId body, CollisionFilter filter) => Act(ExternalEvent.SetFilter(key.Time, 0, 1, body, filter));
+    public void SetFilter(BodyId body, CollisionFilter filter) => Act(ExternalEvent.SetFilter(key.Time, SceneRules.Peer, 1, body, filter));
 
     /// <summary>Tells the game outside something, such as that there was a goal: <see cref="Hosting.RuleNotices"/> has it as predicted, and
     /// as confirmed when nothing can change it any more.</summary>
@@ -330,7 +330,7 @@ public sealed class RuleWorld
 
         ExternalEventCheck.ThrowIfUnfit(what, Scene);
         uint number = checked(firstAct + (uint)acts.Count + 1);
-        acts.Add(new RuleAct(new EventKey(key.Time, checked(key.Round + 1), what.Kind, what.Body, what.Body, 0, number), what));
+        acts.Add(new RuleAct(new EventKey(key.Time, checked(key.Round + 1), what.Kind, what.Body, what.Body, SceneRules.Peer, number), what));
         Chains = true;
     }
 

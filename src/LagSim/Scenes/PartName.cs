@@ -1,3 +1,5 @@
+using System;
+using System.Collections.Generic;
 using System.Text;
 
 namespace LagSim.Scenes;
@@ -50,5 +52,24 @@ internal static class PartName
         }
 
         return name?.Length > MaxLength ? shown.Append("...").ToString() : shown.ToString();
+    }
+
+    /// <summary>Checks the names of all parts of a scene.</summary>
+    /// <exception cref="SceneException">One is no name, or stands twice.</exception>
+    internal static void CheckAll(string scene, List<string> names)
+    {
+        names.Sort(StringComparer.Ordinal);
+        for (int i = 0; i < names.Count; i++)
+        {
+            if (Problem(names[i]) is string problem)
+            {
+                throw new SceneException($"'{Shown(names[i])}' is no name for a part of scene '{scene}': {problem}.");
+            }
+
+            if (i > 0 && string.Equals(names[i], names[i - 1], StringComparison.Ordinal))
+            {
+                throw new SceneException($"Two parts of scene '{scene}' are named '{names[i]}'; every name must be unique.");
+            }
+        }
     }
 }

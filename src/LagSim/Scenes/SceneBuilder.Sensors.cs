@@ -47,35 +47,4 @@ public sealed partial class SceneBuilder
         sensors.Add(new Sensor(sensorName, SensorShape.Sphere, centre.WithoutNegativeZero(), radius, coverage));
         return this;
     }
-
-    private void CheckSensors()
-    {
-        if (sensors.Count > MaxSensors)
-        {
-            throw new SceneException($"Scene '{name}' has {sensors.Count} sensors; at most {MaxSensors} are allowed.");
-        }
-
-        if (box.Exists && sensors.Count > 0)
-        {
-            throw new SceneException($"Scene '{name}' has a periodic box and {Limits.Count(sensors.Count, "sensor")}; a periodic box goes with none.");
-        }
-
-        foreach (Sensor sensor in sensors)
-        {
-            string whose = $"sensor '{sensor.Name}'";
-            if (sensor.Coverage > SensorCoverage.Whole)
-            {
-                throw new SceneException($"The coverage of {whose} is {(byte)sensor.Coverage}; it is 0 to {(byte)SensorCoverage.Whole}.");
-            }
-
-            if (sensor.Shape == SensorShape.Plane)
-            {
-                Limits.InRange(sensor.Offset, -Limits.MaxCoordinate, Limits.MaxCoordinate, whose, "offset", "m");
-                continue;
-            }
-
-            Limits.CheckPosition(sensor.Centre, whose);
-            Limits.InRange(sensor.Radius, Limits.MinRadius, Limits.MaxRadius, whose, "radius", "m");
-        }
-    }
 }

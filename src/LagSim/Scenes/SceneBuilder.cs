@@ -245,7 +245,7 @@ public sealed partial class SceneBuilder
         });
         double smallest = Smallest();
         CheckBox();
-        CheckSensors();
+        SensorCheck.Throw(name, sensors, box);
         ParallelPair.InParts(0, bodyArray.Length, used, (from, to) =>
         {
             for (int i = from; i < to; i++)
@@ -264,7 +264,7 @@ public sealed partial class SceneBuilder
 
         void NameAndHash()
         {
-            CheckNames();
+            PartName.CheckAll(name, PartNames());
             scene = new Scene(
                 name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest),
                 planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box, sensors.ToArray(), rules, seed);
@@ -340,20 +340,7 @@ public sealed partial class SceneBuilder
             Limits.CheckForce(force);
         }
 
-        foreach (StaticPlane plane in planes)
-        {
-            Limits.InRange(plane.Restitution, 0, 1, $"plane '{plane.Name}'", "restitution", "(no unit)");
-            Limits.InRange(plane.Friction, 0, Limits.MaxFriction, $"plane '{plane.Name}'", "friction", "(no unit)");
-            Limits.InRange(plane.Offset, -Limits.MaxCoordinate, Limits.MaxCoordinate, $"plane '{plane.Name}'", "offset", "m");
-        }
-
-        foreach (StaticSphere sphere in spheres)
-        {
-            Limits.CheckPosition(sphere.Centre, $"static sphere '{sphere.Name}'");
-            Limits.InRange(sphere.Radius, Limits.MinRadius, Limits.MaxRadius, $"static sphere '{sphere.Name}'", "radius", "m");
-            Limits.InRange(sphere.Restitution, 0, 1, $"static sphere '{sphere.Name}'", "restitution", "(no unit)");
-            Limits.InRange(sphere.Friction, 0, Limits.MaxFriction, $"static sphere '{sphere.Name}'", "friction", "(no unit)");
-        }
+        StaticSurfaceCheck.Throw(planes, spheres);
     }
 
     private void CheckBox()
@@ -377,46 +364,15 @@ public sealed partial class SceneBuilder
         }
     }
 
-    private void CheckNames()
+    /// <summary>The names of all parts.</summary>
+    private List<string> PartNames()
     {
         List<string> names = new();
-        foreach (Force force in forces)
-        {
-            names.Add(force.Name);
-        }
-
-        foreach (StaticPlane plane in planes)
-        {
-            names.Add(plane.Name);
-        }
-
-        foreach (StaticSphere sphere in spheres)
-        {
-            names.Add(sphere.Name);
-        }
-
-        foreach (SceneBody body in bodies)
-        {
-            names.Add(body.Name);
-        }
-
-        foreach (Sensor sensor in sensors)
-        {
-            names.Add(sensor.Name);
-        }
-
-        names.Sort(StringComparer.Ordinal);
-        for (int i = 0; i < names.Count; i++)
-        {
-            if (PartName.Problem(names[i]) is string problem)
-            {
-                throw new SceneException($"'{PartName.Shown(names[i])}' is no name for a part of scene '{name}': {problem}.");
-            }
-
-            if (i > 0 && string.Equals(names[i], names[i - 1], StringComparison.Ordinal))
-            {
-                throw new SceneException($"Two parts of scene '{name}' are named '{names[i]}'; every name must be unique.");
-            }
-        }
+        forces.ForEach(force => names.Add(force.Name));
+        planes.ForEach(plane => names.Add(plane.Name));
+        spheres.ForEach(sphere => names.Add(sphere.Name));
+        bodies.ForEach(body => names.Add(body.Name));
+        sensors.ForEach(sensor => names.Add(sensor.Name));
+        return names;
     }
 }

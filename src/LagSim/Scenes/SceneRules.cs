@@ -6,6 +6,10 @@ namespace LagSim.Scenes;
 /// <remarks>Derive from <see cref="Rules.GameRules"/>. Immutable once a scene has them; used by many worlds at a time.</remarks>
 public abstract class SceneRules
 {
+    /// <summary>The number that stands for the rules where a peer's does: 255. Bodies that they spawn have identities (255, n, 0), n from
+    /// 1; no peer of a session has it.</summary>
+    public const byte Peer = 255;
+
     /// <summary>The most bytes of state of the whole world: 16,384.</summary>
     public const int MaxWorldBytes = 16_384;
 

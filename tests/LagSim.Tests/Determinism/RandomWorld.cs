@@ -22,14 +22,12 @@ internal sealed class RandomWorld
     private readonly Random random;
     private readonly double[] masses;
     private readonly bool forced;
-    private readonly int firstPeer; // with rules peer 0 is theirs
     private readonly int? sensorSeed;
 
     /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control, friction and spin.</summary>
     internal RandomWorld(int seed, bool hands = false, bool forced = false, bool filters = false, bool sensors = false, bool rules = false)
     {
         this.forced = forced;
-        firstPeer = rules ? 1 : 0;
         sensorSeed = sensors ? seed + 2_000_000 : null;
         random = new Random(seed);
         masses = seed % 4 == 3 ? ExtremeMasses : Masses;
@@ -287,12 +285,12 @@ internal sealed class RandomWorld
         times.AddRange(busy.Select(time => time + SimDuration.OneTick));
         times.AddRange(busy.Select(time => time - SimDuration.OneTick));
         List<BodyId> known = Bodies(quiet).ToList();
-        uint[] sequences = new uint[5];
+        uint[] sequences = new uint[4];
         List<ExternalEvent> events = [];
         int count = random.Next(3, 9);
         for (int i = 0; i < count; i++)
         {
-            byte peer = (byte)(firstPeer + random.Next(0, 4));
+            byte peer = (byte)random.Next(0, 4);
             uint sequence = ++sequences[peer];
             SimTime time = times[random.Next(times.Count)];
             BodyId body = known[random.Next(known.Count)];
@@ -321,7 +319,7 @@ internal sealed class RandomWorld
         int hands = from.Next(1, 5);
         for (int hand = 0; hand < hands; hand++)
         {
-            byte peer = (byte)(firstPeer + from.Next(0, 4));
+            byte peer = (byte)from.Next(0, 4);
             uint sequence = 100u + ((uint)hand * 100);
             BodyId body = from.Next(3) > 0 ? favourite : known[from.Next(known.Count)];
             SimTime time = times[from.Next(times.Length)];

@@ -75,6 +75,20 @@ internal static class Examples
         }
     }
 
+    internal static void Count(Scene scene)
+    {
+        CrossingNotices crossings = new();
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Crossings = crossings });
+        int goal = scene.SensorNamed("goal");
+        int score = 0;
+
+        // each frame
+        while (crossings.TryRead(out CrossingNotice crossing))
+        {
+            score += crossing.Kind == CrossingNoticeKind.Confirmed && crossing.Sensor == goal && crossing.Entered ? 1 : 0;
+        }
+    }
+
     internal static void Smooth(PeerThread me, BodyId ball)
     {
         DisplayOffsets display = new(me.Session.Scene!);

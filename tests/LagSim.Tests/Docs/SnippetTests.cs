@@ -25,7 +25,7 @@ public sealed partial class SnippetTests
 {
     private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs")
         + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/SecuritySnippets.cs")
-        + Read("tests/LagSim.Tests/Docs/Examples.cs")
+        + Read("tests/LagSim.Tests/Docs/SensorSnippets.cs") + Read("tests/LagSim.Tests/Docs/Examples.cs")
         + Read("samples/FirstGame/Program.cs");
 
     [Theory]
@@ -40,6 +40,7 @@ public sealed partial class SnippetTests
     [InlineData("src/LagSim.Net.Secure/README.md", 1)]
     [InlineData("docs/SECURITY.md", 2)]
     [InlineData("docs/FORCES.md", 7)]
+    [InlineData("docs/SENSORS.md", 3)]
     public void Page_EachOfItsSnippets_IsCompiledAsItStands(string page, int count)
     {
         string[] snippets = [.. Fence().Matches(Read(page)).Select(match => match.Groups[1].Value)];
@@ -55,6 +56,7 @@ public sealed partial class SnippetTests
     [InlineData("src/LagSim/Simulation.cs")]
     [InlineData("src/LagSim/Hosting/SimulationHost.cs")]
     [InlineData("src/LagSim/Hosting/ContactNotices.cs")]
+    [InlineData("src/LagSim/Hosting/CrossingNotices.cs")]
     [InlineData("src/LagSim.Net/Display/DisplayOffsets.cs")]
     [InlineData("src/LagSim.Net/Sessions/PeerThread.cs")]
     [InlineData("src/LagSim.Net/Sessions/HostOptions.cs")]
@@ -88,6 +90,16 @@ public sealed partial class SnippetTests
         onTime.AdvanceTo(At(3));
         Assert.Equal(onTime.StateHash(At(3)), late.StateHash(At(3)));
         Assert.NotEqual(without.StateHash(At(3)), late.StateHash(At(3))); // the control
+    }
+
+    [Fact]
+    public void Sensors_SnippetsOfThePage_RunAndTheBallIsIn()
+    {
+        Scene scene = SensorSnippets.Penalty();
+        Assert.True(SensorSnippets.Read(scene));
+        SensorSnippets.Hear(scene, scene.SensorNamed("goal"));
+        Simulation world = Run(scene, 1);
+        Assert.Equal([(1, true), (0, true), (1, false)], world.Crossings(At(0), At(1)).Select(crossing => (crossing.Sensor, crossing.Entered)));
     }
 
     [Fact]

@@ -6,6 +6,7 @@ using System.Linq;
 using System.Text;
 using FsCheck;
 using FsCheck.Fluent;
+using LagSim.Harness.Verification.Check;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
@@ -37,7 +38,7 @@ public sealed class RecordingsPageTests
     [Fact]
     public void Tables_OfTheScene_AreTheSceneWithAllItsParts()
     {
-        foreach (Scene scene in Gen.Sample(SceneGen.Any, 20, new Rnd(20261121, 1), 10).Append(new RandomWorld(6).Scene).Append(new RandomWorld(7).Scene))
+        foreach (Scene scene in Gen.Sample(SceneGen.Any, 20, new Rnd(20261121, 1), 10).Append(new RandomWorld(6).Scene).Append(new RandomWorld(7, sensors: true).Scene))
         {
             Assert.Equal(Convert.ToHexString(SceneFormat.Encode(scene)), Convert.ToHexString(SceneFromPage(Page, scene)));
         }
@@ -65,7 +66,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 5 + 38 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 5 + 50 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -97,7 +98,9 @@ public sealed class RecordingsPageTests
         IAcceleration force = new FunctionForce((_, _, v) => -v);
         Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddForce(Force.Supplied(force)).AddForce(Force.Spring("spring", V(8, 9, 10), 11, 12)).AddForce(Force.Central("pull", V(13, 14, 15), 16, -3))
             .AddPlane("floor", Vector3D.Up, -3.0, 0.5, 0.625, new CollisionFilter(3, 5))
-            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375, new CollisionFilter(9, 7)).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625, filter: new CollisionFilter(6, 10), tag: 1234567890123), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9)).Build();
+            .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375, new CollisionFilter(9, 7)).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625, filter: new CollisionFilter(6, 10), tag: 1234567890123), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9))
+            .AddSensorSphere("hole", V(20, 21, 22), 23, SensorCoverage.Whole).AddSensorPlane("goal", V(0, 0, 1), 24.0, SensorCoverage.Part)
+            .WithRules(new DrawnRules(5)).WithSeed(77).Build();
         Simulation world = new(scene, new SimulationOptions(Start, SimDuration.MaxValue));
         world.AdvanceTo(Start + Seconds(1));
         byte[] bytes = Recorded.Bytes(
@@ -108,7 +111,7 @@ public sealed class RecordingsPageTests
                 writer.WriteEnd("End.");
             },
             scene, peer: 3, joined: new JoinedState(9, world.Snapshot(Start + Seconds(0.5))));
-        return (bytes, Read(bytes, [force]));
+        return (bytes, Recording.Read(new MemoryStream(bytes), [force], [new DrawnRules(5)]));
     }
 
     private static string Written(string[] page, Recording recording)
@@ -193,6 +196,9 @@ public sealed class RecordingsPageTests
             ["planes"] = scene.Planes.Count,
             ["static spheres"] = scene.StaticSpheres.Count,
             ["bodies"] = scene.Bodies.Count,
+            ["seed"] = scene.Seed,
+            ["rules"] = scene.Rules is null ? 0 : 1,
+            ["sensors"] = scene.Sensors.Count,
         };
         Dictionary<string, (string Prefix, IEnumerable<Dictionary<string, object>> Items)> lists = new()
         {
@@ -207,6 +213,10 @@ public sealed class RecordingsPageTests
                 ("sphere category", s.Filter.Category), ("sphere mask", s.Filter.Mask)))),
             ["bodies"] = ("body ", scene.Bodies.Select(b => LayoutPage.Values(
                 ("body name", b.Name), ("body spec", b.Spec), ("body position", b.Position), ("body velocity", b.Velocity), ("body players", b.Players.Mask), ("body spin", b.Spin)))),
+            ["rules"] = ("rules ", new[] { scene.Rules }.OfType<SceneRules>().Select(r => LayoutPage.Values(
+                ("rules name", r.Name), ("rules version", r.Version), ("rules world bytes", r.WorldBytes), ("rules body bytes", r.BodyBytes)))),
+            ["sensors"] = ("sensor ", scene.Sensors.Select(s => LayoutPage.Values(
+                ("sensor name", s.Name), ("sensor shape", (byte)s.Shape), ("sensor coverage", (byte)s.Coverage), ("sensor vector", s.Shape == SensorShape.Plane ? s.Normal : s.Centre), ("sensor measure", s.Shape == SensorShape.Plane ? s.Offset : s.Radius)))),
         };
         LayoutPage.Write(bytes, Table(page, "2 Scene"), head, lists);
         return bytes.ToArray();

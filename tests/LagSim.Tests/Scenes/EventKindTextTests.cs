@@ -13,7 +13,10 @@ public sealed class EventKindTextTests
     [Fact]
     public void Of_EachKind_IsTheWordOfTheContract()
     {
-        string[] words = ["none", "start", "spawn", "teleport", "setvelocity", "impulse", "grab", "holdknot", "release", "remove", "setfilter", "impact", "stepend"];
+        string[] words =
+        [
+            "none", "start", "spawn", "teleport", "setvelocity", "impulse", "grab", "holdknot", "release", "remove", "setfilter", "command", "timer", "impact", "stepend", "crossing",
+        ];
 
         Assert.Equal(words, Enum.GetValues<EventKind>().Order().Select(EventKindText.Of));
     }

@@ -48,8 +48,9 @@ internal static class SceneGen
         from forces in Gen.ArrayOf(AnyForce)
         from spawners in Peers
         from bodies in Gen.ArrayOf(Body)
+        from sensors in Gen.ArrayOf(Sensor)
         select Build(
-            name, gravity, restitutionThreshold, tolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.MaxForces).ToArray(), spawners, bodies);
+            name, gravity, restitutionThreshold, tolerance, smallest, planeSeeds, spheres, forces.Take(ForceSet.MaxForces).ToArray(), spawners, bodies, sensors);
 
     private static Gen<(BodySpec Spec, Vector3D Velocity, PeerSet Players)> Body =>
         from radius in Log(-8, 8)
@@ -85,6 +86,15 @@ internal static class SceneGen
             _ => Force.Central(name, vector, strength, power),
         });
 
+    private static Gen<Action<SceneBuilder, string>> Sensor =>
+        from coverage in Gen.Elements(SensorCoverage.Centre, SensorCoverage.Part, SensorCoverage.Whole)
+        from isPlane in Gen.Elements(true, false)
+        from normal in Direction
+        from place in Within(1e11)
+        from radius in Log(-8, 8)
+        select (Action<SceneBuilder, string>)((builder, name) => _ = isPlane
+            ? builder.AddSensorPlane(name, normal, place, coverage) : builder.AddSensorSphere(name, place, radius, coverage));
+
     private static Gen<double> Log(int least, int most) =>
         from u in Unit from e in Gen.Choose(least, most - 1) select (1 + (9 * u)) * Math.Pow(10, e);
 
@@ -103,7 +113,8 @@ internal static class SceneGen
         double[] spheres,
         Func<string, Force>[] forces,
         PeerSet spawners,
-        (BodySpec Spec, Vector3D Velocity, PeerSet Players)[] bodies)
+        (BodySpec Spec, Vector3D Velocity, PeerSet Players)[] bodies,
+        Action<SceneBuilder, string>[] sensors)
     {
         SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithRestitutionThreshold(restitutionThreshold).WithSpawners(spawners);
         double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
@@ -145,6 +156,11 @@ internal static class SceneGen
             double offset = Vector3D.Dot(unit, planes[i].Point);
             Vector3D far = offset > -4 * (x + 1) ? unit * (-5 * (x + 1) * (1 + Math.Abs(offset) / 1e11)) : planes[i].Point;
             builder.AddPlane($"{name}p{i}", planes[i].Normal, far, i / 3.0, i == 1 ? 100 : i / 7.0, bodies.Length > i ? bodies[^(i + 1)].Spec.Filter : default);
+        }
+
+        for (int i = 0; i < sensors.Length; i++)
+        {
+            sensors[i](builder, $"{name}q{i}");
         }
 
         return builder.Build();

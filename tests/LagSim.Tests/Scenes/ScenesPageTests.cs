@@ -28,6 +28,7 @@ public sealed class ScenesPageTests
     [InlineData("{\"planes\": [{\"?\": 0}]}")]
     [InlineData("{\"static_spheres\": [{\"?\": 0}]}")]
     [InlineData("{\"forces\": [{\"?\": 0}]}")]
+    [InlineData("{\"sensors\": [{\"?\": 0}]}")]
     [InlineData("{\"bodies\": [{\"?\": 0}]}")]
     public void Tables_OfThePage_HaveEveryKey(string json)
     {

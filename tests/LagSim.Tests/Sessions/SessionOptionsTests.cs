@@ -44,6 +44,7 @@ public sealed class SessionOptionsTests
         ResendInterval = SimDuration.FromMilliseconds(40),
         KeepAlive = SimDuration.FromSeconds(1),
         Contacts = new ContactNotices(),
+        Crossings = new CrossingNotices(),
         Strategy = LateEventStrategy.Interpolation,
         SyncTest = true,
         DisplayDelay = SimDuration.FromMilliseconds(70),

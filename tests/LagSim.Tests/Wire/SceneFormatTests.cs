@@ -100,7 +100,7 @@ public sealed class SceneFormatTests
         Scene again = Decoded(bytes);
 
         Assert.Equal([0x02, 0x02, 0x00, 0x00], bytes[SpawnersAt..ForcesAt]);
-        Assert.Equal([0x01, 0x00, 0x01, 0x00], bytes[^28..^24]); // its spin follows
+        Assert.Equal([0x01, 0x00, 0x01, 0x00], bytes[^39..^35]); // its spin, the count of sensors, the seed and whether there are rules follow
         Assert.Equal(PeerSet.Of(1, 9), again.Spawners);
         Assert.Equal([PeerSet.Nobody, PeerSet.Of(0, 16)], again.Bodies.Select(b => b.Players));
     }
@@ -200,7 +200,7 @@ public sealed class SceneFormatTests
         Scene scene = new SceneBuilder("s").AddForce(Force.QuadraticDrag("a", 0.1), out ForceSet air)
             .AddBody("b", new BodySpec(0.5, 1, 0.5, forces: air), V(1)).Build();
         byte[] bytes = SceneFormat.Encode(scene);
-        int spec = bytes.Length - 24 - 4 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it
+        int spec = bytes.Length - 11 - 24 - 4 - (2 * 24) - EventFormat.SpecBytes; // spin, players, velocity and place follow it, and 11 bytes
         Assert.Equal((byte)MotionLaw.DormandPrince54, bytes[spec + 24]); // after radius, mass and restitution
         bytes[spec + 24] = (byte)MotionLaw.Automatic;
         Refused(bytes, "Body 1 of the scene leaves its law of flight open");

@@ -47,6 +47,7 @@ internal static class SnapshotBits
         && a.NextStep == b.NextStep && a.Hold.Peer == b.Hold.Peer && a.Hold.KeyframeTime == b.Hold.KeyframeTime && a.SupportCount == b.SupportCount
         && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
         && a.Centre == b.Centre && a.StillSince == b.StillSince && a.Contacts.Length == b.Contacts.Length
+        && a.Inside.SequenceEqual(b.Inside) && a.Crossings.SequenceEqual(b.Crossings)
         && a.Contacts.ToArray().Zip(b.Contacts.ToArray()).All(pair => Same(pair.First, pair.Second))
         && Numbers(a).Select(BitConverter.DoubleToInt64Bits).SequenceEqual(Numbers(b).Select(BitConverter.DoubleToInt64Bits));
 

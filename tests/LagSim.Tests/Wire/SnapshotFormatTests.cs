@@ -233,11 +233,20 @@ public sealed class SnapshotFormatTests
         Refused(WireRefusal.BadValue, [.. supports[..^1], 0, 0, 0, 0x80, 0]);
         Decoded([.. supports[..^1], 0xFF, 0xFF, 0xFF, 0x7F, 0]);
         byte[] turns = (byte[])good.Clone();
-        turns[^1] = 4;
+        turns[^1] = 8;
         Refused(WireRefusal.BadValue, turns);
         turns[^1] = 2;
         Refused(WireRefusal.BadValue, [.. turns, 1, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]); // nor has the filter of its spec
         Assert.Equal(new CollisionFilter(2), Decoded([.. turns, 2, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]).Bodies[0].Filter);
+        turns[^1] = 4;
+        Refused(WireRefusal.BadValue, [.. turns, .. new byte[4]]); // of no sensor has another form
+        Decoded([.. turns, 1, 0, 0xFF, 3, 0, 0]);
+        Refused(WireRefusal.BadValue, [.. turns, 1, 0, 0, 4, 0, 0]);
+        byte[] crossing = [.. turns, 0, 0, 1, 0, .. new byte[12], 0xFF, 3, 1];
+        Decoded(crossing);
+        Refused(WireRefusal.TooShort, crossing[..^1]);
+        crossing[^1] = 2;
+        Refused(WireRefusal.BadValue, crossing);
         turns[^1] = 1;
         Refused(WireRefusal.BadValue, [.. turns, .. new byte[48]]); // turning not at all has another form
         Decoded([.. turns, 1, .. new byte[47]]);

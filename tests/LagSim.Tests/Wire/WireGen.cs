@@ -72,8 +72,14 @@ internal static class WireGen
         from tag in Bits64
         select new BodySpec(radius, mass, restitution, flight, step, flight == MotionLaw.Ballistic ? ForceSet.None : forces, tolerance, friction, rolling, filter, tag);
 
+    private static readonly Gen<GameCommand> Command =
+        from number in Gen.Choose(0, ushort.MaxValue)
+        from length in Gen.OneOf(Gen.Choose(0, 8), Gen.Choose(0, GameCommand.MaxBytes))
+        from data in Gen.ArrayOf(Byte, length)
+        select new GameCommand(number, data);
+
     internal static readonly Gen<ExternalEvent> Event =
-        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetFilter)
+        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetFilter, EventKind.Command)
         from time in Time
         from peer in Byte
         from sequence in Bits32.Select(value => Math.Max(1, value))
@@ -83,6 +89,7 @@ internal static class WireGen
         from velocity in Vector
         from spin in Gen.OneOf(Gen.Constant(Vector3D.Zero), Vector)
         from filter in Filter
+        from command in Command
         select kind switch
         {
             EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
@@ -92,6 +99,7 @@ internal static class WireGen
             EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
             EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
             EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
+            EventKind.Command => ExternalEvent.Tell(time, peer, sequence, command),
             EventKind.SetFilter => ExternalEvent.SetFilter(time, peer, sequence, body, filter),
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };

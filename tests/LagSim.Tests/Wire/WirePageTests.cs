@@ -7,6 +7,7 @@ using System.Text.RegularExpressions;
 using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
+using LagSim.Harness.Verification.Check;
 using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
@@ -41,7 +42,7 @@ public sealed class WirePageTests
     public void Tables_OfCopyAndSnapshot_AreThoseOfWorlds()
     {
         int dense = 0, carried = 0, held = 0, inContact = 0;
-        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true, filters: seed % 2 == 0)))
+        foreach (RandomWorld world in Enumerable.Range(1, 40).Select(seed => new RandomWorld(seed, hands: true, filters: seed % 4 < 2, sensors: seed % 2 == 0, rules: seed % 3 == 0)))
         {
             WorldSnapshot snapshot = world.OnTime().Snapshot(At(0.6));
             Assert.Equal(Convert.ToHexString(SnapshotFormat.Encode(snapshot)), Convert.ToHexString(Snapshot(Page, snapshot)));
@@ -78,7 +79,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 12 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 30 + 5 + 4 + 10 + 3 + 3, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 33 + 5 + 4 + 10 + 3, rows);
     }
 
     [Fact]
@@ -185,7 +186,8 @@ public sealed class WirePageTests
                 [new(Second, PersistentContact.NoSurface, true, V(1, 2, 3), V(4, 5, 6)), new(First, 7, false, V(7, 8, 9), V(-1, -2, -0.0))];
             BodySnapshot member = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.Constrained, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: V(10, 11, 12),
-                centre: At(0.125), stillSince: At(0.25), contacts: contacts);
+                centre: At(0.125), stillSince: At(0.25), contacts: contacts, inside: [3, 7],
+                crossings: [new Crossing(new EventKey(At(0.5), 2, EventKind.Crossing, b.Id, b.Id, 0, 7), true)]);
             BodySnapshot sleeper = new(
                 Second, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, centre: At(0.375),
                 contacts: contacts.AsSpan(0, 1));
@@ -393,12 +395,15 @@ public sealed class WirePageTests
                 "offset" => Bytes("vector", what.Position),
                 "spin" => Bytes("vector", what.Spin),
                 "filter" => Bytes("filter", what.Filter),
+                "u16 number" => Bytes("u16", what.Command!.Number),
+                "u8 length" => [(byte)what.Command!.Length],
+                "data" => what.Command!.Data.ToArray(),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });
         }
 
-        Assert.Equal(int.Parse(row[2], CultureInfo.InvariantCulture), EventFormat.EncodedLength(what));
+        Assert.Equal(int.Parse(row[2].Split(' ', StringSplitOptions.RemoveEmptyEntries)[0], CultureInfo.InvariantCulture) + (what.Command?.Length ?? 0), EventFormat.EncodedLength(what));
         return bytes.ToArray();
     }
 
@@ -426,8 +431,25 @@ public sealed class WirePageTests
         Write(
             bytes,
             Table(page, "## Snapshot"),
-            Values(("start", snapshot.Start), ("time", snapshot.Time), ("event hash", snapshot.EventHash), ("bodies", snapshot.Bodies.Count)),
+            Values(("start", snapshot.Start), ("time", snapshot.Time), ("event hash", snapshot.EventHash), ("rule state length", snapshot.RuleState.Length), ("rule state", RuleState(page, snapshot.RuleState)),
+                ("bodies", snapshot.Bodies.Count)),
             new() { ["bodies"] = ("", snapshot.Bodies.Select(body => Body(page, body))) });
+        return bytes.ToArray();
+    }
+
+    private static byte[] RuleState(string[] page, ReadOnlySpan<byte> state)
+    {
+        if (state.IsEmpty)
+        {
+            return [];
+        }
+
+        int timers = BitConverter.ToInt32(state[8..]) * 16;
+        int world = new DrawnRules(0).WorldBytes;
+        MemoryStream bytes = new();
+        Write(bytes, Table(page, "### State of rules"), Values(
+            ("spawned", BitConverter.ToUInt64(state)), ("timers", BitConverter.ToInt32(state[8..])), ("body states", BitConverter.ToInt32(state[12..])),
+            ("timer list", state[16..(16 + timers)].ToArray()), ("world state", state.Slice(16 + timers, world).ToArray()), ("body list", state[(16 + timers + world)..].ToArray())));
         return bytes.ToArray();
     }
 
@@ -439,12 +461,19 @@ public sealed class WirePageTests
         ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54
             ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
-        ("has", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Filter != b.Spec.Filter ? 2 : 0)),
+        ("has", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Filter != b.Spec.Filter ? 2 : 0) + (b.Inside.Length + b.Crossings.Length > 0 ? 4 : 0)),
         ("filter", b.Filter != b.Spec.Filter ? b.Filter : null!),
+        ("sensors", Sensors(b)),
         ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),
         ("hold", b.Law == MotionLaw.Held ? (b.Hold, b.Cubic) : null!),
         ("member", IsMember(b) ? (b.Centre, b.StillSince, b.Contacts.Length) : null!),
         ("contacts", IsMember(b) ? b.Contacts.ToArray().SelectMany(contact => Contact(page, contact)).ToArray() : []));
+
+    private static byte[] Sensors(BodySnapshot b) => b.Inside.Length + b.Crossings.Length == 0 ? [] :
+    [
+        .. LayoutPage.Bytes("u16", b.Inside.Length), .. b.Inside.ToArray().SelectMany(sensor => LayoutPage.Bytes("u16", sensor)), .. LayoutPage.Bytes("u16", b.Crossings.Length),
+        .. b.Crossings.ToArray().SelectMany(c => (byte[])[.. LayoutPage.Bytes("ticks", c.Time), .. LayoutPage.Bytes("u32", c.Key.Round), .. LayoutPage.Bytes("u16", c.Sensor), (byte)(c.Entered ? 1 : 0)]),
+    ];
 
     private static bool IsMember(BodySnapshot b) => b.Law == MotionLaw.Constrained || (b.Law == MotionLaw.Resting && b.SupportCount == 0);
 

@@ -16,9 +16,10 @@ namespace LagSim.Harness.Verification.Check;
 /// <param name="Spec">For a spawn the spec of the new body; for an impulse that of the body it acts on.</param>
 /// <param name="Spin">The spin of a spawn, in rad/s.</param>
 /// <param name="Filter">The new filter of the body.</param>
+/// <param name="Command">What the rules are told.</param>
 internal sealed record CheckAction(
     double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec, Vector3D Spin = default,
-    CollisionFilter Filter = default)
+    CollisionFilter Filter = default, GameCommand? Command = null)
 {
     internal PlayerAction On(BodyId body) => Kind switch
     {
@@ -29,6 +30,7 @@ internal sealed record CheckAction(
         EventKind.Grab => PlayerAction.Grab(body, Position),
         EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, Position, Velocity),
         EventKind.Release => PlayerAction.Release(body, Velocity),
+        EventKind.Command => PlayerAction.Command(Command!),
         EventKind.SetFilter => PlayerAction.SetFilter(body, Filter),
         _ => PlayerAction.Impulse(body, Velocity * Spec.Mass),
     };

@@ -32,6 +32,7 @@ internal sealed class CheckCase
     private const int MaxPeersOfHeap = 3;
 
     private const double FullLinkPercent = 25;
+    private const double SensorPercent = 30;
 
     /// <summary>
     /// The lowest rate of links, in bit/s. The traffic of a seeded session fits into 64 kbit/s with all repeats. A fifth of that shows a
@@ -53,6 +54,8 @@ internal sealed class CheckCase
     private const ulong SortStream = 3;
     private const ulong TroubleStream = 4;
     private const ulong IndexStream = 5;
+    private const ulong SensorStream = 6;
+    private const ulong RuleStream = 8;
     private const ulong FilterStream = 7;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
@@ -69,6 +72,7 @@ internal sealed class CheckCase
     private readonly bool isHeap;
     private readonly CheckScene room;
     private readonly CheckFilters filters;
+    private readonly CheckRules rules;
     private readonly List<CheckPlayer> players = [];
     private readonly List<CheckAction> actions = [];
 
@@ -84,6 +88,7 @@ internal sealed class CheckCase
         DrawTrouble(random.Fork(TroubleStream), options);
         DrawIndexes(random.Fork(IndexStream));
         filters = new CheckFilters(random.Fork(FilterStream));
+        rules = new CheckRules(random.Fork(RuleStream), seed, options.Rules);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
@@ -97,10 +102,17 @@ internal sealed class CheckCase
             DrawActions(random.Fork(FirstRoom + (2 * attempt) + 1));
             CheckHands.AddTo(actions, room, players.Count, random.Fork(FirstHands + attempt));
             filters.AddTo(actions, room, players.Count, attempt);
+            rules.AddTo(actions, room, players.Count, attempt);
             if (attempt == MaxAttempts || IsWithin(room.MaxEvents ?? budget, cancellation))
             {
                 break;
             }
+        }
+
+        SeededRandom sensed = random.Fork(SensorStream);
+        if (room is not BoxScene && sensed.IsLucky(SensorPercent))
+        {
+            room.Sensors = new CheckSensors(sensed); // after its events are counted, so that all else that is drawn stays the same
         }
 
         LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));
@@ -111,7 +123,7 @@ internal sealed class CheckCase
         ActionIndices = options.Events ?? Enumerable.Range(0, actions.Count).ToArray();
         Throw(BodyIndices, room.BodyCount, "bodies", seed);
         Throw(ActionIndices, actions.Count, "events", seed);
-        Scene = filters.On(room.Build(BodyIndices), BodyIndices);
+        Scene = rules.On(filters.On(room.Build(BodyIndices), BodyIndices));
         Accelerations = CheckScene.Accelerations;
         double worst = players.Max(p => WorstMilliseconds(p.Link.ToHost));
 
@@ -292,7 +304,7 @@ internal sealed class CheckCase
     private bool TakesNoMoreThan(long budget, CancellationToken cancellation)
     {
         int[] all = [.. Enumerable.Range(0, room.BodyCount)];
-        Scene scene = filters.On(room.Build(all), all);
+        Scene scene = rules.On(filters.On(room.Build(all), all));
         Simulation alone = new(scene, new SimulationOptions(cancellation: cancellation));
         BodyId[] bodies = new BodyId[actions.Count];
         for (int i = 0; i < actions.Count; i++)

@@ -70,6 +70,13 @@ internal sealed class CheckFilters
             builder.AddBody(body.Name, OfBody(body.Spec, FirstBody + (ulong)kept[i]), body.Position, body.Velocity, body.Players, body.Spin);
         }
 
+        foreach (Sensor sensor in scene.Sensors)
+        {
+            _ = sensor.Shape == SensorShape.Plane
+                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage)
+                : builder.AddSensorSphere(sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage);
+        }
+
         return builder.Build();
     }
 

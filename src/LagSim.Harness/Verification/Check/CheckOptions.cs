@@ -38,6 +38,9 @@ public sealed record CheckOptions
     /// <summary>The strategy of the peers for late events, one of <see cref="LateEventStrategies.Names"/>.</summary>
     public string Strategy { get; init; } = LateEventStrategies.Default;
 
+    /// <summary>Which sessions have rules; default some.</summary>
+    public RulesOfSessions Rules { get; init; }
+
     /// <summary>The scene's bodies that take part, by their index when drawn; null, the default, for all.</summary>
     public IReadOnlyList<int>? Bodies { get; init; }
 

@@ -138,7 +138,7 @@ internal sealed class CheckPlay
         Session session = address == 0
             ? new HostSession(drawn.Scene, port, clock, hostOptions, drawn.Seed)
             : new ClientSession(
-                null, port, clock, ClientOptions.From(hostOptions) with { Accelerations = drawn.Accelerations },
+                null, port, clock, ClientOptions.From(hostOptions) with { Accelerations = drawn.Accelerations, Rules = drawn.Scene.Rules is SceneRules rules ? [rules] : null },
                 VirtualRun.HostAddress, drawn.Seed + (ulong)address);
         options.PrepareSession?.Invoke(address, session);
         return session;
@@ -185,7 +185,7 @@ internal sealed class CheckPlay
     private void Do(int index)
     {
         CheckAction action = drawn.Actions[index];
-        BodyId? body = action.Kind == EventKind.Spawn ? default(BodyId)
+        BodyId? body = action.Kind is EventKind.Spawn or EventKind.Command ? default(BodyId)
             : action.Spawn >= 0 ? spawned[action.Spawn]
             : drawn.BodyDrawnAs(action.Body);
         if (body is not BodyId target)

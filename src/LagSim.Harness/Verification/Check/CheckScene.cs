@@ -29,6 +29,9 @@ internal abstract class CheckScene
     /// <summary>The time after its start within which players act, in seconds.</summary>
     internal virtual double BusySeconds => CheckCase.Length;
 
+    /// <summary>The sensors of the scene; none, the default, for none.</summary>
+    internal CheckSensors? Sensors { get; set; }
+
     internal BodySpec SpecOf(int body) => bodies[body].Spec;
 
     /// <summary>Returns the scene with some of its bodies only.</summary>
@@ -36,6 +39,7 @@ internal abstract class CheckScene
     {
         SceneBuilder builder = new SceneBuilder("check").WithSmallestRadius(0.15);
         AddSurroundings(builder);
+        Sensors?.AddTo(builder);
         foreach (int i in kept)
         {
             (BodySpec spec, Vector3D position, Vector3D velocity) = bodies[i];

@@ -14,6 +14,7 @@ namespace LagSim.Harness.Verification.Check;
 public readonly record struct SceneFeatures
 {
     private const int Large = 5;
+    private const int Often = 10;
     private const double Touching = 1e-6; // metres
 
     /// <summary>The features, by the names that scripts use, in order.</summary>
@@ -24,6 +25,7 @@ public readonly record struct SceneFeatures
         ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
         ("filter_changed", met => met.FilterChanged),
+        ("crossings", met => met.Crossings), ("rules_called", met => met.RulesCalled),
     ];
 
     /// <summary>Five or more touching bodies moved as an island.</summary>
@@ -68,12 +70,19 @@ public readonly record struct SceneFeatures
     /// <summary>A player changed what a body collides with.</summary>
     public bool FilterChanged { get; init; }
 
+    /// <summary>Rules were called ten times or more.</summary>
+    public bool RulesCalled { get; init; }
+
+    /// <summary>Bodies entered and left sensors, ten times or more.</summary>
+    public bool Crossings { get; init; }
+
     /// <param name="alone">The world, advanced to its end, with unlimited history.</param>
     /// <param name="accepted">The accepted events of players.</param>
     /// <param name="contactSteps">The number of contact steps.</param>
     internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long contactSteps)
     {
-        SceneFeatures met = new() { ContactSteps = contactSteps > 0, PeriodicBox = alone.Scene.Box.Exists };
+        SceneFeatures met = new() { ContactSteps = contactSteps > 0, PeriodicBox = alone.Scene.Box.Exists, Crossings = alone.Crossings(alone.Start, alone.SimulatedTo).Count >= Often,
+            RulesCalled = alone.Engine.Rules?.Position >= Often };
         List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
         Dictionary<EventKey, int> steps = [];
         for (int n = 0; n < alone.BodyCount; n++)

@@ -29,6 +29,7 @@ public static class HardCases
         new BoxReversalCase(),
         new GalperinCase(),
         new GrazeCase(),
+        new CrossingCase(),
         new SmallFastCase(),
         new FarCase(),
         new RestCase(),

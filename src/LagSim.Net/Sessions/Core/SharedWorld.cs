@@ -97,7 +97,8 @@ internal sealed class SharedWorld
     {
         live?.Retire();
         begunAt = start;
-        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.RuleNotices)
+        LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings,
+            options.RuleNotices)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -111,7 +112,8 @@ internal sealed class SharedWorld
     {
         live?.Retire();
         LiveWorld copied = new(
-            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.RuleNotices)
+            Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings,
+            options.RuleNotices)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
