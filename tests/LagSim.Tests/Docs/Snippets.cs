@@ -249,7 +249,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
     internal static HostOptions Early()
     {
-        HostOptions options = new() { ConfirmsEarly = true };
+        HostOptions options = new() { ConfirmsEarly = true, Window = new LatencyCompensationWindow(history: SimDuration.FromMilliseconds(800)) };
         return options;
     }
 
