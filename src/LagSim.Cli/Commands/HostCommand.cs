@@ -32,6 +32,10 @@ internal static class HostCommand
             "--joiners", "Start once this many clients have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
         clients.Aliases.Add("--clients");
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
+        Option<bool> early = new("--confirm-early")
+        {
+            Description = "Make what has happened final as soon as the players' links allow, rather than after --history-s; costs some 3 KB/s on each link.",
+        };
         Option<int> perAddress = CommonOptions.Whole(
             "--per-address", "How many clients may join from one address; 0 means half of the places, or --joiners if that is more",
             0, 0, SessionOptions.MaxClients);
@@ -51,7 +55,7 @@ internal static class HostCommand
         Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, clients, history, perAddress, budget, identity, tokens, unprotected, admin,
+            scene, port, address, clients, history, early, perAddress, budget, identity, tokens, unprotected, admin,
         };
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
@@ -70,6 +74,7 @@ internal static class HostCommand
             {
                 Protection = self is null ? null : new SecureHost(self, Key(parsed.GetValue(tokens))),
                 PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget)),
+                ConfirmsEarly = parsed.GetValue(early),
                 ExpectedClients = parsed.GetValue(clients),
                 Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
             };

@@ -83,7 +83,8 @@ public sealed record HostOptions : SessionOptions
     /// a round trip of the slowest player and a tenth of a second later, never later than without this, and at once where nobody else
     /// plays. No event of an honest client is refused that would not be without this.</para>
     /// <para>Cost: some 20 datagrams a second in both directions of each link, 2 to 3 KB/s with headers. What was done cannot be taken
-    /// back as far: <see cref="PlayerBudget"/> undoes less of what an expelled player did.</para>
+    /// back as far: <see cref="PlayerBudget"/> undoes less of what an expelled player did. What is final is forgotten, see
+    /// <see cref="SessionOptions.ExtraHistory"/>.</para>
     /// </remarks>
     public bool ConfirmsEarly { get; init; }
 

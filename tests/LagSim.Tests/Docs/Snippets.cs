@@ -223,6 +223,36 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         session.Leave();
     }
 
+    internal void PolledClient(BodyId ball)
+    {
+        using UdpPort port = new(new IPEndPoint(IPAddress.Any, 0));
+        ClientSession session = new(
+            null, port, new StopwatchClock(), new ClientOptions { Name = "Ann" }, PeerAddress.From(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000)),
+            Session.DrawNumber());
+        session.RosterChanged += change => ShowMessage($"{change}"); // in your frame, by Step: it may touch anything of the game
+
+        // each frame
+        session.Step(); // receives, sends, simulates; never waits
+        if (session.World?.RenderSnapshots.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, session.DisplayTime, out BodyState state))
+        {
+            Draw(state.Position);
+        }
+
+        if (session.State == SessionState.Running)
+        {
+            session.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // at once; throws if it is not allowed
+        }
+
+        // at the end
+        session.Leave();
+    }
+
+    internal static HostOptions Early()
+    {
+        HostOptions options = new() { ConfirmsEarly = true, Window = new LatencyCompensationWindow(history: SimDuration.FromMilliseconds(800)) };
+        return options;
+    }
+
     internal static HostOptions Tuned()
     {
         HostOptions options = new()
@@ -260,6 +290,8 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     private void Draw(Vector3D place) => show(place);
 
     private void DrawBall(Vector3D place, double radius, bool isOwn) => show(isOwn ? place * radius : place);
+
+    private void ShowMessage(string text) => show(new Vector3D(text.Length, 0, 0));
 
     private void DrawName(byte number, string name, bool isWatching, bool isSilent) =>
         show(new Vector3D(number, name.Length, isWatching || isSilent ? 1 : 0));

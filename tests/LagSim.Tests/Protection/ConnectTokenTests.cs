@@ -156,11 +156,11 @@ public sealed class ConnectTokenTests : IDisposable
     public void Join_ManyPlayers_EachHasAPlace()
     {
         SessionGroup group = Hosting();
-        ClientSession[] all = [.. Enumerable.Range(1, 7).Select(n => Join(group, n, issuer.Issue(new PlayerAdmission($"p{n}"), identity.Fingerprint, now: Noon)))];
+        ClientSession[] all = [.. Enumerable.Range(1, SessionOptions.MaxClients - 1).Select(n => Join(group, n, issuer.Issue(new PlayerAdmission($"p{n}"), identity.Fingerprint, now: Noon)))];
         Assert.True(group.RunUntil(() => all.All(c => c.State == SessionState.Running), 10), string.Join(" ", all.Select(c => c.EndReason)));
-        ClientSession ninth = Join(group, 9, issuer.Issue(new PlayerAdmission("p9"), identity.Fingerprint, now: Noon));
-        Assert.True(group.RunUntil(() => ninth.State == SessionState.Ended, 3));
-        Assert.Contains("full", ninth.EndReason, StringComparison.Ordinal);
+        ClientSession last = Join(group, 40, issuer.Issue(new PlayerAdmission("one more"), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => last.State == SessionState.Ended, 3));
+        Assert.Contains("full", last.EndReason, StringComparison.Ordinal);
     }
 
     /// <summary>A player who comes back by its pass, and with the key of another number, has that and no other.</summary>
@@ -291,7 +291,7 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.Throws<ArgumentException>(() => new PlayerAdmission(new string('é', 33)));
         Assert.Throws<ArgumentException>(() => new PlayerAdmission("\ud800"));
         Assert.Throws<ArgumentException>(() => new PlayerAdmission("a", "\u001b[2J"));
-        Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", number: 9));
+        Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", number: 17));
         Assert.Throws<ArgumentOutOfRangeException>(() => new PlayerAdmission("a", rights: (PlayerRights)4));
         Assert.True(TokenIssuer.TryParse(issuer.ToSecretText(), out TokenIssuer? again));
         Assert.Equal(issuer.Key, again!.Key);

@@ -294,8 +294,8 @@ public sealed class SessionTestTests
     public void Builder_BadInput_NamesTheValueAndWhatIsAllowed()
     {
         SessionTest test = new(Box());
-        Says(() => test.WithClients(9, "lan"), "A host has room for 8 clients and 0 are there: 1 to 8 can be added.");
-        Says(() => test.WithClients(0, "lan"), "1 to 8 can be added.");
+        Says(() => test.WithClients(17, "lan"), "A host has room for 16 clients and 0 are there: 1 to 16 can be added.");
+        Says(() => test.WithClients(0, "lan"), "1 to 16 can be added.");
         Says(() => test.WithClients(1, "wlan"), "There is no link profile 'wlan'; there are loopback, lan,");
         Says(() => test.WithLateClient(-1, "lan"), "Things happen 0 to 3600 s after the start.");
         Says(() => test.At(1, 1, PlayerAction.Remove(First)), "Add clients before what they do: there is only player 0, the host");

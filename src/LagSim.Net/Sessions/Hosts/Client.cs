@@ -8,16 +8,13 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>A client of the host: one that is joining and has no number yet, or one that is in.</summary>
 internal sealed class Client
 {
-    // The committed states it reports, by the number of the update.
-    private readonly (uint Number, SimTime UpTo)[] tellings = new (uint, SimTime)[32];
-
     internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot snapshot, byte[] welcome)
     {
         Claim = claim;
         Link = link;
         Snapshot = snapshot;
         Welcome = welcome;
-        DesyncQueries = new RateLimit(2, RecentEvents.Most / DesyncQueryDatagram.MaxEvents, link.Heard);
+        DesyncQueries = new DesyncQueries(link.Heard);
     }
 
     /// <summary>Its number; 0 until it is in.</summary>
@@ -43,11 +40,8 @@ internal sealed class Client
     /// <summary>The last sequence number of the former holders of its number.</summary>
     internal uint FirstSequence { get; private set; }
 
-    /// <summary>The rate at which its desync queries are answered: two per second, with a burst as large as a whole answer.</summary>
-    internal RateLimit DesyncQueries { get; }
-
-    /// <summary>The last desync query that was answered.</summary>
-    internal uint LastQuery { get; set; }
+    /// <summary>Its desync queries.</summary>
+    internal DesyncQueries DesyncQueries { get; }
 
     /// <summary>The number of chunks sent to it.</summary>
     internal long ChunksGiven { get; set; }
@@ -75,34 +69,18 @@ internal sealed class Client
     /// </summary>
     internal SimTime Promised { get; private set; } = SimTime.MinValue;
 
-    /// <summary>The shared time before which it was told to stamp nothing.</summary>
-    internal SimTime Earliest { get; private set; } = SimTime.MinValue;
-
-    /// <summary>The newest committed state whose hash it is known to have, or that lies before its own first one.</summary>
-    internal SimTime Told { get; private set; } = SimTime.MinValue;
+    /// <summary>The committed states that it was told of.</summary>
+    internal StateTellings States { get; } = new();
 
     /// <summary>How far it has the roster.</summary>
     internal RosterDelivery Roster { get; } = new();
-
-    /// <summary>Records up to which committed state an update reports hashes.</summary>
-    internal void NoteTold(uint number, SimTime upTo) => tellings[number % (uint)tellings.Length] = (number, upTo);
-
-    /// <summary>Records that an update arrived.</summary>
-    internal void NoteEcho(uint number)
-    {
-        (uint Number, SimTime UpTo) telling = tellings[number % (uint)tellings.Length];
-        Told = number > 0 && telling.Number == number ? SimTime.Max(Told, telling.UpTo) : Told;
-    }
 
     /// <summary>Takes over what it promised about the events after those that were all validated by now.</summary>
     internal void NotePromise() => Promised = Incoming.Promised;
 
     /// <summary>Gives it a number.</summary>
-    /// <param name="place">The number.</param>
-    /// <param name="earliest">The watermark: it is to stamp nothing before.</param>
-    internal void Sit(PlayerPlaces.Place place, SimTime earliest)
+    internal void Sit(PlayerPlaces.Place place)
     {
-        Earliest = earliest;
         Link.Peer = place.Number;
         FirstSequence = place.LastSequence;
         Incoming = new ReceiveWindow(FirstSequence);

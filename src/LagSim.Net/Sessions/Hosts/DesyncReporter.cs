@@ -19,15 +19,15 @@ internal sealed class DesyncReporter(
     {
         Client? client = roster.Of(query.SessionId);
         SimTime now = clock.Now;
-        bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer && query.Number > client.LastQuery;
+        bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer && query.Number > client.DesyncQueries.Last;
         if (!isItsTurn || world.Live is null || query.UpTo >= watermark.Now || !client!.DesyncQueries.TrySpend(now))
         {
             counters.DatagramsIgnored++; // uncommitted history may still change
             return;
         }
 
-        bool isFirst = client.LastQuery == 0;
-        client.LastQuery = query.Number;
+        bool isFirst = client.DesyncQueries.Last == 0;
+        client.DesyncQueries.Last = query.Number;
         client.Link.CountReceived(WireFormat.DesyncQueryBytes);
         Answer(client, query);
         if (isFirst)

@@ -247,7 +247,7 @@ internal sealed class HostProtocol : ISessionProtocol
         }
 
         client.Link.CountReceived(update.EncodedLength);
-        client.NoteEcho(update.EchoNumber);
+        client.States.NoteEcho(update.EchoNumber);
         client.HasWritten = true;
         if (update.Ready && client.Peer == 0 && (!Handshake.TrySeat(client, now) || Roster.Of(update.SessionId) != client))
         {

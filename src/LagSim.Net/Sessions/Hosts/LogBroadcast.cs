@@ -88,7 +88,7 @@ internal sealed class LogBroadcast
         bool isToBegin = world.Live is not null && client.IsReady && !client.HasBegun;
         update.EventsReceived = client.EventsReceived;
         update.Start = client.HasBegun || world.Live is null ? SimTime.MinValue : world.Live.Simulation.Start;
-        client.NoteTold(update.Number, commits.PutHashes(update, client.Told));
+        client.States.Note(update.Number, commits.PutHashes(update, client.States.Told));
         view.Reader = client;
         link.Fill(view, now);
 

@@ -134,6 +134,9 @@ internal sealed class PlayerPlaces
         /// <summary>The sequence number of the last event of this number.</summary>
         internal uint LastSequence { get; set; }
 
+        /// <summary>The watermark when its client got it: the client stamps nothing before.</summary>
+        internal SimTime Earliest { get; set; } = SimTime.MinValue;
+
         /// <summary>Whether a client has it now.</summary>
         internal bool IsTaken { get; private set; }
 

@@ -87,7 +87,8 @@ internal sealed class Seating(
         }
 
         MakeRoom(place);
-        client.Sit(place, watermark.Now);
+        place.Earliest = watermark.Now;
+        client.Sit(place);
         if (claimed != place && !claim.IsSpectator)
         {
             budget.BeginAccount(place.Number);
@@ -131,7 +132,7 @@ internal sealed class Seating(
         Span<byte> bytes = stackalloc byte[WireFormat.SeatBytes];
         SeatDatagram seat = watermark.CountsPromises
             ? new(
-                client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value, client.Earliest,
+                client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value, places[client.Peer].Earliest,
                 (ushort)Watermark.Pace.ToMilliseconds())
             : new(client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value);
         sender.Send(bytes.Slice(0, seat.Encode(bytes)), client.Link);
