@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 internal static class EventFormat
 {
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
-    public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes);
+    public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes) + PlayersBytes + 1;
 
     /// <summary>The length of the shortest event, a removal, in bytes.</summary>
     public const int MinBytes = HeadBytes + BodyBytes;
@@ -25,6 +25,7 @@ internal static class EventFormat
     private const int BodyBytes = 8;
     internal const int VectorBytes = 24;
     internal const int FilterBytes = 8;
+    internal const int PlayersBytes = 2;
     internal const int SpecBytes = 61 + FilterBytes + sizeof(ulong);
 
     /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
@@ -33,7 +34,8 @@ internal static class EventFormat
         EventKind.Spawn => MaxBytes,
         EventKind.Remove => MinBytes,
         EventKind.SetFilter => MinBytes + FilterBytes,
-        EventKind.Teleport or EventKind.HoldKeyframe => MinBytes + (2 * VectorBytes),
+        EventKind.Teleport => MinBytes + (2 * VectorBytes) + 1,
+        EventKind.HoldKeyframe => MinBytes + (2 * VectorBytes),
         EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => MinBytes + VectorBytes,
         _ => 0,
     };
@@ -49,6 +51,7 @@ internal static class EventFormat
         && what.Position.IsFinite
         && what.Velocity.IsFinite
         && what.Spin.IsFinite
+        && what.WhenOccupied <= WhenOccupied.Beside
         && (what.Kind != EventKind.Spawn || IsSpecWellFormed(what.Spec));
 
     /// <summary>Writes an event; every -0.0 becomes 0.0.</summary>
@@ -86,6 +89,12 @@ internal static class EventFormat
         if (what.Kind == EventKind.Spawn)
         {
             writer.WriteVector(what.Spin);
+            writer.WriteUInt16(what.Players.Mask);
+        }
+
+        if (what.Kind is EventKind.Spawn or EventKind.Teleport)
+        {
+            writer.WriteByte((byte)what.WhenOccupied);
         }
 
         if (what.Kind == EventKind.SetFilter)
@@ -108,25 +117,30 @@ internal static class EventFormat
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
+        PeerSet players = kind == EventKind.Spawn ? PeerSet.FromMask(reader.ReadUInt16()) : default;
+        WhenOccupied whenOccupied = kind is EventKind.Spawn or EventKind.Teleport ? (WhenOccupied)reader.ReadByte() : default;
         CollisionFilter filter = kind == EventKind.SetFilter ? ReadFilter(ref reader) : default;
-        PlayerAction action = Action(kind, spec, body, position, velocity, spin, filter);
+        PlayerAction action = kind switch
+        {
+            EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin, players, whenOccupied),
+            EventKind.Teleport => PlayerAction.Teleport(body, position, velocity, whenOccupied),
+            EventKind.SetFilter => PlayerAction.SetFilter(body, filter),
+            _ => Action(kind, body, position, velocity),
+        };
         ExternalEvent what = action.Kind == EventKind.None ? default : action.Stamp(time, peer, sequence);
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
     }
 
     private static PlayerAction Action(
-        EventKind kind, in BodySpec spec, BodyId body, in Vector3D position, in Vector3D velocity, in Vector3D spin, CollisionFilter filter) => kind switch
+        EventKind kind, BodyId body, in Vector3D position, in Vector3D velocity) => kind switch
         {
-            EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin),
             EventKind.Remove => PlayerAction.Remove(body),
-            EventKind.Teleport => PlayerAction.Teleport(body, position, velocity),
             EventKind.SetVelocity => PlayerAction.SetVelocity(body, velocity),
             EventKind.Impulse => PlayerAction.Impulse(body, velocity),
             EventKind.Grab => PlayerAction.Grab(body, position),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, position, velocity),
             EventKind.Release => PlayerAction.Release(body, velocity),
-            EventKind.SetFilter => PlayerAction.SetFilter(body, filter),
             _ => default,
         };
 

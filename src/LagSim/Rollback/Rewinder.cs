@@ -104,6 +104,23 @@ internal class Rewinder : ISegmentOpenedObserver
         }
 
         Rewind(slot, key);
+        RewindPlacings(key);
+    }
+
+    /// <summary>
+    /// Events that put a body where another may be are decided again: what a heal does before them may change who is there, also a body that
+    /// was not there.
+    /// </summary>
+    private protected virtual void RewindPlacings(in EventKey after)
+    {
+        for (int n = 0; n < log.PlacingCount && rollback.Kind == RollbackKind.CausalCone; n++)
+        {
+            (int slot, EventKey key) = log.Placing(n);
+            if (EventKey.Compare(key, after) > 0 && IsKnown(key))
+            {
+                Rewind(slot, key);
+            }
+        }
     }
 
     /// <summary>

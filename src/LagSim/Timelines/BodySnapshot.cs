@@ -37,6 +37,7 @@ public readonly struct BodySnapshot
     /// <param name="stillSince">See <see cref="StillSince"/>.</param>
     /// <param name="contacts">See <see cref="Contacts"/>.</param>
     /// <param name="filter">See <see cref="Filter"/>; by default that of the spec.</param>
+    /// <param name="players">See <see cref="Players"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -59,7 +60,8 @@ public readonly struct BodySnapshot
         SimTime centre = default,
         SimTime stillSince = default,
         ReadOnlySpan<PersistentContact> contacts = default,
-        CollisionFilter? filter = null)
+        CollisionFilter? filter = null,
+        PeerSet players = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -80,10 +82,11 @@ public readonly struct BodySnapshot
         StillSince = stillSince;
         ContactArray = contacts.ToArray();
         Filter = filter ?? spec.Filter;
+        Players = players;
     }
 
     internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
-        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter)
+        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter, PeerSet players)
     {
         Id = id;
         Spec = spec;
@@ -96,6 +99,7 @@ public readonly struct BodySnapshot
         StillSince = stillSince;
         ContactArray = contacts;
         Filter = filter;
+        Players = players;
     }
 
     /// <summary>The identity of the body.</summary>
@@ -141,6 +145,9 @@ public readonly struct BodySnapshot
 
     /// <summary>What it collides with now: that of its spec, unless it was changed.</summary>
     public CollisionFilter Filter { get; }
+
+    /// <summary>Which peers may do something to it, if it was spawned; everyone for a body of the scene, which has its own rights.</summary>
+    public PeerSet Players { get; }
 
     internal PersistentContact[] ContactArray { get; }
 

@@ -64,4 +64,7 @@ internal enum HealingFault
 
     /// <summary>A heal ends where the bodies are on their old segments again, whatever they collide with there.</summary>
     IgnoresFilters = 16384,
+
+    /// <summary>Whether a spawn or a teleport finds its place free is not asked again where a heal changes who is there.</summary>
+    LeavesPlacings = 32768,
 }

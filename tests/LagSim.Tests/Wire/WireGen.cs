@@ -83,11 +83,13 @@ internal static class WireGen
         from velocity in Vector
         from spin in Gen.OneOf(Gen.Constant(Vector3D.Zero), Vector)
         from filter in Filter
+        from players in Gen.OneOf(Gen.Constant(PeerSet.Everyone), Gen.Choose(0, ushort.MaxValue).Select(mask => PeerSet.FromMask((ushort)mask)))
+        from occupied in Gen.Elements(WhenOccupied.Overlap, WhenOccupied.Skip, WhenOccupied.Beside)
         select kind switch
         {
-            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
+            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin, players, occupied),
             EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
-            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
+            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity, occupied),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
             EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
             EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
