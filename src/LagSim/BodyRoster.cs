@@ -32,6 +32,7 @@ internal sealed class BodyRoster(
     internal void AddFromSnapshot(in BodySnapshot body)
     {
         int slot = Add(body.Id, body.Spec);
+        bodies.SetPlayers(slot, body.Players);
         collapse.HasLosses |= body.Spec.Restitution < 1 || body.Segment.Law == MotionLaw.Held;
         timelines.Extras.OpenWith(body.Filter);
         timelines.Append(slot, body.Id, body.Opened, body.Segment, body.Dense, body.Hold, body.SpinPath);

@@ -121,7 +121,8 @@ internal sealed class Engine
         ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));
         FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);
         ExternalHandler externals = new(
-            scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters);
+            scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters,
+            new FreePlaces(scene, Bodies, Timelines, view));
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
 

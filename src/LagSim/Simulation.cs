@@ -343,8 +343,9 @@ public sealed class Simulation
     public IReadOnlyList<TimelineEntry> Timeline(BodyId body, SimTime from) => Engine.Reader.Timeline(Engine.Bodies.SlotOf(body), from);
 
     /// <summary>Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted
-    /// and its time has come, it had no effect: the body was not there, or was held (or not held by that hand), or an impulse would have
-    /// made it faster than a player may make a body, a tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A
+    /// and its time has come, it had no effect: the body was not there, or was held (or not held by that hand), or the peer may not
+    /// touch it, or there was no room (<see cref="WhenOccupied"/>), or an impulse would have made it faster than a player may make a body, a
+    /// tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A
     /// late event may change the answer.</summary>
     /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. Before <see cref="HistoryEdge"/> the answer is no
     /// longer known: false.</remarks>
@@ -358,6 +359,13 @@ public sealed class Simulation
     {
         int slot = Engine.Bodies.SlotOf(body);
         return slot < 0 ? default : Engine.Bodies.Spec(slot);
+    }
+
+    /// <summary>Which peers may do something to a spawned body, as its spawn said, once that has happened; everyone for any other.</summary>
+    public PeerSet PlayersOf(BodyId body)
+    {
+        int slot = Engine.Bodies.SlotOf(body);
+        return slot < 0 ? default : Engine.Bodies.Players(slot);
     }
 
     /// <summary>The world after everything before <paramref name="time"/>. Changes nothing. Cost: the segments of all bodies since

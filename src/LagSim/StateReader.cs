@@ -149,7 +149,7 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
                 there.Add(new BodySnapshot(
                     bodies.Id(slot), bodies.Spec(slot), timelines.Key(at), timelines.Segment(at), timelines.Dense(at), timelines.HoldOf(at), timelines.SpinOf(at),
                     isMember ? timelines.Carried.CentreOf(at) : default, isMember ? timelines.Carried.StillSince(at) : default, isMember ? timelines.Carried.CopyOf(at) : Array.Empty<PersistentContact>(),
-                    timelines.Extras.Filter(at), InsideOf(slot, last), CrossingsOf(slot, timelines.Key(at), last)));
+                    timelines.Extras.Filter(at), InsideOf(slot, last), CrossingsOf(slot, timelines.Key(at), last), bodies.Players(slot)));
             }
         }
 

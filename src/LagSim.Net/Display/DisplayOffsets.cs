@@ -42,8 +42,9 @@ public sealed class DisplayOffsets
 {
     private readonly Scene scene;
     private readonly DisplayOptions options;
-    private Entry[] entries = Array.Empty<Entry>();
-    private Entry[] spare = Array.Empty<Entry>();
+    private readonly OwnHands hands = new();
+    private DisplayedBody[] entries = Array.Empty<DisplayedBody>();
+    private DisplayedBody[] spare = Array.Empty<DisplayedBody>();
     private int count;
     private RenderSnapshot? lastSnapshot;
     private long lastNumber;
@@ -64,6 +65,31 @@ public sealed class DisplayOffsets
 
     /// <summary>The largest of these corrections, in metres.</summary>
     public double LargestJump { get; private set; }
+
+    /// <summary>
+    /// This player's own hand, which holds a body, is here now: as long as the world shows that he holds it, the body is drawn exactly where
+    /// the hand has it, at every sample, while only keyframes travel.
+    /// </summary>
+    /// <param name="body">The body.</param>
+    /// <param name="peer">This player's number, <see cref="Sessions.Session.Peer"/>: another's hold is not his.</param>
+    /// <param name="position">Where the hand's point is, in metres: what a keyframe would say. The centre is drawn from there by the offset of
+    /// the grab.</param>
+    /// <remarks>For this player's display only: the body itself follows the keyframes, on this peer as on the others. When the hold ends it
+    /// is drawn with the offset that is left, which decays as any other. Call it before or after <see cref="Update"/>, as often as
+    /// samples come. Nothing is allocated after the first for a body.</remarks>
+    /// <exception cref="ArgumentException">The position is not finite.</exception>
+    public void SetHand(BodyId body, byte peer, Vector3D position)
+    {
+        if (!position.IsFinite)
+        {
+            throw new ArgumentException($"The hand that holds body {body} is at {position}; every component must be finite.", nameof(position));
+        }
+
+        hands.Set(new OwnHand(body, peer, position));
+    }
+
+    /// <summary>The hand holds the body no more: it is drawn from the world again. Needed only to end it before the world does.</summary>
+    public void ClearHand(BodyId body) => hands.Clear(body);
 
     /// <summary>Begins a frame.</summary>
     /// <param name="snapshot">The newest render snapshot.</param>
@@ -128,7 +154,10 @@ public sealed class DisplayOffsets
         }
 
         bool isThere = low < count && entries[low].Body == body && entries[low].IsThere;
-        drawn = isThere ? entries[low].ToDrawn() : default;
+        drawn = !isThere ? default
+            : entries[low].IsHeld && hands.TryFind(body, out OwnHand hand) && hand.Peer == entries[low].Holder
+                ? new DrawnBody(entries[low].State, hand.Position - entries[low].HoldOffset)
+                : entries[low].ToDrawn();
         return isThere;
     }
 
@@ -148,7 +177,7 @@ public sealed class DisplayOffsets
 
         if (spare.Length < snapshot.BodyCount)
         {
-            spare = new Entry[Math.Max(snapshot.BodyCount, 2 * spare.Length)];
+            spare = new DisplayedBody[Math.Max(snapshot.BodyCount, 2 * spare.Length)];
         }
 
         int old = 0;
@@ -160,17 +189,22 @@ public sealed class DisplayOffsets
                 old++;
             }
 
-            spare[n] = old < count && entries[old].Body == body ? entries[old] : new Entry { Body = body };
+            spare[n] = old < count && entries[old].Body == body ? entries[old] : new DisplayedBody { Body = body };
         }
 
         (entries, spare) = (spare, entries);
         count = snapshot.BodyCount;
     }
 
-    private void Move(ref Entry entry, RenderSnapshot snapshot, SimTime now, bool isRewritten)
+    private void Move(ref DisplayedBody entry, RenderSnapshot snapshot, SimTime now, bool isRewritten)
     {
         entry.Jump = entry.Decay = entry.Dropped = 0;
         bool isThere = snapshot.TryRead(entry.Body, now, out BodyState state);
+        if (!hands.AreNone && TryFollowHand(ref entry, snapshot, state, now))
+        {
+            return;
+        }
+
         if (entry.IsThere && isThere)
         {
             if (isRewritten)
@@ -193,8 +227,53 @@ public sealed class DisplayOffsets
         entry.Radius = isThere ? snapshot.RadiusOf(entry.Body) : 0;
     }
 
+    /// <summary>
+    /// The body is in this player's own hand: its offset is what is between the two, so that it goes on from there when the hold ends. When
+    /// the world shows that it has ended, the hand is forgotten.
+    /// </summary>
+    private bool TryFollowHand(ref DisplayedBody entry, RenderSnapshot snapshot, in BodyState state, SimTime now)
+    {
+        bool was = entry.IsHeld;
+        entry.IsHeld = false;
+        if (!hands.TryFind(entry.Body, out OwnHand hand))
+        {
+            return false;
+        }
+
+        if (!snapshot.TryReadHold(entry.Body, now, out Hold hold) || hold.Peer != hand.Peer)
+        {
+            if (was)
+            {
+                EndHand(ref entry, hand, snapshot, state);
+            }
+
+            return was;
+        }
+
+        entry.IsHeld = true;
+        entry.Holder = hold.Peer;
+        entry.HoldOffset = hold.Offset;
+        entry.Take(state, snapshot.RadiusOf(entry.Body), Vector3D.Zero);
+        return true;
+    }
+
+    /// <summary>The world shows that the hold has ended: the body goes on from where the hand had it, with an offset that decays.</summary>
+    private void EndHand(ref DisplayedBody entry, in OwnHand hand, RenderSnapshot snapshot, in BodyState state)
+    {
+        hands.Clear(entry.Body);
+        bool isThere = state.Motion != MotionLaw.Absent;
+        Vector3D offset = isThere ? scene.Box.Nearest(hand.Position - entry.HoldOffset - state.Position) : Vector3D.Zero;
+        entry.Take(state, isThere ? snapshot.RadiusOf(entry.Body) : 0, offset);
+        entry.IsThere = isThere;
+        entry.TimeConstant = OffsetDecay.TimeConstant(options, entry.Size);
+        if (entry.Size > options.SnapDistance)
+        {
+            entry.Drop();
+        }
+    }
+
     /// <summary>Compares the new render snapshot at the last frame's time with what was shown then.</summary>
-    private void Correct(ref Entry entry, RenderSnapshot snapshot)
+    private void Correct(ref DisplayedBody entry, RenderSnapshot snapshot)
     {
         if (!snapshot.TryRead(entry.Body, lastTime, out BodyState then))
         {
@@ -220,7 +299,7 @@ public sealed class DisplayOffsets
         }
     }
 
-    private void Shrink(ref Entry entry, RenderSnapshot snapshot, SimTime now)
+    private void Shrink(ref DisplayedBody entry, RenderSnapshot snapshot, SimTime now)
     {
         double left = OffsetDecay.After(entry.Size, entry.TimeConstant, options.MaxSpeed, (now - lastTime).ToSeconds());
         entry.Decay = entry.Size - left;
@@ -246,13 +325,13 @@ public sealed class DisplayOffsets
         return isDropped;
     }
 
-    private bool IsInsideStatic(in Entry entry)
+    private bool IsInsideStatic(in DisplayedBody entry)
     {
         Vector3D drawn = entry.State.Position + entry.Offset;
         for (int i = 0; i < scene.Planes.Count; i++)
         {
             StaticPlane plane = scene.Planes[i];
-            if (IsDeeper(plane.Gap(drawn, entry.Radius), plane.Gap(entry.State.Position, entry.Radius)))
+            if (entry.State.Filter.CollidesWith(plane.Filter) && IsDeeper(plane.Gap(drawn, entry.Radius), plane.Gap(entry.State.Position, entry.Radius)))
             {
                 return true;
             }
@@ -262,7 +341,8 @@ public sealed class DisplayOffsets
         {
             StaticSphere sphere = scene.StaticSpheres[i];
             double touching = sphere.Radius + entry.Radius;
-            if (IsDeeper((drawn - sphere.Centre).Length - touching, (entry.State.Position - sphere.Centre).Length - touching))
+            if (entry.State.Filter.CollidesWith(sphere.Filter)
+                && IsDeeper((drawn - sphere.Centre).Length - touching, (entry.State.Position - sphere.Centre).Length - touching))
             {
                 return true;
             }
@@ -273,13 +353,13 @@ public sealed class DisplayOffsets
 
     private bool IsInsideBody(int n)
     {
-        ref readonly Entry entry = ref entries[n];
+        ref readonly DisplayedBody entry = ref entries[n];
         Vector3D drawn = entry.State.Position + entry.Offset;
         for (int other = 0; other < count; other++)
         {
-            ref readonly Entry partner = ref entries[other];
+            ref readonly DisplayedBody partner = ref entries[other];
             double touching = entry.Radius + partner.Radius;
-            if (other != n && partner.IsThere
+            if (other != n && partner.IsThere && entry.State.Filter.CollidesWith(partner.State.Filter)
                 && IsDeeper(
                     scene.Box.Nearest(drawn - partner.State.Position - partner.Offset).Length - touching,
                     scene.Box.Nearest(entry.State.Position - partner.State.Position).Length - touching))
@@ -293,32 +373,4 @@ public sealed class DisplayOffsets
 
     /// <summary>Whether the offset is to blame for a penetration.</summary>
     private bool IsDeeper(double drawn, double real) => drawn < Math.Min(real, 0) - options.Penetration;
-
-    private struct Entry
-    {
-        internal BodyId Body;
-        internal bool IsThere;
-        internal BodyState State;
-        internal double Radius;
-        internal Vector3D Offset;
-        internal double Size; // of the offset
-        internal double TimeConstant;
-        internal double Jump;
-        internal double Decay;
-        internal double Dropped;
-
-        internal readonly DrawnBody ToDrawn() => new(State, Offset, Jump, Decay, Dropped);
-
-        internal void ShrinkTo(double size)
-        {
-            Offset = size > 0 ? Offset * (size / Size) : Vector3D.Zero;
-            Size = size;
-        }
-
-        internal void Drop()
-        {
-            Dropped += Size;
-            ShrinkTo(0);
-        }
-    }
 }

@@ -15,6 +15,19 @@ public readonly struct DrawnBody
         Jump = jump;
         Decay = decay;
         Dropped = dropped;
+        Position = state.Position + offset;
+    }
+
+    /// <summary>A body in this player's own hand, drawn exactly where the hand has it.</summary>
+    internal DrawnBody(in BodyState state, in Vector3D position)
+    {
+        State = state;
+        Offset = position - state.Position;
+        Position = position;
+        IsInHand = true;
+        Jump = 0;
+        Decay = 0;
+        Dropped = 0;
     }
 
     /// <summary>The body's actual state, as far as this peer knows.</summary>
@@ -24,7 +37,10 @@ public readonly struct DrawnBody
     public Vector3D Offset { get; }
 
     /// <summary>Where to draw its centre, in metres.</summary>
-    public Vector3D Position => State.Position + Offset;
+    public Vector3D Position { get; }
+
+    /// <summary>Whether it is in this player's own hand, and drawn where the hand has it; see <see cref="DisplayOffsets.SetHand"/>.</summary>
+    public bool IsInHand { get; }
 
     /// <summary>
     /// How far late events have moved what the previous frame showed, in metres: the jump that would be visible without an offset.

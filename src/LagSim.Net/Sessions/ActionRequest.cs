@@ -4,6 +4,7 @@ using System.Threading.Tasks.Sources;
 using LagSim.Events;
 using LagSim.Net.Sessions.Core;
 using LagSim.Scenes;
+using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
@@ -16,6 +17,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
     private readonly object gate = new(); // guards the fields that decide whether it can be reused
     private ManualResetValueTaskSourceCore<ExternalEvent> core = new() { RunContinuationsAsynchronously = true };
     private PlayerAction action;
+    private SimTime? at;
     private bool isAsked;
     private bool isAwaited;
 
@@ -32,7 +34,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
     }
 
     /// <summary>Starts over with another action; false while the last one has no answer, or its answer is being awaited.</summary>
-    internal bool TryBegin(in PlayerAction next)
+    internal bool TryBegin(in PlayerAction next, SimTime? time)
     {
         lock (gate)
         {
@@ -43,6 +45,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
 
             core.Reset();
             action = next;
+            at = time;
             isAsked = true;
             return true;
         }
@@ -53,11 +56,11 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
         ExternalEvent done;
         try
         {
-            done = session.Do(action);
+            done = session.Do(action, at);
         }
         catch (Exception why)
         {
-            bool isRefusal = why is InvalidOperationException or SceneException or SimulationException; // those that Do documents
+            bool isRefusal = why is InvalidOperationException or ArgumentOutOfRangeException or SceneException or SimulationException; // those that Do documents
             try
             {
                 if (isRefusal)

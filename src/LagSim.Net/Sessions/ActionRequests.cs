@@ -1,6 +1,7 @@
 using System;
 using LagSim.Events;
 using LagSim.Net.Sessions.Core;
+using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
@@ -29,19 +30,19 @@ internal sealed class ActionRequests
     }
 
     /// <summary>Returns a request to use. One that is still in use is left to its caller and replaced in the pool.</summary>
-    internal ActionRequest Take(in PlayerAction action)
+    internal ActionRequest Take(in PlayerAction action, SimTime? at)
     {
         lock (gate)
         {
-            int at = next;
-            next = (at + 1) % Kept;
-            if (!ring[at].TryBegin(action))
+            int place = next;
+            next = (place + 1) % Kept;
+            if (!ring[place].TryBegin(action, at))
             {
-                ring[at] = new ActionRequest(refused, failures);
-                ring[at].TryBegin(action);
+                ring[place] = new ActionRequest(refused, failures);
+                ring[place].TryBegin(action, at);
             }
 
-            return ring[at];
+            return ring[place];
         }
     }
 }

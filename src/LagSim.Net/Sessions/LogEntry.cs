@@ -45,8 +45,8 @@ public readonly struct LogEntry : IEquatable<LogEntry>
                 $": radius {spec.Radius:R} m, mass {spec.Mass:R} kg, restitution {spec.Restitution:R}, {spec.Flight}")
                 + $" with a step of {spec.Step.ToShortString()},"
                 + FormattableString.Invariant($" a tolerance of {spec.Tolerance:R}, forces {spec.Forces}, friction {spec.Friction:R} and rolling resistance {spec.RollingResistance:R}, {spec.Filter}, tag {spec.Tag},")
-                + $" at {Event.Position} m with {Event.Velocity} m/s and {Event.Spin} rad/s",
-            EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s",
+                + $" at {Event.Position} m with {Event.Velocity} m/s and {Event.Spin} rad/s, players {Event.Players}, {Event.WhenOccupied}",
+            EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s, {Event.WhenOccupied}",
             EventKind.SetVelocity => $": to {Event.Velocity} m/s",
             EventKind.Impulse => $": of {Event.Velocity} N s",
             EventKind.Grab => $": by the point {Event.Position} m from its centre",

@@ -231,6 +231,8 @@ public sealed class PeerThread : IDisposable
     /// <summary>
     /// Performs an action as soon as the session's thread gets to it: at once unless it is busy, or after <see cref="Start"/>.
     /// </summary>
+    /// <param name="action">The action.</param>
+    /// <param name="at">When, see <see cref="Session.Do"/>; by default now, or later by the local lag.</param>
     /// <remarks>From any thread. Cost: wakes the thread; allocates nothing while fewer than 64 answers are outstanding.</remarks>
     /// <returns>
     /// The stamped event, or the exception that <see cref="Session.Do"/> throws, which <see cref="Refused"/> reports too. The host's
@@ -239,10 +241,10 @@ public sealed class PeerThread : IDisposable
     /// </returns>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
-    public ValueTask<ExternalEvent> Do(PlayerAction action)
+    public ValueTask<ExternalEvent> Do(PlayerAction action, SimTime? at = null)
     {
         ThrowIfOver();
-        ActionRequest request = actions.Take(action);
+        ActionRequest request = actions.Take(action, at);
         ValueTask<ExternalEvent> answer = request.Task; // taken first: once answered, the request may be reused
         requests.Add(request);
         return answer;

@@ -205,6 +205,13 @@ public abstract class Session
         }
     }
 
+    /// <summary>
+    /// How far ahead of the shared time an action can be scheduled: half of the history of <see cref="SessionOptions.Window"/>. From any
+    /// thread.
+    /// </summary>
+    /// <remarks>A host refuses what is more than its history ahead of its own clock. The other half is for clocks that are off.</remarks>
+    public SimDuration MaxAhead => parts.Options.Window.History / 2;
+
     /// <summary>The newest committed state; null before there is one. From any thread.</summary>
     public CommittedState? Committed => parts.Commits.Newest;
 
@@ -286,21 +293,25 @@ public abstract class Session
     }
 
     /// <summary>
-    /// Performs an action in the shared world, now or later by the local lag of <see cref="SessionOptions.Window"/>. This peer sees it at
-    /// that time, and the others do too, or as soon as it reaches them.
+    /// Performs an action in the shared world, now or later by the local lag of <see cref="SessionOptions.Window"/>, or at a future instant.
+    /// This peer sees it at that time, and the others do too, or as soon as it reaches them.
     /// </summary>
+    /// <param name="action">The action.</param>
+    /// <param name="at">When, in shared time, whatever the local lag: from <see cref="SharedTime"/> now up to <see cref="MaxAhead"/> later. The
+    /// event is stamped with that instant and goes out at once, so peers that have it by then need not heal it.</param>
     /// <returns>The stamped event; for a spawn, <see cref="ExternalEvent.Body"/> is the new body.</returns>
     /// <exception cref="InvalidOperationException">
     /// The session is not running; or a <see cref="PeerThread"/> runs it, and this is another thread; or
     /// <see cref="ClientSession.MaxUnconfirmedEvents"/> events of a client wait for the host's verdict. Nothing happened; in the last case,
     /// try again once verdicts have arrived.
     /// </exception>
+    /// <exception cref="ArgumentOutOfRangeException">The instant has passed, or is too far ahead; nothing happened.</exception>
     /// <exception cref="SceneException">
     /// A value may not enter the world, or this peer is a spectator or may not do that for another reason, or it exceeds this peer's <see cref="SessionOptions.MaxGivenSpeed"/>
     /// or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
     /// </exception>
     /// <exception cref="SimulationException">The world cannot be simulated with the action; the session has ended.</exception>
-    public ExternalEvent Do(in PlayerAction action)
+    public ExternalEvent Do(in PlayerAction action, SimTime? at = null)
     {
         parts.Owner.ThrowIfForeign();
         if (Role == PeerRole.Spectator)
@@ -309,10 +320,17 @@ public abstract class Session
                 $"{action.Kind} is not for a spectator, which only watches; join as a player (SessionOptions.Role) to do something.");
         }
 
+        SimTime now = SharedTime.IsSet ? SharedTime.Now : SimTime.MinValue;
+        if (at is SimTime asked && SharedTime.IsSet && (asked < now || asked > now + MaxAhead))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(at), asked.ToShortString(), $"An action can be done from now, {now.ToShortString()}, to {MaxAhead.ToShortString()} later, half"
+                    + " of the history of the window.");
+        }
+
         try
         {
-            SimTime time = SharedTime.IsSet ? SharedTime.Now + parts.Options.Window.LocalLag(action.Kind) : SimTime.MinValue;
-            return protocol.Do(action, time);
+            return protocol.Do(action, at ?? (SharedTime.IsSet ? now + parts.Options.Window.LocalLag(action.Kind) : now));
         }
         catch (SimulationException failure)
         {

@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 internal static class EventFormat
 {
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
-    public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes);
+    public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes) + PlayersBytes + 1;
 
     /// <summary>The length of the shortest event, a command without bytes.</summary>
     public const int MinBytes = HeadBytes + CommandHeadBytes;
@@ -27,6 +27,7 @@ internal static class EventFormat
     private const int BodyEventBytes = HeadBytes + BodyBytes;
     internal const int VectorBytes = 24;
     internal const int FilterBytes = 8;
+    internal const int PlayersBytes = 4;
     internal const int SpecBytes = 61 + FilterBytes + sizeof(ulong);
 
     /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
@@ -44,6 +45,7 @@ internal static class EventFormat
         && what.Position.IsFinite
         && what.Velocity.IsFinite
         && what.Spin.IsFinite
+        && what.WhenOccupied <= WhenOccupied.Beside
         && (what.Kind != EventKind.Spawn || IsSpecWellFormed(what.Spec));
 
     /// <summary>Writes an event; every -0.0 becomes 0.0.</summary>
@@ -87,6 +89,12 @@ internal static class EventFormat
         if (what.Kind == EventKind.Spawn)
         {
             writer.WriteVector(what.Spin);
+            writer.WriteUInt32(what.Players.Mask);
+        }
+
+        if (what.Kind is EventKind.Spawn or EventKind.Teleport)
+        {
+            writer.WriteByte((byte)what.WhenOccupied);
         }
 
         if (what.Kind == EventKind.SetFilter)
@@ -114,11 +122,27 @@ internal static class EventFormat
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
+        PeerSet players = kind == EventKind.Spawn ? ReadPeers(ref reader) : default;
+        WhenOccupied whenOccupied = kind is EventKind.Spawn or EventKind.Teleport ? (WhenOccupied)reader.ReadByte() : default;
         CollisionFilter filter = kind == EventKind.SetFilter ? ReadFilter(ref reader) : default;
-        PlayerAction action = Action(kind, spec, body, position, velocity, spin, filter);
+        PlayerAction action = kind switch
+        {
+            EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin, players, whenOccupied),
+            EventKind.Teleport => PlayerAction.Teleport(body, position, velocity, whenOccupied),
+            EventKind.SetFilter => PlayerAction.SetFilter(body, filter),
+            _ => Action(kind, body, position, velocity),
+        };
         ExternalEvent what = action.Kind == EventKind.None ? default : action.Stamp(time, peer, sequence);
         reader.Require(IsWellFormed(what));
         return reader.Refusal == WireRefusal.None ? what : default;
+    }
+
+    /// <summary>Reads a set of peers; bits of peers that cannot be named are refused.</summary>
+    internal static PeerSet ReadPeers(ref WireReader reader)
+    {
+        uint mask = reader.ReadUInt32();
+        reader.Require(mask <= PeerSet.Everyone.Mask);
+        return PeerSet.FromMask(mask);
     }
 
     private static void Write(ref WireWriter writer, GameCommand command)
@@ -142,23 +166,21 @@ internal static class EventFormat
         EventKind.Spawn => MaxBytes,
         EventKind.Remove => BodyEventBytes,
         EventKind.SetFilter => BodyEventBytes + FilterBytes,
-        EventKind.Teleport or EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
+        EventKind.Teleport => BodyEventBytes + (2 * VectorBytes) + 1,
+        EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
         EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => BodyEventBytes + VectorBytes,
         _ => 0,
     };
 
     private static PlayerAction Action(
-        EventKind kind, in BodySpec spec, BodyId body, in Vector3D position, in Vector3D velocity, in Vector3D spin, CollisionFilter filter) => kind switch
+        EventKind kind, BodyId body, in Vector3D position, in Vector3D velocity) => kind switch
         {
-            EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin),
             EventKind.Remove => PlayerAction.Remove(body),
-            EventKind.Teleport => PlayerAction.Teleport(body, position, velocity),
             EventKind.SetVelocity => PlayerAction.SetVelocity(body, velocity),
             EventKind.Impulse => PlayerAction.Impulse(body, velocity),
             EventKind.Grab => PlayerAction.Grab(body, position),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, position, velocity),
             EventKind.Release => PlayerAction.Release(body, velocity),
-            EventKind.SetFilter => PlayerAction.SetFilter(body, filter),
             _ => default,
         };
 

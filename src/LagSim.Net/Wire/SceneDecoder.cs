@@ -64,7 +64,7 @@ internal ref struct SceneDecoder
         builder.WithRestitutionThreshold(reader.ReadDouble());
         builder.WithContactTolerance(reader.ReadDouble());
         builder.WithSmallestRadius(reader.ReadDouble());
-        builder.WithSpawners(ReadPeers(ref reader));
+        builder.WithSpawners(EventFormat.ReadPeers(ref reader));
         ReadForces(builder);
         ReadPlanes(builder);
         ReadSpheres(builder);
@@ -184,7 +184,7 @@ internal ref struct SceneDecoder
             BodySpec spec = EventFormat.ReadSpec(ref reader);
             Vector3D position = reader.ReadVector();
             Vector3D velocity = reader.ReadVector();
-            PeerSet players = ReadPeers(ref reader);
+            PeerSet players = EventFormat.ReadPeers(ref reader);
             Vector3D spin = reader.ReadVector();
             if (IsSound && spec.Flight == MotionLaw.Automatic)
             {
@@ -324,13 +324,6 @@ internal ref struct SceneDecoder
             ? $"{needed}, which are not here."
             : FormattableString.Invariant($"{needed}; here they are of version {namesake.Version}."));
         return null;
-    }
-
-    private PeerSet ReadPeers(ref WireReader from)
-    {
-        uint mask = from.ReadUInt32();
-        from.Require(mask <= PeerSet.Everyone.Mask);
-        return PeerSet.FromMask(mask);
     }
 
     private IAcceleration? Known(string name, int version)

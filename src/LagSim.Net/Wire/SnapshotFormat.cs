@@ -20,7 +20,8 @@ internal static class SnapshotFormat
     private const int SpinBytes = 48; // spin and its rate
     private const byte TurnsFlag = 1;
     private const byte FilterFlag = 2;
-    private const byte SensorsFlag = 4;
+    private const byte PlayersFlag = 4;
+    private const byte SensorsFlag = 8;
     private const int HoldBytes = 57; // cubic, peer, offset, keyframe
     private const int MemberBytes = 18; // centre, still since, number of contacts
     private const int SideBytes = 4; // two counts
@@ -101,6 +102,7 @@ internal static class SnapshotFormat
                 _ => 0,
             };
             length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0) + (HasOtherFilter(body) ? EventFormat.FilterBytes : 0)
+                + (body.Players != PeerSet.Everyone ? EventFormat.PlayersBytes : 0)
                 + (IsMember(body.Law, body.SupportCount) ? MemberBytes + (body.Contacts.Length * ContactBytes) : 0)
                 + (IsOfSensors(body) ? SideBytes + (body.Inside.Length * sizeof(ushort)) + (body.Crossings.Length * CrossingBytes) : 0);
         }
@@ -164,7 +166,8 @@ internal static class SnapshotFormat
             writer.WriteInt64(body.NextStep.Ticks);
         }
 
-        writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0) | (IsOfSensors(body) ? SensorsFlag : 0)));
+        writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0) | (body.Players != PeerSet.Everyone ? PlayersFlag : 0)
+            | (IsOfSensors(body) ? SensorsFlag : 0)));
         if (Turns(body))
         {
             WriteExactly(ref writer, body.Spin);
@@ -174,6 +177,11 @@ internal static class SnapshotFormat
         if (HasOtherFilter(body))
         {
             EventFormat.WriteFilter(ref writer, body.Filter);
+        }
+
+        if (body.Players != PeerSet.Everyone)
+        {
+            writer.WriteUInt32(body.Players.Mask);
         }
 
         if (IsMember(body.Law, body.SupportCount))
@@ -339,11 +347,13 @@ internal static class SnapshotFormat
         byte has = reader.ReadByte();
         bool turns = (has & TurnsFlag) != 0;
         bool hasOtherFilter = (has & FilterFlag) != 0;
-        reader.Require(has <= (TurnsFlag | FilterFlag | SensorsFlag));
+        reader.Require(has <= (TurnsFlag | FilterFlag | PlayersFlag | SensorsFlag));
         Vector3D spin = turns ? ReadExactly(ref reader) : default;
         Vector3D spinRate = turns ? ReadExactly(ref reader) : default;
         CollisionFilter filter = hasOtherFilter ? EventFormat.ReadFilter(ref reader) : spec.Filter;
         reader.Require(hasOtherFilter == (filter != spec.Filter));
+        PeerSet players = (has & PlayersFlag) != 0 ? EventFormat.ReadPeers(ref reader) : default;
+        reader.Require((has & PlayersFlag) != 0 == (players != PeerSet.Everyone));
         reader.Require(!turns || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
         SimTime centre = default;
         SimTime stillSince = default;
@@ -354,7 +364,7 @@ internal static class SnapshotFormat
         reader.Require(!isOfSensors || inside.Length + crossings.Length > 0); // exactly one encoding
         return new BodySnapshot(
             id, spec, opened, law, epoch, end, position, velocity, acceleration, planes.Slice(0, supports), cubic, quartic, quintic, hold, nextStep,
-            spin, spinRate, centre, stillSince, contacts, filter, inside, crossings);
+            spin, spinRate, centre, stillSince, contacts, filter, inside, crossings, players);
     }
 
     /// <summary>Whether a path with that flight law has more than a parabola's coefficients.</summary>

@@ -3,13 +3,19 @@ using LagSim.Scenes;
 
 namespace LagSim.Events;
 
-/// <summary>Which peer may do what, if the scene limits it. A host uses it to validate events; a world by itself knows no rights.</summary>
+/// <summary>
+/// Which peer may do what, if the scene or a spawn limits it. A host uses it to validate events. A world by itself knows only the rights to
+/// spawned bodies: what a peer does to one that it may not touch has no effect there.
+/// </summary>
 public static class EventRights
 {
     /// <summary>
-    /// Whether the peer that did this may do it: spawn at all, or touch that body of the scene. Spawned bodies may be touched by all.
+    /// Whether the peer that did this may do it: spawn at all, or touch that body.
     /// </summary>
-    public static bool Has(in ExternalEvent external, Scene scene)
+    /// <param name="external">What it did.</param>
+    /// <param name="scene">The scene, which says who may touch its bodies.</param>
+    /// <param name="ofSpawned">Who may touch that body if it is a spawned one: what its spawn said, by default everyone.</param>
+    public static bool Has(in ExternalEvent external, Scene scene, PeerSet ofSpawned = default)
     {
         if (scene is null)
         {
@@ -17,19 +23,30 @@ public static class EventRights
         }
 
         return external.Kind == EventKind.Spawn ? scene.Spawners.Contains(external.Peer)
-            : !TryFind(external.Body, scene, out SceneBody body) || body.Players.Contains(external.Peer);
+            : TryFind(external.Body, scene, out SceneBody body) ? body.Players.Contains(external.Peer) : MayTouch(external, ofSpawned);
     }
 
+    /// <summary>
+    /// Whether a peer may do that to a spawned body, which belongs to some. The host may remove any: it clears up after who has left.
+    /// </summary>
+    internal static bool MayTouch(in ExternalEvent external, PeerSet players) =>
+        players.Contains(external.Peer) || (external.Peer == 0 && external.Kind == EventKind.Remove);
+
     /// <summary>Throws if the peer that did this may not do it.</summary>
+    /// <param name="external">What it did.</param>
+    /// <param name="scene">The scene, which says who may touch its bodies.</param>
+    /// <param name="ofSpawned">Who may touch that body if it is a spawned one.</param>
     /// <exception cref="SceneException">The message names the peer, its action, and the peers that may do it.</exception>
-    public static void Throw(in ExternalEvent external, Scene scene)
+    public static void Throw(in ExternalEvent external, Scene scene, PeerSet ofSpawned = default)
     {
-        if (Has(external, scene))
+        if (Has(external, scene, ofSpawned))
         {
             return;
         }
 
-        throw new SceneException(TryFind(external.Body, scene, out SceneBody body) && external.Kind != EventKind.Spawn
+        throw new SceneException(external.Kind != EventKind.Spawn && !TryFind(external.Body, scene, out _)
+            ? $"Peer {external.Peer} may not touch the spawned body {external.Body}; those who may: {ofSpawned}."
+            : TryFind(external.Body, scene, out SceneBody body) && external.Kind != EventKind.Spawn
             ? $"Peer {external.Peer} may not touch body '{body.Name}'; those who may: {body.Players}."
             : $"Peer {external.Peer} may not spawn bodies in scene '{scene.Name}'; those who may: {scene.Spawners}.");
     }

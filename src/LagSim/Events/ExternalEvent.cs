@@ -16,7 +16,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 {
     private ExternalEvent(
         EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
-        CollisionFilter filter = default, GameCommand? command = null)
+        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default, GameCommand? command = null)
     {
         Command = command;
         Kind = kind;
@@ -29,6 +29,8 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         Spec = spec;
         Spin = spin;
         Filter = filter;
+        Players = players;
+        WhenOccupied = whenOccupied;
     }
 
     /// <summary>The kind of the action.</summary>
@@ -66,6 +68,12 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>What the body collides with from now on, for a change of its filter; the default for any other event.</summary>
     public CollisionFilter Filter { get; }
 
+    /// <summary>Which peers may do something to a spawned body; everyone for any other event.</summary>
+    public PeerSet Players { get; }
+
+    /// <summary>What becomes of a spawn or a teleport if another body is there; the default for any other event.</summary>
+    public WhenOccupied WhenOccupied { get; }
+
     /// <summary>What a <see cref="EventKind.Command"/> tells the game's rules; null for any other.</summary>
     public GameCommand? Command { get; }
 
@@ -74,8 +82,11 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>A new body appears; its identity is (<paramref name="peer"/>, <paramref name="sequence"/>, 0).</summary>
     internal static ExternalEvent Spawn(
-        SimTime time, byte peer, uint sequence, BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
-        new(EventKind.Spawn, time, peer, sequence, new BodyId(peer, sequence, 0), position, velocity, spec, spin);
+        SimTime time, byte peer, uint sequence, BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default,
+        PeerSet players = default, WhenOccupied whenOccupied = default) =>
+        new(
+            EventKind.Spawn, time, peer, sequence, new BodyId(peer, sequence, 0), position, velocity, spec, spin, players: players,
+            whenOccupied: whenOccupied);
 
     /// <summary>The body disappears.</summary>
     internal static ExternalEvent Remove(SimTime time, byte peer, uint sequence, BodyId body) =>
@@ -83,8 +94,9 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>The body is put somewhere, with a velocity (default: none). It turns as it did.</summary>
     internal static ExternalEvent Teleport(
-        SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default) =>
-        new(EventKind.Teleport, time, peer, sequence, body, position, velocity, default);
+        SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity = default,
+        WhenOccupied whenOccupied = default) =>
+        new(EventKind.Teleport, time, peer, sequence, body, position, velocity, default, whenOccupied: whenOccupied);
 
     /// <summary>The body's velocity becomes this. It turns as it did.</summary>
     internal static ExternalEvent SetVelocity(SimTime time, byte peer, uint sequence, BodyId body, Vector3D velocity) =>
@@ -127,13 +139,14 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.Command, time, peer, sequence, new BodyId(peer, sequence, 0), default, default, default, command: command);
 
     /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>
-    public ExternalEvent At(SimTime time) => new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Command);
+    public ExternalEvent At(SimTime time) =>
+        new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Players, WhenOccupied, Command);
 
     /// <inheritdoc/>
     public bool Equals(ExternalEvent other) =>
         Kind == other.Kind && Time == other.Time && Peer == other.Peer && Sequence == other.Sequence && Body == other.Body
         && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin)
-        && Filter == other.Filter
+        && Filter == other.Filter && Players == other.Players && WhenOccupied == other.WhenOccupied
         && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
 
     /// <inheritdoc/>

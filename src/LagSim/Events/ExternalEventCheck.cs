@@ -50,6 +50,13 @@ public static class ExternalEventCheck
             throw new SceneException($"The sequence number of {whose} is 0; a peer counts its events from 1.");
         }
 
+        if (external.WhenOccupied > WhenOccupied.Beside)
+        {
+            throw new SceneException(
+                $"What {whose} does where another body is, is {(byte)external.WhenOccupied}; it must be {(byte)WhenOccupied.Overlap} (put it there),"
+                    + $" {(byte)WhenOccupied.Skip} (do nothing) or {(byte)WhenOccupied.Beside} (put it beside).");
+        }
+
         CheckKnown(external, scene, whose);
         Limits.CheckPosition(external.Position, whose);
         if (external.Kind == EventKind.Impulse)

@@ -23,10 +23,14 @@ public readonly struct PlayerAction
     private readonly BodySpec spec;
     private readonly Vector3D spin;
     private readonly CollisionFilter filter;
+    private readonly PeerSet players;
+    private readonly WhenOccupied whenOccupied;
 
     private readonly GameCommand? command;
 
-    private PlayerAction(EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default, CollisionFilter filter = default)
+    private PlayerAction(
+        EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
+        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default)
     {
         command = null;
         Kind = kind;
@@ -36,6 +40,8 @@ public readonly struct PlayerAction
         this.spec = spec;
         this.spin = spin;
         this.filter = filter;
+        this.players = players;
+        this.whenOccupied = whenOccupied;
     }
 
     private PlayerAction(GameCommand command)
@@ -48,15 +54,31 @@ public readonly struct PlayerAction
     /// A new body appears, at metres, with metres per second, and turning by radians per second about <paramref name="spin"/> (default:
     /// not). Its identity comes with the stamp.
     /// </summary>
-    public static PlayerAction Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default) =>
-        new(EventKind.Spawn, default, position, velocity, spec, spin);
+    /// <param name="spec">Size, mass, material, flight, filter and tag.</param>
+    /// <param name="position">Where its centre is put, in metres.</param>
+    /// <param name="velocity">In m/s; default none.</param>
+    /// <param name="spin">In rad/s about the vector; default none.</param>
+    /// <param name="players">Which peers may do something to it; default everyone. What any other does to it has no effect, on every peer alike;
+    /// only the host may remove it all the same.</param>
+    /// <param name="whenOccupied">What becomes of it if another body is there at that instant; by default it is put there all the
+    /// same.</param>
+    public static PlayerAction Spawn(
+        BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default, PeerSet players = default,
+        WhenOccupied whenOccupied = WhenOccupied.Overlap) =>
+        new(EventKind.Spawn, default, position, velocity, spec, spin, players: players, whenOccupied: whenOccupied);
 
     /// <summary>The body disappears.</summary>
     public static PlayerAction Remove(BodyId body) => new(EventKind.Remove, body, default, default, default);
 
     /// <summary>The body is put somewhere (metres), with a velocity (m/s; default: none). It turns as it did.</summary>
-    public static PlayerAction Teleport(BodyId body, Vector3D position, Vector3D velocity = default) =>
-        new(EventKind.Teleport, body, position, velocity, default);
+    /// <param name="body">The body.</param>
+    /// <param name="position">Where its centre is put, in metres.</param>
+    /// <param name="velocity">In m/s; default none.</param>
+    /// <param name="whenOccupied">What becomes of it if another body is there at that instant; by default it is put there all the
+    /// same.</param>
+    public static PlayerAction Teleport(
+        BodyId body, Vector3D position, Vector3D velocity = default, WhenOccupied whenOccupied = WhenOccupied.Overlap) =>
+        new(EventKind.Teleport, body, position, velocity, default, whenOccupied: whenOccupied);
 
     /// <summary>The body's velocity becomes this, in m/s. It turns as it did.</summary>
     public static PlayerAction SetVelocity(BodyId body, Vector3D velocity) => new(EventKind.SetVelocity, body, default, velocity, default);
@@ -100,9 +122,9 @@ public readonly struct PlayerAction
     /// <exception cref="InvalidOperationException">This is <c>default</c>, no action.</exception>
     public ExternalEvent Stamp(SimTime time, byte peer, uint sequence) => Kind switch
     {
-        EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
+        EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin, players, whenOccupied),
         EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
-        EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
+        EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity, whenOccupied),
         EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
         EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),

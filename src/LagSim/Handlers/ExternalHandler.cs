@@ -14,7 +14,7 @@ namespace LagSim.Handlers;
 /// <summary>External events: what players do.</summary>
 internal sealed class ExternalHandler(
     Scene scene, BodyTable bodies, TimelineStore timelines, EventLog log, FreeFlights flights, ContactGraph graph, SleepWaker waker,
-    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, ForwardedPath lonePath, FilterChange filters)
+    MemberFactory members, TrajectoryFactory trajectories, CollapseRule collapse, ForwardedPath lonePath, FilterChange filters, FreePlaces places)
 {
     private readonly Paths paths = new(timelines);
 
@@ -52,7 +52,7 @@ internal sealed class ExternalHandler(
                 Spawn(slot, key, external, isForwarded);
             }
         }
-        else if (!isThere)
+        else if (!isThere || !EventRights.MayTouch(external, bodies.Players(slot)))
         {
             return; // nothing to act on, now; a late event may still put the body there, and then this is simulated again
         }
@@ -73,39 +73,49 @@ internal sealed class ExternalHandler(
         {
             return; // a held body goes where the hand goes
         }
+        else if (!places.TryFind(slot, key, external, timelines.Extras.Filter(last), out Vector3D position))
+        {
+            return; // another body is there
+        }
         else if (isForwarded)
         {
-            lonePath.Follow(slot, key, external);
+            lonePath.Follow(slot, key, external, position);
         }
         else
         {
-            Push(slot, key, external);
+            Push(slot, key, external, position);
         }
     }
 
     private void Spawn(int slot, in EventKey key, in ExternalEvent external, bool isForwarded)
     {
         bodies.SetSpec(slot, trajectories.Flights.Chosen(external.Spec));
+        bodies.SetPlayers(slot, external.Players);
         collapse.HasLosses |= external.Spec.Restitution < 1;
         flights.SetRadius(slot, external.Spec.Radius);
+        if (!places.TryFind(slot, key, external, external.Spec.Filter, out Vector3D position))
+        {
+            return;
+        }
+
         timelines.Extras.OpenWith(external.Spec.Filter);
         if (isForwarded)
         {
-            lonePath.Follow(slot, key, external);
+            lonePath.Follow(slot, key, external, position);
         }
         else
         {
-            trajectories.Flights.Open(slot, key, external.Position, external.Velocity, spin: external.Spin.WithoutNegativeZero());
+            trajectories.Flights.Open(slot, key, position, external.Velocity, spin: external.Spin.WithoutNegativeZero());
         }
     }
 
-    /// <summary>An impulse, a new velocity, or a teleport.</summary>
-    private void Push(int slot, in EventKey key, in ExternalEvent external)
+    /// <summary>An impulse, a new velocity, or a teleport to a place.</summary>
+    private void Push(int slot, in EventKey key, in ExternalEvent external, in Vector3D place)
     {
         int last = timelines.Last(slot);
         double seconds = paths.SecondsInto(last, key.Time);
         SupportSet supports = timelines.Segment(last).Supports;
-        if (!ActionEffects.TryApply(external, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene,
+        if (!ActionEffects.TryApply(external, place, timelines.Segment(last), timelines.Dense(last), seconds, bodies.Spec(slot).Mass, scene,
             out Vector3D position, out Vector3D velocity))
         {
             return;

@@ -17,9 +17,13 @@ internal sealed class ForwardedPath(Scene scene, BodyTable bodies, TimelineStore
     /// other peers bit for bit. The surface that carried it is found again by contact, and a closed-form flight's next contact is searched
     /// for from the arrival on. Both may differ in rounding.
     /// </summary>
-    internal void Follow(int slot, in EventKey key, in ExternalEvent external)
+    /// <param name="slot">The body.</param>
+    /// <param name="key">When it is applied.</param>
+    /// <param name="external">The event.</param>
+    /// <param name="place">Where a spawn or a teleport puts the body.</param>
+    internal void Follow(int slot, in EventKey key, in ExternalEvent external, in Vector3D place)
     {
-        Vector3D position = external.Position;
+        Vector3D position = place;
         Vector3D velocity = external.Velocity;
         Vector3D spin = external.Spin;
         if (external.Kind != EventKind.Spawn)
@@ -28,7 +32,7 @@ internal sealed class ForwardedPath(Scene scene, BodyTable bodies, TimelineStore
             int then = timelines.At(slot, external.Time);
             then = then == TimelineStore.None ? timelines.First(slot) : then;
             double seconds = Math.Max(0, paths.SecondsInto(then, external.Time));
-            if (!ActionEffects.TryApply(external, timelines.Segment(then), timelines.Dense(then), seconds, bodies.Spec(slot).Mass, scene, out position, out velocity))
+            if (!ActionEffects.TryApply(external, place, timelines.Segment(then), timelines.Dense(then), seconds, bodies.Spec(slot).Mass, scene, out position, out velocity))
             {
                 return;
             }

@@ -56,6 +56,31 @@ public sealed class RenderSnapshot
         return state.Motion != MotionLaw.Absent;
     }
 
+    /// <summary>The hold on a body at an instant that the render snapshot covers: which peer holds it, and by which point.</summary>
+    /// <returns>False, and the default, if no peer holds it, or the instant is not covered.</returns>
+    public bool TryReadHold(BodyId body, SimTime time, out Hold hold)
+    {
+        int at = Covers(time) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
+        hold = default;
+        return at >= 0 && timelines[slots[at]].TryReadHold(time, out hold);
+    }
+
+    /// <summary>Reads the last hold on a body that ended between two instants: by a release, a removal, another hand, or because no keyframe
+    /// came.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="after">The earlier instant, itself left out.</param>
+    /// <param name="upTo">The later one.</param>
+    /// <param name="hold">The hold that ended.</param>
+    /// <param name="at">When it ended.</param>
+    /// <returns>False if none ended, or an instant is not covered.</returns>
+    public bool TryReadHoldEnd(BodyId body, SimTime after, SimTime upTo, out Hold hold, out SimTime at)
+    {
+        int n = Covers(after) && Covers(upTo) ? Array.BinarySearch(identities, 0, BodyCount, body.Packed) : -1;
+        hold = default;
+        at = default;
+        return n >= 0 && timelines[slots[n]].TryReadHoldEnd(after, upTo, out hold, out at);
+    }
+
     /// <summary>The radius of a body, in metres; 0 for one that is unknown or was never there.</summary>
     public double RadiusOf(BodyId body)
     {

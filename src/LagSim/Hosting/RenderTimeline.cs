@@ -53,7 +53,7 @@ internal sealed class RenderTimeline
         at = store.Last(slot);
         for (int i = fresh - 1; i >= 0; i--)
         {
-            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at), store.SpinOf(at), store.Extras.Filter(at));
+            entries[end + i] = new Entry(store.Serial(at), store.Key(at).Time, store.Segment(at), store.Dense(at), store.SpinOf(at), store.Extras.Filter(at), store.HoldOf(at));
             at = store.Previous(at);
         }
 
@@ -65,6 +65,41 @@ internal sealed class RenderTimeline
     }
 
     internal BodyState At(SimTime time, in PeriodicBox box)
+    {
+        int at = EntryAt(time);
+        return at < 0 ? default : State(entries[at], time, box);
+    }
+
+    /// <summary>The hold at an instant; false if no peer holds the body.</summary>
+    internal bool TryReadHold(SimTime time, out Hold hold)
+    {
+        int at = EntryAt(time);
+        bool isHeld = at >= 0 && entries[at].IsHeld;
+        hold = isHeld ? entries[at].Hold : default;
+        return isHeld;
+    }
+
+    /// <summary>The last hold that ended after one instant and up to another, and when; false if none did.</summary>
+    internal bool TryReadHoldEnd(SimTime after, SimTime upTo, out Hold hold, out SimTime at)
+    {
+        for (int i = end - 1; i > first && entries[i].Opened > after; i--)
+        {
+            bool goesOn = entries[i].IsHeld && entries[i].Hold.Peer == entries[i - 1].Hold.Peer;
+            if (entries[i].Opened <= upTo && entries[i - 1].IsHeld && !goesOn)
+            {
+                hold = entries[i - 1].Hold;
+                at = entries[i].Opened;
+                return true;
+            }
+        }
+
+        hold = default;
+        at = default;
+        return false;
+    }
+
+    /// <summary>The entry that holds at an instant; negative before the first.</summary>
+    private int EntryAt(SimTime time)
     {
         int low = first;
         int high = end; // the last entry opened at or before the time lies below
@@ -81,12 +116,7 @@ internal sealed class RenderTimeline
             }
         }
 
-        if (low == first)
-        {
-            return default;
-        }
-
-        return State(entries[low - 1], time, box);
+        return low == first ? -1 : low - 1;
     }
 
     /// <summary>
@@ -137,7 +167,7 @@ internal sealed class RenderTimeline
 
     private readonly struct Entry
     {
-        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense, in Spin spin, CollisionFilter filter)
+        internal Entry(long serial, SimTime opened, in MotionSegment segment, in DenseOutput dense, in Spin spin, CollisionFilter filter, in Hold hold)
         {
             Serial = serial;
             Opened = opened;
@@ -145,6 +175,7 @@ internal sealed class RenderTimeline
             Dense = dense;
             Spin = spin;
             Filter = filter;
+            Hold = hold;
         }
 
         internal long Serial { get; }
@@ -158,5 +189,9 @@ internal sealed class RenderTimeline
         internal Spin Spin { get; }
 
         internal CollisionFilter Filter { get; }
+
+        internal Hold Hold { get; }
+
+        internal bool IsHeld => Segment.Law == MotionLaw.Held;
     }
 }

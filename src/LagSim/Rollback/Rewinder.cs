@@ -99,12 +99,19 @@ internal class Rewinder : ISegmentOpenedObserver
         if (!IsBegunAt(key))
         {
             Rewind(slot, key);
+            RewindPlacings(key);
         }
     }
 
     /// <summary>At a key a command has come or gone: the calls of rules are looked at again from there on, and the world is simulated no
     /// further than to before it.</summary>
-    internal virtual void MarkRules(in EventKey key) => IsBegunAt(key);
+    internal virtual void MarkRules(in EventKey key)
+    {
+        if (!IsBegunAt(key))
+        {
+            RewindPlacings(key);
+        }
+    }
 
     /// <summary>Begins a rollback to a key, or has the one that is under way include it; true if that has rewound all bodies.</summary>
     private bool IsBegunAt(in EventKey key)
@@ -130,6 +137,22 @@ internal class Rewinder : ISegmentOpenedObserver
         }
 
         return false;
+    }
+
+    /// <summary>
+    /// Events that put a body where another may be are decided again: what a heal does before them may change who is there, also a body that
+    /// was not there.
+    /// </summary>
+    private protected virtual void RewindPlacings(in EventKey after)
+    {
+        for (int n = 0; n < log.PlacingCount && rollback.Kind == RollbackKind.CausalCone; n++)
+        {
+            (int slot, EventKey key) = log.Placing(n);
+            if (EventKey.Compare(key, after) > 0 && IsKnown(key))
+            {
+                Rewind(slot, key);
+            }
+        }
     }
 
     /// <summary>

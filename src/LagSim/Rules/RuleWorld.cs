@@ -238,12 +238,14 @@ public sealed class RuleWorld
     /// <returns>Its identity.</returns>
     /// <exception cref="SceneException">A value may not enter the world.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
-    public BodyId Spawn(BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default)
+    public BodyId Spawn(
+        BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default, PeerSet players = default,
+        WhenOccupied whenOccupied = WhenOccupied.Overlap)
     {
         CheckCalled();
         uint number = checked((uint)++memory.Spawned);
         BodyId body = new(SceneRules.Peer, number, 0);
-        Act(ExternalEvent.Spawn(key.Time, SceneRules.Peer, number, spec, position, velocity, spin));
+        Act(ExternalEvent.Spawn(key.Time, SceneRules.Peer, number, spec, position, velocity, spin, players, whenOccupied));
         return body;
     }
 
@@ -255,8 +257,8 @@ public sealed class RuleWorld
     /// <summary>A body is put somewhere, with a velocity. One that is held stays in the hand.</summary>
     /// <exception cref="SceneException">A value may not enter the world.</exception>
     /// <exception cref="RuleException">The call has made too many acts.</exception>
-    public void Teleport(BodyId body, Vector3D position, Vector3D velocity = default) =>
-        Act(ExternalEvent.Teleport(key.Time, SceneRules.Peer, 1, body, position, velocity));
+    public void Teleport(BodyId body, Vector3D position, Vector3D velocity = default, WhenOccupied whenOccupied = WhenOccupied.Overlap) =>
+        Act(ExternalEvent.Teleport(key.Time, SceneRules.Peer, 1, body, position, velocity, whenOccupied));
 
     /// <summary>A body's velocity becomes this, in m/s. One that is held moves with the hand.</summary>
     /// <exception cref="SceneException">A value may not enter the world.</exception>

@@ -173,6 +173,18 @@ internal static class Limits
         }
     }
 
+    /// <summary>Whether a body would be at such a centre.</summary>
+    internal static bool IsAtCentre(in Vector3D position, in BodySpec spec, Force[] forces)
+    {
+        bool isAt = false;
+        foreach (Force force in spec.Forces.Among(forces))
+        {
+            isAt |= force.Kind == ForceKind.Central && force.Power < 0 && position == force.Vector;
+        }
+
+        return isAt;
+    }
+
     /// <summary>The highest speed that a scene or a player may give a body: a tenth of the smallest radius in a tick.</summary>
     internal static double MaxGivenSpeed(double smallestRadius) => 0.1 * smallestRadius * SimDuration.TicksPerSecond;
 

@@ -39,6 +39,7 @@ public readonly struct BodySnapshot
     /// <param name="filter">See <see cref="Filter"/>; by default that of the spec.</param>
     /// <param name="inside">See <see cref="Inside"/>.</param>
     /// <param name="crossings">See <see cref="Crossings"/>.</param>
+    /// <param name="players">See <see cref="Players"/>.</param>
     /// <exception cref="ArgumentException">There are more than <see cref="MaxSupports"/> supports.</exception>
     public BodySnapshot(
         BodyId id,
@@ -63,7 +64,8 @@ public readonly struct BodySnapshot
         ReadOnlySpan<PersistentContact> contacts = default,
         CollisionFilter? filter = null,
         ReadOnlySpan<int> inside = default,
-        ReadOnlySpan<Crossing> crossings = default)
+        ReadOnlySpan<Crossing> crossings = default,
+        PeerSet players = default)
     {
         if (supports.Length > MaxSupports)
         {
@@ -84,12 +86,13 @@ public readonly struct BodySnapshot
         StillSince = stillSince;
         ContactArray = contacts.ToArray();
         Filter = filter ?? spec.Filter;
+        Players = players;
         InsideArray = inside.ToArray();
         CrossingArray = crossings.ToArray();
     }
 
     internal BodySnapshot(BodyId id, in BodySpec spec, in EventKey opened, in MotionSegment segment, in DenseOutput dense, in Hold hold, in Spin spin, SimTime centre,
-        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter, int[] inside, Crossing[] crossings)
+        SimTime stillSince, PersistentContact[] contacts, CollisionFilter filter, int[] inside, Crossing[] crossings, PeerSet players)
     {
         Id = id;
         Spec = spec;
@@ -104,6 +107,7 @@ public readonly struct BodySnapshot
         Filter = filter;
         InsideArray = inside;
         CrossingArray = crossings;
+        Players = players;
     }
 
     /// <summary>The identity of the body.</summary>
@@ -149,6 +153,9 @@ public readonly struct BodySnapshot
 
     /// <summary>What it collides with now: that of its spec, unless it was changed.</summary>
     public CollisionFilter Filter { get; }
+
+    /// <summary>Which peers may do something to it, if it was spawned; everyone for a body of the scene, which has its own rights.</summary>
+    public PeerSet Players { get; }
 
     internal PersistentContact[] ContactArray { get; }
 

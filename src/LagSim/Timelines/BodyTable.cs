@@ -46,6 +46,11 @@ internal sealed class BodyTable
 
     internal void SetSpec(int slot, in BodySpec spec) => bodies[slot].Spec = spec;
 
+    /// <summary>Which peers may do something to a spawned body; everyone for one of the scene, whose rights the host knows.</summary>
+    internal PeerSet Players(int slot) => bodies[slot].Players;
+
+    internal void SetPlayers(int slot, PeerSet players) => bodies[slot].Players = players;
+
     /// <summary>The slots in canonical order of their bodies.</summary>
     public List<int>.Enumerator GetEnumerator() => order.GetEnumerator();
 
@@ -129,5 +134,6 @@ internal sealed class BodyTable
     {
         internal BodyId Id;
         internal BodySpec Spec;
+        internal PeerSet Players;
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Time;
 
@@ -18,6 +19,7 @@ internal sealed class EventLog
     private int[] first;
     private int[] last;
     private int[] due;
+    private readonly List<(int Slot, EventKey Key)> placings = new(); // events whose effect depends on where other bodies are
 
     /// <summary>No events yet; with room for as many bodies as are expected at first.</summary>
     internal EventLog(int expected = 0)
@@ -75,6 +77,12 @@ internal sealed class EventLog
     /// <summary>Whether it is applied by advancing the body alone from the event's stamp to the key's time.</summary>
     internal bool IsForwarded(int entry) => entries[entry].Forwarded;
 
+    /// <summary>How many events are kept whose effect depends on where other bodies are when they come.</summary>
+    internal int PlacingCount => placings.Count;
+
+    /// <summary>One of those.</summary>
+    internal (int Slot, EventKey Key) Placing(int n) => placings[n];
+
     internal int Next(int entry) => entries[entry].Next;
 
     /// <summary>Adds an event; false if the body has one of that key, which is then the same event received again.</summary>
@@ -104,6 +112,11 @@ internal sealed class EventLog
         entries[at] = new Entry { Event = external, Key = key, Forwarded = forwarded };
         Link(slot, before, at);
         Link(slot, at, after);
+        if (external.WhenOccupied != WhenOccupied.Overlap)
+        {
+            placings.Add((slot, key));
+        }
+
         return true;
     }
 
@@ -173,6 +186,11 @@ internal sealed class EventLog
 
     private void Remove(int slot, int at)
     {
+        if (entries[at].Event.WhenOccupied != WhenOccupied.Overlap)
+        {
+            placings.Remove((slot, entries[at].Key));
+        }
+
         Link(slot, entries[at].Previous, entries[at].Next);
         entries[at].Next = free;
         free = at;

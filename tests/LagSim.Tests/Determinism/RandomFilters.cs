@@ -45,7 +45,7 @@ internal static class RandomFilters
         {
             ExternalEvent e = events[i];
             events[i] = e.Kind == EventKind.Spawn
-                ? ExternalEvent.Spawn(e.Time, e.Peer, e.Sequence, Drawn(e.Spec, from), e.Position, e.Velocity, e.Spin) : e;
+                ? ExternalEvent.Spawn(e.Time, e.Peer, e.Sequence, Drawn(e.Spec, from), e.Position, e.Velocity, e.Spin, e.Players, e.WhenOccupied) : e;
         }
 
         List<BodyId> known = [.. events.Select(e => e.Body), BodyId.OfScene(0), BodyId.OfScene(1)];

@@ -25,7 +25,8 @@ internal sealed class RandomWorld
     private readonly int? sensorSeed;
 
     /// <summary>The world of a seed; with hands that take, move and let go of bodies besides, which nothing else in it depends on; with forces of all kinds in closed form and under error control, friction and spin.</summary>
-    internal RandomWorld(int seed, bool hands = false, bool forced = false, bool filters = false, bool sensors = false, bool rules = false)
+    internal RandomWorld(
+        int seed, bool hands = false, bool forced = false, bool filters = false, bool placings = false, bool sensors = false, bool rules = false)
     {
         this.forced = forced;
         sensorSeed = sensors ? seed + 2_000_000 : null;
@@ -37,6 +38,11 @@ internal sealed class RandomWorld
         if (hands)
         {
             DrawHands(new Random(seed + 1_000_000));
+        }
+
+        if (placings)
+        {
+            RandomPlacings.AddTo(Events, new Random(seed + 3_000_000));
         }
 
         if (filters)

@@ -34,6 +34,14 @@ internal sealed class FaultyRewinder(
         }
     }
 
+    private protected override void RewindPlacings(in EventKey after)
+    {
+        if (!faults.Has(HealingFault.LeavesPlacings))
+        {
+            base.RewindPlacings(after);
+        }
+    }
+
     private protected override EventKey CutsFrom(in EventKey key)
     {
         isCutByTime = faults.Has(HealingFault.CutsByTime) && key == rollback.Cursor && key.Time > progress.HistoryEdge;

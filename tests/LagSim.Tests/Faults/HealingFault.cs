@@ -70,4 +70,7 @@ internal enum HealingFault
 
     /// <summary>Where paths have reconverged, the crossings that were cut are not put back with them.</summary>
     PutsNoCrossingsBack = 65536,
+
+    /// <summary>Whether a spawn or a teleport finds its place free is not asked again where a heal changes who is there.</summary>
+    LeavesPlacings = 131072,
 }

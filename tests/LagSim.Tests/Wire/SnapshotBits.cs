@@ -43,7 +43,7 @@ internal static class SnapshotBits
             .Concat(b.Contacts.ToArray().SelectMany(c => new[] { c.Push, c.Turn })).SelectMany(v => new[] { v.X, v.Y, v.Z });
 
     private static bool Same(BodySnapshot a, BodySnapshot b) =>
-        a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Filter == b.Filter && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
+        a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Filter == b.Filter && a.Players == b.Players && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
         && a.NextStep == b.NextStep && a.Hold.Peer == b.Hold.Peer && a.Hold.KeyframeTime == b.Hold.KeyframeTime && a.SupportCount == b.SupportCount
         && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
         && a.Centre == b.Centre && a.StillSince == b.StillSince && a.Contacts.Length == b.Contacts.Length

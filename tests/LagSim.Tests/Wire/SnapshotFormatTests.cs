@@ -39,6 +39,7 @@ public sealed class SnapshotFormatTests
             Gen.Constant<Vector3D[]>([default, default]),
             Gen.ArrayOf(WireGen.ExactVector, 2).Where(v => v[0] != default || v[1] != default))
         from filter in WireGen.Filter
+        from players in Gen.Elements(PeerSet.Everyone, PeerSet.Of(3, 7), PeerSet.Nobody)
         from contacts in Gen.Choose(0, 4).SelectMany(count => Gen.ArrayOf(WireGen.Contact, count))
         from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
         select new BodySnapshot(
@@ -49,7 +50,7 @@ public sealed class SnapshotFormatTests
             law == MotionLaw.Held ? new Hold(peer, vectors[6], times[2]) : default,
             law == MotionLaw.DormandPrince54 ? SimDuration.FromTicks(times[3].Ticks) : default, spins[0], spins[1],
             IsMember(law, supports) ? times[4] : default, IsMember(law, supports) ? times[5] : default,
-            IsMember(law, supports) ? contacts : [], filter);
+            IsMember(law, supports) ? contacts : [], filter, players: players);
 
     private static readonly Gen<WorldSnapshot> Any =
         from start in Ticks
@@ -235,6 +236,9 @@ public sealed class SnapshotFormatTests
         byte[] turns = (byte[])good.Clone();
         turns[^1] = 8;
         Refused(WireRefusal.BadValue, turns);
+        turns[^1] = 4;
+        Refused(WireRefusal.BadValue, [.. turns, 0xFF, 0xFF]); // everyone has no players
+        Assert.Equal(PeerSet.Of(1), Decoded([.. turns, 2, 0]).Bodies[0].Players);
         turns[^1] = 2;
         Refused(WireRefusal.BadValue, [.. turns, 1, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]); // nor has the filter of its spec
         Assert.Equal(new CollisionFilter(2), Decoded([.. turns, 2, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]).Bodies[0].Filter);
@@ -274,7 +278,7 @@ public sealed class SnapshotFormatTests
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
             Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.KeyframeTime) : default, b.NextStep, b.Spin, b.SpinRate,
             b.Centre, b.StillSince,
-            [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))], b.Filter);
+            [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))], b.Filter, players: b.Players);
 
         static Vector3D Negative(Vector3D v) => new(v.X == 0 ? -0.0 : v.X, v.Y == 0 ? -0.0 : v.Y, v.Z == 0 ? -0.0 : v.Z);
     }

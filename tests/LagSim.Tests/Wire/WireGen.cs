@@ -90,11 +90,13 @@ internal static class WireGen
         from spin in Gen.OneOf(Gen.Constant(Vector3D.Zero), Vector)
         from filter in Filter
         from command in Command
+        from players in Gen.OneOf(Gen.Constant(PeerSet.Everyone), Gen.Choose(0, (int)PeerSet.Everyone.Mask).Select(mask => PeerSet.FromMask((uint)mask)))
+        from occupied in Gen.Elements(WhenOccupied.Overlap, WhenOccupied.Skip, WhenOccupied.Beside)
         select kind switch
         {
-            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin),
+            EventKind.Spawn => ExternalEvent.Spawn(time, peer, sequence, spec, position, velocity, spin, players, occupied),
             EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
-            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity),
+            EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity, occupied),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
             EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
             EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),

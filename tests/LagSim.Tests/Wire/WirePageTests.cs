@@ -79,7 +79,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 33 + 5 + 4 + 10 + 3, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 34 + 5 + 4 + 10 + 3, rows);
     }
 
     [Fact]
@@ -168,7 +168,7 @@ public sealed class WirePageTests
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot controlled = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
-                nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15), filter: new CollisionFilter(5, 9));
+                nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15), filter: new CollisionFilter(5, 9), players: PeerSet.Of(1, 4));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [controlled]);
         }
         else if (seed == 2)
@@ -186,8 +186,8 @@ public sealed class WirePageTests
                 [new(Second, PersistentContact.NoSurface, true, V(1, 2, 3), V(4, 5, 6)), new(First, 7, false, V(7, 8, 9), V(-1, -2, -0.0))];
             BodySnapshot member = new(
                 b.Id, b.Spec, b.Opened, MotionLaw.Constrained, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: V(10, 11, 12),
-                centre: At(0.125), stillSince: At(0.25), contacts: contacts, inside: [3, 7],
-                crossings: [new Crossing(new EventKey(At(0.5), 2, EventKind.Crossing, b.Id, b.Id, 0, 7), true)]);
+                centre: At(0.125), stillSince: At(0.25), contacts: contacts, filter: new CollisionFilter(6, 10), inside: [3, 7],
+                crossings: [new Crossing(new EventKey(At(0.5), 2, EventKind.Crossing, b.Id, b.Id, 0, 7), true)], players: PeerSet.Of(2));
             BodySnapshot sleeper = new(
                 Second, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, centre: At(0.375),
                 contacts: contacts.AsSpan(0, 1));
@@ -398,6 +398,8 @@ public sealed class WirePageTests
                 "u16 number" => Bytes("u16", what.Command!.Number),
                 "u8 length" => [(byte)what.Command!.Length],
                 "data" => what.Command!.Data.ToArray(),
+                "u32 players" => Bytes("u32", what.Players.Mask),
+                "u8 occupied" => Bytes("u8", (byte)what.WhenOccupied),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });
@@ -461,7 +463,9 @@ public sealed class WirePageTests
         ("dense output", b.Law is MotionLaw.RungeKutta4 or MotionLaw.ClosedForm or MotionLaw.DormandPrince54
             ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
-        ("has", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Filter != b.Spec.Filter ? 2 : 0) + (b.Inside.Length + b.Crossings.Length > 0 ? 4 : 0)),
+        ("has", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Filter != b.Spec.Filter ? 2 : 0)
+            + (b.Players != PeerSet.Everyone ? 4 : 0) + (b.Inside.Length + b.Crossings.Length > 0 ? 8 : 0)),
+        ("players", b.Players != PeerSet.Everyone ? BitConverter.GetBytes(b.Players.Mask) : []),
         ("filter", b.Filter != b.Spec.Filter ? b.Filter : null!),
         ("sensors", Sensors(b)),
         ("spin", b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? new[] { b.Spin, b.SpinRate } : []),

@@ -17,15 +17,17 @@ namespace LagSim.Harness.Verification.Check;
 /// <param name="Spin">The spin of a spawn, in rad/s.</param>
 /// <param name="Filter">The new filter of the body.</param>
 /// <param name="Command">What the rules are told.</param>
+/// <param name="Players">Who may touch a spawned body.</param>
+/// <param name="WhenOccupied">What becomes of a spawn or a teleport where another body is.</param>
 internal sealed record CheckAction(
     double AtSeconds, int Peer, EventKind Kind, int Body, int Spawn, Vector3D Position, Vector3D Velocity, BodySpec Spec, Vector3D Spin = default,
-    CollisionFilter Filter = default, GameCommand? Command = null)
+    CollisionFilter Filter = default, PeerSet Players = default, WhenOccupied WhenOccupied = default, GameCommand? Command = null)
 {
     internal PlayerAction On(BodyId body) => Kind switch
     {
-        EventKind.Spawn => PlayerAction.Spawn(Spec, Position, Velocity, Spin),
+        EventKind.Spawn => PlayerAction.Spawn(Spec, Position, Velocity, Spin, Players, WhenOccupied),
         EventKind.Remove => PlayerAction.Remove(body),
-        EventKind.Teleport => PlayerAction.Teleport(body, Position, Velocity),
+        EventKind.Teleport => PlayerAction.Teleport(body, Position, Velocity, WhenOccupied),
         EventKind.SetVelocity => PlayerAction.SetVelocity(body, Velocity),
         EventKind.Grab => PlayerAction.Grab(body, Position),
         EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, Position, Velocity),

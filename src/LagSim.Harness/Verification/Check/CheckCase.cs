@@ -56,7 +56,7 @@ internal sealed class CheckCase
     private const ulong IndexStream = 5;
     private const ulong SensorStream = 6;
     private const ulong RuleStream = 8;
-    private const ulong FilterStream = 7;
+    private const ulong FilterStream = 29;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MaxAttempts = 20;

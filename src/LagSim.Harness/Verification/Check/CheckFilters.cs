@@ -6,7 +6,7 @@ using LagSim.Testing.Links;
 
 namespace LagSim.Harness.Verification.Check;
 
-/// <summary>The collision filters and tags of a seeded session, and how players change filters.</summary>
+/// <summary>The collision filters and tags of a seeded session, how players change filters, and what becomes of bodies put where others are.</summary>
 /// <remarks>Drawn from streams of their own, and in some sessions only, so that all others stay the same.</remarks>
 internal sealed class CheckFilters
 {
@@ -91,8 +91,13 @@ internal sealed class CheckFilters
         SeededRandom from = random.Fork(FirstActions + attempt);
         for (int i = 0; i < actions.Count; i++)
         {
-            actions[i] = actions[i].Kind == EventKind.Spawn
-                ? actions[i] with { Spec = OfBody(actions[i].Spec, FirstActions * (attempt + 2) + (ulong)i) } : actions[i];
+            WhenOccupied occupied = from.Pick(WhenOccupied.Overlap, WhenOccupied.Skip, WhenOccupied.Beside, WhenOccupied.Beside);
+            actions[i] = actions[i].Kind switch
+            {
+                EventKind.Spawn => actions[i] with { Spec = OfBody(actions[i].Spec, (FirstActions * (attempt + 2)) + (ulong)i), WhenOccupied = occupied },
+                EventKind.Teleport => actions[i] with { WhenOccupied = occupied },
+                _ => actions[i],
+            };
         }
 
         List<CheckAction> all = [.. actions];

@@ -167,12 +167,12 @@ internal sealed class DrawnRules : GameRules
                 world.Impulse(body, some * world.SpecOf(body).Mass);
                 break;
             case 5 when body.Sequence == 0 && body.Peer == 0:
-                world.Teleport(body, world.Scene.Bodies[body.Index].Position, some);
+                world.Teleport(body, world.Scene.Bodies[body.Index].Position, some, (WhenOccupied)world.Random(3));
                 break;
             case 6 when total.Spawns < MaxSpawns && world.Scene.Bodies.Count > 0:
                 total.Spawns++;
                 SceneBody like = world.Scene.Bodies[world.Random(world.Scene.Bodies.Count)];
-                total.Last = world.Spawn(like.Spec, like.Position, some).Packed;
+                total.Last = world.Spawn(like.Spec, like.Position, some, whenOccupied: (WhenOccupied)world.Random(3)).Packed;
                 break;
             case 7 when total.Last != 0:
                 world.Remove(BodyId.FromPacked(total.Last));

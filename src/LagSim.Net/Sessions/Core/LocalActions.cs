@@ -37,7 +37,7 @@ internal sealed class LocalActions(PlayerIdentity self, SessionStatus status, Sh
     internal ExternalEvent Submit(in PlayerAction action, SimTime time)
     {
         ExternalEvent external = action.Stamp(time, self.Number, self.LastSequence + 1);
-        EventRights.Throw(external, world.Scene!);
+        EventRights.Throw(external, world.Scene!, world.Live!.Simulation.PlayersOf(external.Body));
         if (world.Limits.WhyNot(external, world.Live!.Simulation, external.Time, out string sentence) != Verdict.Accepted)
         {
             throw new SceneException(sentence);

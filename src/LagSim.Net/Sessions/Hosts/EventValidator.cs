@@ -15,7 +15,7 @@ internal sealed class EventValidator(
     {
         SimTime now = sharedTime.Now;
         return world.Live is null || !world.MayEnter(external) ? Verdict.Invalid
-            : !EventRights.Has(external, world.Scene!) || !IsAdmittedTo(external) ? Verdict.NoRight
+            : !EventRights.Has(external, world.Scene!, world.Live.Simulation.PlayersOf(external.Body)) || !IsAdmittedTo(external) ? Verdict.NoRight
             : external.Time < watermark.Now || external.Time < world.Live.Simulation.Start ? Verdict.TooLate
             : external.Time > now + history ? Verdict.TooEarly
             : budget.IsShort(external) ? Verdict.NoRight
