@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Rules;
-using LagSim.Scenes;
 using LagSim.Timelines;
 
 namespace LagSim;

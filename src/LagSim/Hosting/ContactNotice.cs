@@ -16,7 +16,7 @@ namespace LagSim.Hosting;
 /// </remarks>
 public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<ContactNotice>
 {
-    internal ContactNotice(ContactNoticeKind kind, long number, in EventKey key, in ImpactContact contact)
+    internal ContactNotice(NoticeKind kind, long number, in EventKey key, in ImpactContact contact)
     {
         Kind = kind;
         Number = number;
@@ -28,7 +28,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
         ClosingSpeed = contact.ClosingSpeed;
     }
 
-    private ContactNotice(ContactNoticeKind kind, long number, in ContactNotice of)
+    private ContactNotice(NoticeKind kind, long number, in ContactNotice of)
     {
         this = of;
         Kind = kind;
@@ -36,7 +36,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
     }
 
     /// <summary>Whether it is predicted, confirmed or retracted.</summary>
-    public ContactNoticeKind Kind { get; }
+    public NoticeKind Kind { get; }
 
     /// <summary>
     /// Counts the notices of this peer from 1, lost ones included: a gap is one that found no room; see <see cref="ContactNotices.Lost"/>.
@@ -123,5 +123,5 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
 
     bool INotice<ContactNotice>.IsSameAs(ContactNotice other) => IsSameContact(other);
 
-    ContactNotice INotice<ContactNotice>.As(NoticeKind kind, long number) => new((ContactNoticeKind)kind, number, this);
+    ContactNotice INotice<ContactNotice>.As(NoticeKind kind, long number) => new(kind, number, this);
 }

@@ -31,7 +31,7 @@ namespace LagSim.Hosting;
 /// // each frame
 /// while (contacts.TryRead(out ContactNotice contact))
 /// {
-///     score += contact.Kind == ContactNoticeKind.Confirmed ? 1 : 0;
+///     score += contact.Kind == NoticeKind.Confirmed ? 1 : 0;
 /// }
 /// </code>
 /// </example>
@@ -102,7 +102,7 @@ public sealed class ContactNotices : IImpactObserver
     {
         if (contact.ClosingSpeed >= MinClosingSpeed)
         {
-            ledger.Made(new ContactNotice(ContactNoticeKind.Predicted, 0, impact, contact));
+            ledger.Made(new ContactNotice(NoticeKind.Predicted, 0, impact, contact));
         }
     }
 

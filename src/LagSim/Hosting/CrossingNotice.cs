@@ -14,7 +14,7 @@ namespace LagSim.Hosting;
 /// </remarks>
 public readonly struct CrossingNotice : IEquatable<CrossingNotice>, INotice<CrossingNotice>
 {
-    internal CrossingNotice(CrossingNoticeKind kind, long number, in Crossing crossing)
+    internal CrossingNotice(NoticeKind kind, long number, in Crossing crossing)
     {
         Kind = kind;
         Number = number;
@@ -22,7 +22,7 @@ public readonly struct CrossingNotice : IEquatable<CrossingNotice>, INotice<Cros
     }
 
     /// <summary>Whether it is predicted, confirmed or retracted.</summary>
-    public CrossingNoticeKind Kind { get; }
+    public NoticeKind Kind { get; }
 
     /// <summary>
     /// Counts the notices of this peer from 1, lost ones included: a gap is one that found no room; see <see cref="CrossingNotices.Lost"/>.
@@ -51,7 +51,7 @@ public readonly struct CrossingNotice : IEquatable<CrossingNotice>, INotice<Cros
 
     bool INotice<CrossingNotice>.IsSameAs(CrossingNotice other) => Crossing == other.Crossing;
 
-    CrossingNotice INotice<CrossingNotice>.As(NoticeKind kind, long number) => new((CrossingNoticeKind)kind, number, Crossing);
+    CrossingNotice INotice<CrossingNotice>.As(NoticeKind kind, long number) => new(kind, number, Crossing);
 
     /// <inheritdoc/>
     public bool Equals(CrossingNotice other) => Kind == other.Kind && Number == other.Number && Crossing == other.Crossing;

@@ -29,7 +29,7 @@ namespace LagSim.Hosting;
 /// // each frame
 /// while (crossings.TryRead(out CrossingNotice crossing))
 /// {
-///     score += crossing.Kind == CrossingNoticeKind.Confirmed &amp;&amp; crossing.Sensor == goal &amp;&amp; crossing.Entered ? 1 : 0;
+///     score += crossing.Kind == NoticeKind.Confirmed &amp;&amp; crossing.Sensor == goal &amp;&amp; crossing.Entered ? 1 : 0;
 /// }
 /// </code>
 /// </example>
@@ -68,7 +68,7 @@ public sealed class CrossingNotices : ICrossingObserver
     /// <returns>False if there is none at the moment.</returns>
     public bool TryRead(out CrossingNotice notice) => ledger.TryRead(out notice);
 
-    void ICrossingObserver.OnCrossing(in Crossing crossing) => ledger.Made(new CrossingNotice(CrossingNoticeKind.Predicted, 0, crossing));
+    void ICrossingObserver.OnCrossing(in Crossing crossing) => ledger.Made(new CrossingNotice(NoticeKind.Predicted, 0, crossing));
 
     void ICrossingObserver.OnCut(in Crossing crossing) => ledger.Cut(crossing.Key);
 

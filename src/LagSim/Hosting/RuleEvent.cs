@@ -11,7 +11,7 @@ namespace LagSim.Hosting;
 /// predicted, are each peer's own.</remarks>
 public readonly struct RuleEvent : IEquatable<RuleEvent>
 {
-    internal RuleEvent(ContactNoticeKind kind, long number, in EventKey key, int place, RuleNotice notice)
+    internal RuleEvent(NoticeKind kind, long number, in EventKey key, int place, RuleNotice notice)
     {
         Kind = kind;
         Number = number;
@@ -21,7 +21,7 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>
     }
 
     /// <summary>Whether it is predicted, confirmed or retracted.</summary>
-    public ContactNoticeKind Kind { get; }
+    public NoticeKind Kind { get; }
 
     /// <summary>Counts those of this peer from 1, lost ones included; see <see cref="RuleNotices.Lost"/>.</summary>
     public long Number { get; }
@@ -66,5 +66,5 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>
         return byKey != 0 ? byKey : a.Place.CompareTo(b.Place);
     }
 
-    internal RuleEvent As(ContactNoticeKind kind, long number) => new(kind, number, Key, Place, Notice);
+    internal RuleEvent As(NoticeKind kind, long number) => new(kind, number, Key, Place, Notice);
 }

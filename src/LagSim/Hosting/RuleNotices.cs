@@ -29,7 +29,7 @@ namespace LagSim.Hosting;
 /// // each frame
 /// while (notices.TryRead(out RuleEvent told))
 /// {
-///     goals += told.Kind == ContactNoticeKind.Confirmed &amp;&amp; told.Notice.Code == 1 ? 1 : 0;
+///     goals += told.Kind == NoticeKind.Confirmed &amp;&amp; told.Notice.Code == 1 ? 1 : 0;
 /// }
 /// </code>
 /// </example>
@@ -100,7 +100,7 @@ public sealed class RuleNotices
     {
         for (; confirmed < standing.Count; confirmed++)
         {
-            Emit(ContactNoticeKind.Retracted, standing[confirmed]);
+            Emit(NoticeKind.Retracted, standing[confirmed]);
         }
 
         standing.Clear();
@@ -123,7 +123,7 @@ public sealed class RuleNotices
 
         while (confirmed < standing.Count && standing[confirmed].Time < simulation.HistoryEdge)
         {
-            Emit(ContactNoticeKind.Confirmed, standing[confirmed++]);
+            Emit(NoticeKind.Confirmed, standing[confirmed++]);
         }
 
         if (confirmed > FewConfirmed && confirmed > standing.Count / 2)
@@ -165,13 +165,13 @@ public sealed class RuleNotices
             place = n > 0 && log[n - 1].Key == log[n].Key ? place : 0;
             foreach (RuleNotice notice in log[n].Notices)
             {
-                Put(new RuleEvent(ContactNoticeKind.Predicted, 0, log[n].Key, place++, notice), ref old);
+                Put(new RuleEvent(NoticeKind.Predicted, 0, log[n].Key, place++, notice), ref old);
             }
         }
 
         for (; old < tail.Count; old++)
         {
-            Emit(ContactNoticeKind.Retracted, tail[old]);
+            Emit(NoticeKind.Retracted, tail[old]);
         }
     }
 
@@ -180,7 +180,7 @@ public sealed class RuleNotices
     {
         while (old < tail.Count && RuleEvent.Compare(tail[old], told) < 0)
         {
-            Emit(ContactNoticeKind.Retracted, tail[old++]);
+            Emit(NoticeKind.Retracted, tail[old++]);
         }
 
         bool isThere = old < tail.Count && RuleEvent.Compare(tail[old], told) == 0;
@@ -193,17 +193,17 @@ public sealed class RuleNotices
 
         if (isThere)
         {
-            Emit(ContactNoticeKind.Retracted, tail[old++]);
+            Emit(NoticeKind.Retracted, tail[old++]);
         }
 
-        Emit(ContactNoticeKind.Predicted, told);
+        Emit(NoticeKind.Predicted, told);
     }
 
-    private void Emit(ContactNoticeKind kind, in RuleEvent told)
+    private void Emit(NoticeKind kind, in RuleEvent told)
     {
         RuleEvent notice = told.As(kind, ++number);
         Noticed?.Invoke(notice);
-        if (!queue.TryWrite(notice, kind == ContactNoticeKind.Predicted ? queue.Capacity / 2 : queue.Capacity))
+        if (!queue.TryWrite(notice, kind == NoticeKind.Predicted ? queue.Capacity / 2 : queue.Capacity))
         {
             Volatile.Write(ref lost, lost + 1); // no other thread writes it
         }

@@ -24,15 +24,15 @@ namespace LagSim.Rules;
 /// <code>
 /// public sealed class Squash : GameRules
 /// {
-///     public Squash() : base("squash", version: 1) =&gt; WithWorldState&lt;Score&gt;();
+///     public Squash() : base("squash", version: 1) =&gt; WithWorldState&lt;SquashScore&gt;();
 ///
-///     protected override bool HearsContact(BodyId first, BodyId second, int surface) =&gt; surface == 0;
+///     public override bool HearsContact(BodyId first, BodyId second, int surface) =&gt; surface == 0;
 ///
-///     protected override void OnStart(RuleWorld world) =&gt; world.SetTimer(1, SimDuration.FromSeconds(60));
+///     public override void OnStart(RuleWorld world) =&gt; world.SetTimer(1, SimDuration.FromSeconds(60));
 ///
-///     protected override void OnContact(RuleWorld world, in RuleContact contact) =&gt; world.State&lt;Score&gt;().Hits++;
+///     public override void OnContact(RuleWorld world, in RuleContact contact) =&gt; world.State&lt;SquashScore&gt;().Hits++;
 ///
-///     protected override void OnTimer(RuleWorld world, int timer) =&gt; world.State&lt;Score&gt;().IsOver = 1;
+///     public override void OnTimer(RuleWorld world, int timer) =&gt; world.State&lt;SquashScore&gt;().IsOver = 1;
 /// }
 /// </code>
 /// </example>
@@ -43,13 +43,15 @@ public abstract class GameRules : SceneRules
     /// <param name="version">The author's version, raised with every change of what the rules do.</param>
     /// <exception cref="System.ArgumentNullException">There is no name.</exception>
     /// <exception cref="SceneException">It is no name; the sentence says why.</exception>
+#pragma warning disable RS0022 // that games derive from this, and so have the base's members, is what it is for
     protected GameRules(string name, int version)
         : base(name, version)
     {
     }
+#pragma warning restore RS0022
 
     /// <summary>Whether <see cref="OnSpawned"/> and <see cref="OnRemoved"/> are called; default no. Must always give the same.</summary>
-    protected internal virtual bool HearsBodies => false;
+    public virtual bool HearsBodies => false;
 
     /// <summary>The world's state is a value of this type, at first all zero. For the constructor.</summary>
     /// <typeparam name="T">A struct without references and without padding between its fields, of at most
@@ -84,47 +86,47 @@ public abstract class GameRules : SceneRules
     /// <param name="second">The other body; <paramref name="first"/> again where it met a surface.</param>
     /// <param name="surface">Planes by index, static spheres after them, or -1 where two bodies met.</param>
     /// <remarks>Must follow from these three alone. It is asked for every impact of the world.</remarks>
-    protected internal virtual bool HearsContact(BodyId first, BodyId second, int surface) => false;
+    public virtual bool HearsContact(BodyId first, BodyId second, int surface) => false;
 
     /// <summary>Whether <see cref="OnCrossing"/> is called when a body enters or leaves a sensor; default for none.</summary>
     /// <param name="body">The body.</param>
     /// <param name="sensor">The index of the sensor in <see cref="Scene.Sensors"/>.</param>
     /// <remarks>Must follow from these two alone.</remarks>
-    protected internal virtual bool HearsCrossing(BodyId body, int sensor) => false;
+    public virtual bool HearsCrossing(BodyId body, int sensor) => false;
 
     /// <summary>The scene begins: all its bodies are there, and nothing has happened yet.</summary>
-    protected internal virtual void OnStart(RuleWorld world)
+    public virtual void OnStart(RuleWorld world)
     {
     }
 
     /// <summary>A player tells something (<see cref="PlayerAction.Command"/>). The rules decide whether he may: anybody may send any
     /// command with any bytes.</summary>
-    protected internal virtual void OnCommand(RuleWorld world, byte player, GameCommand command)
+    public virtual void OnCommand(RuleWorld world, byte player, GameCommand command)
     {
     }
 
     /// <summary>An impact that the rules hear; the bodies already move as they do after it.</summary>
-    protected internal virtual void OnContact(RuleWorld world, in RuleContact contact)
+    public virtual void OnContact(RuleWorld world, in RuleContact contact)
     {
     }
 
     /// <summary>A body enters or leaves a sensor, as the rules hear it.</summary>
-    protected internal virtual void OnCrossing(RuleWorld world, in Crossing crossing)
+    public virtual void OnCrossing(RuleWorld world, in Crossing crossing)
     {
     }
 
     /// <summary>A timer is due. It is set no more, unless this sets it again.</summary>
-    protected internal virtual void OnTimer(RuleWorld world, int timer)
+    public virtual void OnTimer(RuleWorld world, int timer)
     {
     }
 
     /// <summary>A body has appeared, spawned by a player or by these rules. Only if <see cref="HearsBodies"/>.</summary>
-    protected internal virtual void OnSpawned(RuleWorld world, BodyId body)
+    public virtual void OnSpawned(RuleWorld world, BodyId body)
     {
     }
 
     /// <summary>A body has disappeared; its state can be read here for the last time. Only if <see cref="HearsBodies"/>.</summary>
-    protected internal virtual void OnRemoved(RuleWorld world, BodyId body)
+    public virtual void OnRemoved(RuleWorld world, BodyId body)
     {
     }
 }

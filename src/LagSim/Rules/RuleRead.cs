@@ -1,5 +1,4 @@
 using LagSim.Scenes;
-using LagSim.Timelines;
 
 namespace LagSim.Rules;
 

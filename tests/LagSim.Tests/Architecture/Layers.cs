@@ -19,7 +19,7 @@ internal static class Layers
         [EngineWords],
         ["LagSim/Motion", "LagSim/Events"],
         ["LagSim/Timelines"],
-        ["LagSim/BroadPhase", "LagSim/Contacts"],
+        ["LagSim/BroadPhase", "LagSim/Contacts", "LagSim/Rules"],
         ["LagSim/Collisions", "LagSim/Trajectories"],
         ["LagSim/Rollback"],
         ["LagSim/Islands"],

@@ -4,6 +4,7 @@ using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -71,8 +72,23 @@ internal static class Examples
         // each frame
         while (contacts.TryRead(out ContactNotice contact))
         {
-            score += contact.Kind == ContactNoticeKind.Confirmed ? 1 : 0;
+            score += contact.Kind == NoticeKind.Confirmed ? 1 : 0;
         }
+    }
+
+    internal static int Told(Scene scene)
+    {
+        int goals = 0;
+        RuleNotices notices = new();
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { RuleNotices = notices });
+
+        // each frame
+        while (notices.TryRead(out RuleEvent told))
+        {
+            goals += told.Kind == NoticeKind.Confirmed && told.Notice.Code == 1 ? 1 : 0;
+        }
+
+        return goals;
     }
 
     internal static void Count(Scene scene)
@@ -85,7 +101,7 @@ internal static class Examples
         // each frame
         while (crossings.TryRead(out CrossingNotice crossing))
         {
-            score += crossing.Kind == CrossingNoticeKind.Confirmed && crossing.Sensor == goal && crossing.Entered ? 1 : 0;
+            score += crossing.Kind == NoticeKind.Confirmed && crossing.Sensor == goal && crossing.Entered ? 1 : 0;
         }
     }
 
@@ -137,4 +153,24 @@ internal static class Examples
             Console.WriteLine($"height {state.Position.Y:F2} m");
         }
     }
+}
+
+public sealed class Squash : GameRules
+{
+    public Squash() : base("squash", version: 1) => WithWorldState<SquashScore>();
+
+    public override bool HearsContact(BodyId first, BodyId second, int surface) => surface == 0;
+
+    public override void OnStart(RuleWorld world) => world.SetTimer(1, SimDuration.FromSeconds(60));
+
+    public override void OnContact(RuleWorld world, in RuleContact contact) => world.State<SquashScore>().Hits++;
+
+    public override void OnTimer(RuleWorld world, int timer) => world.State<SquashScore>().IsOver = 1;
+}
+
+/// <summary>The state of <see cref="Squash"/>.</summary>
+public struct SquashScore
+{
+    public int Hits;
+    public int IsOver;
 }

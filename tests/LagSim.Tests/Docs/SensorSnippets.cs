@@ -43,7 +43,7 @@ internal static class SensorSnippets
         // each frame
         while (crossings.TryRead(out CrossingNotice crossing))
         {
-            if (crossing.Kind == CrossingNoticeKind.Confirmed && crossing.Sensor == goal && crossing.Entered)
+            if (crossing.Kind == NoticeKind.Confirmed && crossing.Sensor == goal && crossing.Entered)
             {
                 Console.WriteLine($"goal at {crossing.Time}");
             }

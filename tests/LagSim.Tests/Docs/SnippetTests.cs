@@ -41,6 +41,7 @@ public sealed partial class SnippetTests
     [InlineData("docs/SECURITY.md", 2)]
     [InlineData("docs/FORCES.md", 7)]
     [InlineData("docs/SENSORS.md", 3)]
+    [InlineData("docs/RULES.md", 2)]
     public void Page_EachOfItsSnippets_IsCompiledAsItStands(string page, int count)
     {
         string[] snippets = [.. Fence().Matches(Read(page)).Select(match => match.Groups[1].Value)];
@@ -57,6 +58,8 @@ public sealed partial class SnippetTests
     [InlineData("src/LagSim/Hosting/SimulationHost.cs")]
     [InlineData("src/LagSim/Hosting/ContactNotices.cs")]
     [InlineData("src/LagSim/Hosting/CrossingNotices.cs")]
+    [InlineData("src/LagSim/Hosting/RuleNotices.cs")]
+    [InlineData("src/LagSim/Rules/GameRules.cs")]
     [InlineData("src/LagSim.Net/Display/DisplayOffsets.cs")]
     [InlineData("src/LagSim.Net/Sessions/PeerThread.cs")]
     [InlineData("src/LagSim.Net/Sessions/HostOptions.cs")]

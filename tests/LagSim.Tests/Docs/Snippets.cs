@@ -64,13 +64,13 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         {
             switch (contact.Kind)
             {
-                case ContactNoticeKind.Predicted:
+                case NoticeKind.Predicted:
                     PlaySound(contact.Position, contact.ClosingSpeed, at: contact.Time);
                     break;
-                case ContactNoticeKind.Retracted:
+                case NoticeKind.Retracted:
                     StopSound(contact.Position);
                     break;
-                case ContactNoticeKind.Confirmed:
+                case NoticeKind.Confirmed:
                     Score(contact.First, contact.Second); // on the floor both are the ball; contact.Surface is the number of the surface, and -1 between two bodies
                     break;
             }

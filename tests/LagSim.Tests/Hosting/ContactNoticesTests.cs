@@ -174,7 +174,7 @@ public sealed class ContactNoticesTests
         Assert.Equal(told.Count, read.Count + notices.Lost);
         Assert.Equal(told.Take(8), read.Take(8)); // predictions leave half of the room to what is certain
         Assert.Equal(16, read.Count);
-        Assert.All(read.Skip(8), n => Assert.Equal(ContactNoticeKind.Confirmed, n.Kind));
+        Assert.All(read.Skip(8), n => Assert.Equal(NoticeKind.Confirmed, n.Kind));
         Assert.Equal(Enumerable.Range(1, told.Count).Select(n => (long)n), told.Select(n => n.Number));
 
         // Once there is room again it goes on, and the gap shows.
@@ -238,13 +238,13 @@ public sealed class ContactNoticesTests
         {
             switch (contact.Kind)
             {
-                case ContactNoticeKind.Predicted:
+                case NoticeKind.Predicted:
                     sounds.Add(contact);
                     break;
-                case ContactNoticeKind.Retracted:
+                case NoticeKind.Retracted:
                     sounds.RemoveAll(sound => sound.IsSameContact(contact));
                     break;
-                case ContactNoticeKind.Confirmed:
+                case NoticeKind.Confirmed:
                     scores.Add(contact);
                     break;
             }
@@ -302,7 +302,7 @@ public sealed class ContactNoticesTests
 
         private void Take(ContactNotice notice)
         {
-            if (notice.Kind == ContactNoticeKind.Predicted)
+            if (notice.Kind == NoticeKind.Predicted)
             {
                 Predicted++;
                 Assert.True(open.Add(notice), $"{notice} was predicted already");
@@ -311,7 +311,7 @@ public sealed class ContactNoticesTests
 
             Assert.True(open.TryGetValue(notice, out ContactNotice known) && known.IsSameContact(notice), $"{notice} was not predicted, or came before");
             open.Remove(notice);
-            if (notice.Kind == ContactNoticeKind.Retracted)
+            if (notice.Kind == NoticeKind.Retracted)
             {
                 Retracted++;
                 return;

@@ -369,20 +369,20 @@ public sealed class RuleTests
 
         internal bool HearsAll { get; init; }
 
-        protected internal override bool HearsBodies => HearsAll;
+        public override bool HearsBodies => HearsAll;
 
-        protected internal override bool HearsContact(BodyId first, BodyId second, int surface) => Hears?.Invoke(first, second, surface) == true;
+        public override bool HearsContact(BodyId first, BodyId second, int surface) => Hears?.Invoke(first, second, surface) == true;
 
-        protected internal override void OnStart(RuleWorld world) => Start?.Invoke(world);
+        public override void OnStart(RuleWorld world) => Start?.Invoke(world);
 
-        protected internal override void OnTimer(RuleWorld world, int timer) => Timer?.Invoke(world, timer);
+        public override void OnTimer(RuleWorld world, int timer) => Timer?.Invoke(world, timer);
 
-        protected internal override void OnCommand(RuleWorld world, byte player, GameCommand command) => Command?.Invoke(world, player, command);
+        public override void OnCommand(RuleWorld world, byte player, GameCommand command) => Command?.Invoke(world, player, command);
 
-        protected internal override void OnContact(RuleWorld world, in RuleContact contact) => Contact?.Invoke(world, contact);
+        public override void OnContact(RuleWorld world, in RuleContact contact) => Contact?.Invoke(world, contact);
 
-        protected internal override void OnSpawned(RuleWorld world, BodyId body) => Spawned?.Invoke(world, body);
+        public override void OnSpawned(RuleWorld world, BodyId body) => Spawned?.Invoke(world, body);
 
-        protected internal override void OnRemoved(RuleWorld world, BodyId body) => Removed?.Invoke(world, body);
+        public override void OnRemoved(RuleWorld world, BodyId body) => Removed?.Invoke(world, body);
     }
 }

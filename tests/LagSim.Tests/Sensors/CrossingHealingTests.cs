@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
 using LagSim.Tests.Faults;
@@ -143,6 +144,8 @@ public sealed class CrossingHealingTests
         Scene scene = new SceneBuilder("line").WithGravity(Vector3D.Zero).AddBody("ball", Ball(0.5), V(-3), V(1)).AddSensorSphere("ring", V(0), 1).Build();
         Assert.Equal([At(2), At(4)], All(Run(scene, 6)).Select(c => c.Time));
         Simulation wrong = new(scene, KeepAll.WithParts(new FaultyEngineParts { SearchesFromOpening = true }));
+        wrong.WaitsForLateEvents = true;
+        wrong.Engine.Meter.Observer = new StopsAfter(100); // it would cross again and again in one instant
         long events = 100;
         wrong.TryAdvanceTo(At(6), ref events);
         Assert.NotEqual([At(2), At(4)], All(wrong).Select(c => c.Time));
@@ -159,6 +162,15 @@ public sealed class CrossingHealingTests
         world.AdvanceTo(At(200));
         Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 2_000);
         Assert.True(world.IsInside(First, 0, world.SimulatedTo) == Read(world, First, world.SimulatedTo).Position.Y < 1);
+    }
+
+    /// <summary>Lets so many events happen, and no more.</summary>
+    private sealed class StopsAfter(int most) : IWorkObserver
+    {
+        private int count;
+
+        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) =>
+            ++count < most ? WorkVerdict.GoOn : WorkVerdict.StopNow;
     }
 
     private static RandomWorld World(int seed) => new(seed, hands: seed % 5 == 0, forced: seed % 3 == 0, sensors: true);

@@ -89,7 +89,7 @@ public sealed class CrossingNoticesTests
 
         Assert.True(notices.TryRead(out CrossingNotice predicted));
         Assert.True(notices.TryRead(out CrossingNotice confirmed));
-        Assert.Equal((CrossingNoticeKind.Predicted, CrossingNoticeKind.Confirmed), (predicted.Kind, confirmed.Kind));
+        Assert.Equal((NoticeKind.Predicted, NoticeKind.Confirmed), (predicted.Kind, confirmed.Kind));
         Assert.True(predicted.Crossing == confirmed.Crossing && confirmed.Entered && confirmed is { Sensor: 0, Number: 2 } && confirmed.Body == First);
         Assert.False(notices.TryRead(out _));
         Assert.Contains("Confirmed: body 0.0.0 enters sensor 0", confirmed.ToString(), StringComparison.Ordinal);
@@ -117,7 +117,7 @@ public sealed class CrossingNoticesTests
 
         private void Take(CrossingNotice notice)
         {
-            if (notice.Kind == CrossingNoticeKind.Predicted)
+            if (notice.Kind == NoticeKind.Predicted)
             {
                 Predicted++;
                 Assert.True(open.Add(notice.Crossing), $"{notice} was predicted already");
@@ -125,8 +125,8 @@ public sealed class CrossingNoticesTests
             }
 
             Assert.True(open.Remove(notice.Crossing), $"{notice} was not predicted, or came before");
-            Retracted += notice.Kind == CrossingNoticeKind.Retracted ? 1 : 0;
-            if (notice.Kind == CrossingNoticeKind.Confirmed)
+            Retracted += notice.Kind == NoticeKind.Retracted ? 1 : 0;
+            if (notice.Kind == NoticeKind.Confirmed)
             {
                 Confirmed.Add(notice.Crossing);
             }

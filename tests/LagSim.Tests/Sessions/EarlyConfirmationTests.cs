@@ -234,7 +234,7 @@ public sealed class EarlyConfirmationTests
             {
                 while (all[peer].TryRead(out ContactNotice notice))
                 {
-                    if (notice.Kind == ContactNoticeKind.Confirmed)
+                    if (notice.Kind == NoticeKind.Confirmed)
                     {
                         told++;
                         latest = Math.Max(latest, (group.Sessions[peer].SharedTime.Now - notice.Time).ToSeconds());

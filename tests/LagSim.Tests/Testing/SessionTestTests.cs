@@ -215,7 +215,7 @@ public sealed class SessionTestTests
             {
                 while (notices[player.Number].TryRead(out ContactNotice notice))
                 {
-                    if (notice.Kind == ContactNoticeKind.Confirmed)
+                    if (notice.Kind == NoticeKind.Confirmed)
                     {
                         confirmed[player.Number].Add($"{notice.First} {notice.Second} {notice.ClosingSpeed:R}");
                     }

@@ -37,14 +37,14 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <inheritdoc/>
-    protected internal override bool HearsBodies => hearsBodies;
+    public override bool HearsBodies => hearsBodies;
 
     /// <inheritdoc/>
-    protected internal override bool HearsContact(BodyId first, BodyId second, int surface) =>
+    public override bool HearsContact(BodyId first, BodyId second, int surface) =>
         Mix(Mix(first.Packed, second.Packed), (ulong)(surface + 2)) % (ulong)contacts == 0;
 
     /// <inheritdoc/>
-    protected internal override void OnStart(RuleWorld world)
+    public override void OnStart(RuleWorld world)
     {
         for (int n = 0; n < Timers; n++)
         {
@@ -53,7 +53,7 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <inheritdoc/>
-    protected internal override void OnCommand(RuleWorld world, byte player, GameCommand command)
+    public override void OnCommand(RuleWorld world, byte player, GameCommand command)
     {
         Note(world, (ulong)command.Number);
         Note(world, (ulong)command.Length);
@@ -61,7 +61,7 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <inheritdoc/>
-    protected internal override void OnContact(RuleWorld world, in RuleContact contact)
+    public override void OnContact(RuleWorld world, in RuleContact contact)
     {
         Note(world, Bits(contact.ClosingSpeed));
         Note(world, Bits(contact.Position.X));
@@ -74,10 +74,10 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <inheritdoc/>
-    protected internal override bool HearsCrossing(BodyId body, int sensor) => Mix(body.Packed, (ulong)sensor) % (ulong)contacts == 0;
+    public override bool HearsCrossing(BodyId body, int sensor) => Mix(body.Packed, (ulong)sensor) % (ulong)contacts == 0;
 
     /// <inheritdoc/>
-    protected internal override void OnCrossing(RuleWorld world, in Crossing crossing)
+    public override void OnCrossing(RuleWorld world, in Crossing crossing)
     {
         Note(world, ((ulong)(uint)crossing.Sensor << 1) | (crossing.Entered ? 1UL : 0));
         Note(world, (ulong)world.Elapsed.Ticks);
@@ -88,7 +88,7 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <inheritdoc/>
-    protected internal override void OnTimer(RuleWorld world, int timer)
+    public override void OnTimer(RuleWorld world, int timer)
     {
         Note(world, (ulong)timer);
         if (timer < Timers)
@@ -115,14 +115,14 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <inheritdoc/>
-    protected internal override void OnSpawned(RuleWorld world, BodyId body)
+    public override void OnSpawned(RuleWorld world, BodyId body)
     {
         Note(world, body.Packed);
         world.Tell(1, body.Index);
     }
 
     /// <inheritdoc/>
-    protected internal override void OnRemoved(RuleWorld world, BodyId body) => Note(world, ~body.Packed);
+    public override void OnRemoved(RuleWorld world, BodyId body) => Note(world, ~body.Packed);
 
     private static ulong Bits(double value) => (ulong)BitConverter.DoubleToInt64Bits(value);
 

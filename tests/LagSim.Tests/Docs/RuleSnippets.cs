@@ -1,0 +1,61 @@
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Rules;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Tests.Docs;
+
+public struct Score
+{
+    public int Left;
+    public int Right;
+    public int IsOver;
+}
+
+public sealed class Football : GameRules
+{
+    private const int Whistle = 1;
+    private const int Goal = 1;
+    private static readonly BodyId Ball = BodyId.OfScene(0);
+
+    public Football()
+        : base("football", version: 1) => WithWorldState<Score>();
+
+    public override bool HearsCrossing(BodyId body, int sensor) => body == Ball;
+
+    public override void OnStart(RuleWorld world) => world.SetTimer(Whistle, SimDuration.FromSeconds(90));
+
+    public override void OnCrossing(RuleWorld world, in Crossing crossing)
+    {
+        ref Score score = ref world.State<Score>();
+        if (!crossing.Entered || score.IsOver == 1)
+        {
+            return;
+        }
+
+        score.Left += crossing.Sensor == 1 ? 1 : 0;
+        score.Right += crossing.Sensor == 0 ? 1 : 0;
+        world.Tell(Goal, crossing.Sensor);
+        world.Teleport(Ball, new Vector3D(0, 0.5, 0)); // to the middle, at rest, at the very tick of the goal
+    }
+
+    public override void OnTimer(RuleWorld world, int timer) => world.State<Score>().IsOver = 1;
+}
+
+/// <summary>The code of docs/RULES.md: <see cref="SnippetTests"/> holds the page to it and runs it.</summary>
+internal static class RuleSnippets
+{
+    internal static int Goals()
+    {
+        RuleNotices notices = new();
+        int goals = 0;
+        while (notices.TryRead(out RuleEvent told))
+        {
+            goals += told.Kind == NoticeKind.Confirmed && told.Notice.Code == 1 ? 1 : 0;
+        }
+
+        return goals;
+    }
+}
