@@ -296,8 +296,8 @@ public abstract class Session
     /// try again once verdicts have arrived.
     /// </exception>
     /// <exception cref="SceneException">
-    /// A value may not enter the world, or this peer is a spectator or may not do that for another reason, or it exceeds this peer's <see cref="SessionOptions.MaxGivenSpeed"/>
-    /// or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
+    /// A value may not enter the world, or this peer is a spectator or may not do that for another reason, or it exceeds this peer's
+    /// <see cref="SessionOptions.MaxGivenSpeed"/> or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
     /// </exception>
     /// <exception cref="SimulationException">The world cannot be simulated with the action; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action)
