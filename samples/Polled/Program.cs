@@ -18,11 +18,12 @@ Scene scene = new SceneBuilder("polled")
     .Build();
 BodyId ball = scene.BodyNamed("ball");
 
-// Each session has a port and a clock. What the session's events call runs in the frame that steps it, so a handler may touch anything of the game.
+// Each session has a port and a clock. What its events call runs in the frame that steps it: a handler may touch anything of the game.
 using UdpPort hostPort = new(new IPEndPoint(IPAddress.Loopback, 0));
 using UdpPort clientPort = new(new IPEndPoint(IPAddress.Loopback, 0));
 HostSession host = new(
-    scene, hostPort, new StopwatchClock(), new HostOptions { Name = "Hedy", ExpectedClients = 1, ConfirmsEarly = true }, Session.DrawNumber());
+    scene, hostPort, new StopwatchClock(), new HostOptions { Name = "Hedy", ExpectedClients = 1, ConfirmsEarly = true },
+    Session.DrawNumber());
 ClientSession client = new(
     null, clientPort, new StopwatchClock(), new ClientOptions { Name = "Ann" }, hostPort.LocalAddress, Session.DrawNumber());
 host.RosterChanged += change => Console.WriteLine($"{change}");

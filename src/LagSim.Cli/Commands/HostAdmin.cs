@@ -52,7 +52,8 @@ internal sealed class HostAdmin
         string[] words = line.Split(' ', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
         if (words is ["players"])
         {
-            return host.Links.Count == 0 ? "There is no player." : string.Join("; ", host.Links.Select(link => Described(link, host.Roster)));
+            return host.Links.Count == 0 ? "There is no player."
+                : string.Join("; ", host.Links.Select(link => Described(link, host.Roster)));
         }
 
         if (words is ["unban", string address])

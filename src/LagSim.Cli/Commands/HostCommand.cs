@@ -34,7 +34,8 @@ internal static class HostCommand
         Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
         Option<bool> early = new("--confirm-early")
         {
-            Description = "Make what has happened final as soon as the players' links allow, rather than after --history-s; costs some 3 KB/s on each link.",
+            Description = "Make what has happened final as soon as the players' links allow, rather than after --history-s;"
+                + " costs some 3 KB/s on each link.",
         };
         Option<int> perAddress = CommonOptions.Whole(
             "--per-address", "How many clients may join from one address; 0 means half of the places, or --joiners if that is more",

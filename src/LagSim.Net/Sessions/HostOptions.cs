@@ -109,7 +109,8 @@ public sealed record HostOptions : SessionOptions
     public PlayerBudget? PlayerBudget { get; init; } = PlayerBudget.Default;
 
     /// <summary>
-    /// How many clients that play to wait for before the start, 0 to <see cref="SessionOptions.MaxClients"/>; default 0. Before the start there is no world, and no action is possible.
+    /// How many clients that play to wait for before the start, 0 to <see cref="SessionOptions.MaxClients"/>; default 0. Before the start
+    /// there is no world, and no action is possible.
     /// </summary>
     public int ExpectedClients { get; init; }
 

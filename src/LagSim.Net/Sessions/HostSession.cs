@@ -237,7 +237,9 @@ public sealed class HostSession : Session
         if (number is 0 or > SessionOptions.MaxNumber)
         {
             throw new ArgumentOutOfRangeException(
-                "player", number, $"A client's number is 1 to {SessionOptions.MaxNumber}; spectators have those from {SessionOptions.MaxClients + 1} on.");
+                "player",
+                number,
+                $"A client's number is 1 to {SessionOptions.MaxNumber}; spectators have those from {SessionOptions.MaxClients + 1} on.");
         }
     }
 

@@ -307,8 +307,8 @@ public abstract class Session
     /// </exception>
     /// <exception cref="ArgumentOutOfRangeException">The instant has passed, or is too far ahead; nothing happened.</exception>
     /// <exception cref="SceneException">
-    /// A value may not enter the world, or this peer is a spectator or may not do that for another reason, or it exceeds this peer's <see cref="SessionOptions.MaxGivenSpeed"/>
-    /// or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
+    /// A value may not enter the world, or this peer is a spectator or may not do that for another reason, or it exceeds this peer's
+    /// <see cref="SessionOptions.MaxGivenSpeed"/> or <see cref="SessionOptions.MaxSpawned"/>; nothing happened.
     /// </exception>
     /// <exception cref="SimulationException">The world cannot be simulated with the action; the session has ended.</exception>
     public ExternalEvent Do(in PlayerAction action, SimTime? at = null)

@@ -64,7 +64,8 @@ internal readonly struct RosterEntry
         {
             if (char.IsControl(name[at]))
             {
-                return FormattableString.Invariant($"it holds the control character U+{(int)name[at]:X4}, which could change what a terminal shows.");
+                return FormattableString.Invariant($"it holds the control character U+{(int)name[at]:X4}, which could change")
+                    + " what a terminal shows.";
             }
 
             if (char.IsSurrogate(name[at]) && !char.IsSurrogatePair(name, at++))

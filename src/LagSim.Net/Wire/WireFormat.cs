@@ -32,7 +32,9 @@ internal static class WireFormat
     /// <summary>The length of what a <see cref="JoinDatagram"/> begins with: header, nonce and cookie.</summary>
     public const int JoinPrologueBytes = 28;
 
-    /// <summary>The length of the rest of a <see cref="JoinDatagram"/> without a name, and of the payload of a <see cref="SecureJoinDatagram"/>.</summary>
+    /// <summary>
+    /// The length of the rest of a <see cref="JoinDatagram"/> without a name, and of the payload of a <see cref="SecureJoinDatagram"/>.
+    /// </summary>
     public const int JoinClaimBytes = 47;
 
     /// <summary>The length of a <see cref="JoinDatagram"/> without a name.</summary>

@@ -178,7 +178,8 @@ public sealed class HostileDatagrams
 
     private SeatDatagram Seat() => Below(2) == 0
         ? new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token())
-        : new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token(), SimTime.FromSeconds(Below(40)), (ushort)(1 + Below(99)));
+        : new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token(), SimTime.FromSeconds(Below(40)),
+            (ushort)(1 + Below(99)));
 
     private RosterDatagram Roster()
     {
@@ -187,7 +188,8 @@ public sealed class HostileDatagrams
         for (int n = 1 + Below(40); n > 0; n--)
         {
             roster.TryAdd(new RosterEntry(
-                (byte)Below(60), (byte)Below(4), (uint)Below(9), Below(2) == 0 ? SimTime.MinValue : SimTime.FromSeconds(Below(40)), "made up"));
+                (byte)Below(60), (byte)Below(4), (uint)Below(9),
+                Below(2) == 0 ? SimTime.MinValue : SimTime.FromSeconds(Below(40)), "made up"));
         }
 
         return roster;

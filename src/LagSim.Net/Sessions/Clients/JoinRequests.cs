@@ -231,7 +231,7 @@ internal sealed class JoinRequests(
         }
         else
         {
-            byte[] secure = new byte[WireFormat.JoinPrologueBytes + IHostProtection.HandshakeOverhead + join.ClaimBytes + options.Token.Length];
+            byte[] secure = new byte[IHostProtection.HandshakeOverhead + join.EncodedLength + options.Token.Length];
             if (SecureJoinDatagram.Encode(secure, join, options.Token.Span, challenge.Identity, protection) is IClientHandshake handshake)
             {
                 attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);

@@ -10,7 +10,8 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>Follows the host's roster: takes its changes in order, acknowledges them, and publishes them once it has all.</summary>
 internal sealed class RosterFollower(
-    HostConnection connection, PeerRoster peers, SharedClock sharedTime, DatagramSender sender, SessionCounters counters, SimDuration silence)
+    HostConnection connection, PeerRoster peers, SharedClock sharedTime, DatagramSender sender, SessionCounters counters,
+    SimDuration silence)
 {
     private readonly RosterEntry[] entries = new RosterEntry[byte.MaxValue + 1];
     private readonly RosterDatagram page = new();

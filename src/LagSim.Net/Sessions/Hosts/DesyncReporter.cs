@@ -19,7 +19,8 @@ internal sealed class DesyncReporter(
     {
         Client? client = roster.Of(query.SessionId);
         SimTime now = clock.Now;
-        bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer && query.Number > client.DesyncQueries.Last;
+        bool isItsTurn = client is not null && client.Link.Other == from && client.Peer == query.Peer
+            && query.Number > client.DesyncQueries.Last;
         if (!isItsTurn || world.Live is null || query.UpTo >= watermark.Now || !client!.DesyncQueries.TrySpend(now))
         {
             counters.DatagramsIgnored++; // uncommitted history may still change

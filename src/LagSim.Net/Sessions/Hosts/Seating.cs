@@ -43,7 +43,8 @@ internal sealed class Seating(
         // A client that proves to be an absent player has a number, but counts: otherwise a machine could collect passes, and then join
         // with all of them. Players whom a backend admits have one place each, wherever they are.
         byte own = who.Claimed?.Number ?? 0;
-        int others = roster.All.Count(j => PlayerPlaces.IsFor(j.Peer, isSpectator) && j.Peer != own && !IsRestarted(j, from) && j.Link.Other.IsSameMachine(from));
+        int others = roster.All.Count(j => PlayerPlaces.IsFor(j.Peer, isSpectator) && j.Peer != own
+            && !IsRestarted(j, from) && j.Link.Other.IsSameMachine(from));
         return others >= maxOfOneMachine && who.Admission is null ? RefusalReason.TooManyFromOneAddress
             : own == 0 && places.Free(now, 0, from.Machine, isSpectator) == 0
                 && !roster.All.Exists(j => PlayerPlaces.IsFor(j.Peer, isSpectator) && IsRestarted(j, from))
@@ -60,7 +61,8 @@ internal sealed class Seating(
         JoinIdentity who = claim.Identity;
         if (who is { IsByToken: true, Admission: PlayerAdmission admission })
         {
-            who = who with { Claimed = places.OfPlayer(admission.PlayerId, claim.IsSpectator) }; // it may have got a place since, by another of its tokens
+            // It may have got a place since, by another of its tokens.
+            who = who with { Claimed = places.OfPlayer(admission.PlayerId, claim.IsSpectator) };
         }
 
         PlayerPlaces.Place? claimed = who.Claimed;
