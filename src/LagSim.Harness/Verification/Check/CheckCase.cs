@@ -54,7 +54,7 @@ internal sealed class CheckCase
     private const ulong SortStream = 3;
     private const ulong TroubleStream = 4;
     private const ulong IndexStream = 5;
-    private const ulong SensorStream = 6;
+    private const ulong SensorStream = 15;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MaxAttempts = 20;
