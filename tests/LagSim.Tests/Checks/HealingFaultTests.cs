@@ -91,6 +91,18 @@ public sealed class HealingFaultTests
         Assert.True(failed.DifferingBits > 0 && failed.Difference is not null, failed.Failure);
     }
 
+    /// <summary>Crossings of sensors count in the hashes that peers compare.</summary>
+    [Theory]
+    [InlineData(HealingFault.None, 0)]
+    [InlineData(HealingFault.LeavesCrossings, 1)]
+    internal void Run_CrossingsHealedInAWayKnownToBeWrong_IsCaught(HealingFault fault, int failures)
+    {
+        CheckOptions options = new() { Sessions = 1, Seed = 7, ShrinkingPlays = 0 };
+        CheckReport report = Run(options with { PrepareSession = (_, session) => session.Put(Faulty(fault)) });
+        Assert.Equal(failures, report.Failures.Count);
+        Assert.True(failures > 0 || report.Outcomes.Single().Met.Crossings);
+    }
+
     [Theory]
     [InlineData(2u)]
     [InlineData(3u)]
