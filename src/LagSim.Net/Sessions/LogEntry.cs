@@ -45,8 +45,8 @@ public readonly struct LogEntry : IEquatable<LogEntry>
                 $": radius {spec.Radius:R} m, mass {spec.Mass:R} kg, restitution {spec.Restitution:R}, {spec.Flight}")
                 + $" with a step of {spec.Step.ToShortString()},"
                 + FormattableString.Invariant($" a tolerance of {spec.Tolerance:R}, forces {spec.Forces}, friction {spec.Friction:R} and rolling resistance {spec.RollingResistance:R}, {spec.Filter}, tag {spec.Tag},")
-                + $" at {Event.Position} m with {Event.Velocity} m/s and {Event.Spin} rad/s, players {Event.Players}, {Event.WhenOccupied}",
-            EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s, {Event.WhenOccupied}",
+                + $" at {Event.Position} m with {Event.Velocity} m/s and {Event.Spin} rad/s" + Belongs() + Occupied(),
+            EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s" + Occupied(),
             EventKind.SetVelocity => $": to {Event.Velocity} m/s",
             EventKind.Impulse => $": of {Event.Velocity} N s",
             EventKind.Grab => $": by the point {Event.Position} m from its centre",
@@ -57,4 +57,8 @@ public readonly struct LogEntry : IEquatable<LogEntry>
         };
         return $"{Verdict}: {Event}{values}";
     }
+
+    private string Belongs() => Event.Players == PeerSet.Everyone ? "" : $", for {Event.Players} alone";
+
+    private string Occupied() => Event.WhenOccupied == WhenOccupied.Overlap ? "" : $", {Event.WhenOccupied} if another body is there";
 }

@@ -15,7 +15,7 @@ public sealed class RenderSnapshot
 {
     private RenderTimeline[] timelines = Array.Empty<RenderTimeline>();
     private double[] radii = Array.Empty<double>();
-    private ulong[] tags = Array.Empty<ulong>();
+    private ulong[] tags = Array.Empty<ulong>(); // only once some body has one
     private ulong[] identities = Array.Empty<ulong>();
     private int[] slots = Array.Empty<int>();
     private long orderVersion = -1;
@@ -92,7 +92,7 @@ public sealed class RenderSnapshot
     public ulong TagOf(BodyId body)
     {
         int at = Array.BinarySearch(identities, 0, BodyCount, body.Packed);
-        return at < 0 ? 0 : tags[slots[at]];
+        return at < 0 || slots[at] >= tags.Length ? 0 : tags[slots[at]];
     }
 
     /// <summary>Reads the largest sudden change of a body's velocity, by a bounce or an impulse, between two instants.</summary>
@@ -111,6 +111,19 @@ public sealed class RenderSnapshot
         return at >= 0;
     }
 
+    private void SetTag(int slot, ulong tag)
+    {
+        if (tag != 0 && slot >= tags.Length)
+        {
+            Array.Resize(ref tags, timelines.Length);
+        }
+
+        if (slot < tags.Length)
+        {
+            tags[slot] = tag;
+        }
+    }
+
     /// <summary>Takes over what changed in the simulation since this render snapshot last showed it.</summary>
     internal void Follow(Simulation simulation, SimTime from, long number)
     {
@@ -120,7 +133,6 @@ public sealed class RenderSnapshot
             int size = Math.Max(count, timelines.Length * 2);
             Array.Resize(ref timelines, size);
             Array.Resize(ref radii, size);
-            Array.Resize(ref tags, size);
             Array.Resize(ref identities, size);
             Array.Resize(ref slots, size);
         }
@@ -141,7 +153,7 @@ public sealed class RenderSnapshot
             timelines[slot] ??= new RenderTimeline();
             timelines[slot].Follow(simulation.Engine.Timelines, slot, from);
             radii[slot] = simulation.Engine.Bodies.Spec(slot).Radius;
-            tags[slot] = simulation.Engine.Bodies.Spec(slot).Tag;
+            SetTag(slot, simulation.Engine.Bodies.Spec(slot).Tag);
         }
 
         box = simulation.Scene.Box;

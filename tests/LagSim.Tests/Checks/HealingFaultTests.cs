@@ -74,14 +74,14 @@ public sealed class HealingFaultTests
     [Theory]
     [InlineData(HealingFault.ForgetsThePast, 3u)]
     [InlineData(HealingFault.OverlooksBodiesAhead, 4u)]
-    [InlineData(HealingFault.GivesUpByBody, 61u)]
+    [InlineData(HealingFault.GivesUpByBody, 20u)]
     [InlineData(HealingFault.DropsEvents, 2u)]
     [InlineData(HealingFault.LeavesSleepers, 29u)]
     [InlineData(HealingFault.CutsByTime, 2u)]
     [InlineData(HealingFault.LeavesWhoRests, 29u)]
     [InlineData(HealingFault.CutsMembersAlone, 4u)]
     [InlineData(HealingFault.ForgetsNearMisses, 4u)]
-    [InlineData(HealingFault.ForgetsBodiesMovedOn, 12u)]
+    [InlineData(HealingFault.ForgetsBodiesMovedOn, 23u)]
     internal void Run_HealingInAWayKnownToBeWrong_IsCaughtByItsSeed(HealingFault fault, uint seed)
     {
         // The seeds that docs/HEALING.md names.
@@ -108,8 +108,8 @@ public sealed class HealingFaultTests
     [InlineData(3u)]
     [InlineData(4u)]
     [InlineData(29u)]
-    [InlineData(61u)]
-    [InlineData(12u)]
+    [InlineData(20u)]
+    [InlineData(23u)]
     public void Run_SameSeedWithoutAFault_Passes(uint seed) =>
         Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, ShrinkingPlays = 0 }).Failures); // it is the fault that is caught
 

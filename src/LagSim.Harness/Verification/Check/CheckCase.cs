@@ -87,7 +87,8 @@ internal sealed class CheckCase
         DrawPlayers(random.Fork(1), options);
         DrawTrouble(random.Fork(TroubleStream), options);
         DrawIndexes(random.Fork(IndexStream));
-        filters = new CheckFilters(random.Fork(FilterStream));
+        bool isOrbit = !isHeap && sort >= HeapPercent + BoxPercent && sort < HeapPercent + BoxPercent + OrbitPercent;
+        filters = new CheckFilters(random.Fork(FilterStream), mayExist: !isOrbit); // what passes through a sphere that pulls ends in its centre
         rules = new CheckRules(random.Fork(RuleStream), seed, options.Rules);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;

@@ -21,10 +21,12 @@ internal sealed class CheckFilters
 
     private readonly SeededRandom random;
 
-    internal CheckFilters(SeededRandom random)
+    /// <param name="random">The stream to draw from.</param>
+    /// <param name="mayExist">Whether there may be any.</param>
+    internal CheckFilters(SeededRandom random, bool mayExist)
     {
         this.random = random;
-        Exist = random.Fork(0).IsLucky(Percent);
+        Exist = mayExist && random.Fork(0).IsLucky(Percent);
     }
 
     /// <summary>Whether the session has any.</summary>

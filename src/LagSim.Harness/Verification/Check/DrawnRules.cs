@@ -183,7 +183,7 @@ internal sealed class DrawnRules : GameRules
             case 9:
                 world.CancelTimer(Timers + world.Random(3));
                 break;
-            case 10:
+            case 10 when world.Scene.StaticSpheres.Count == 0: // what passes through a sphere that pulls ends in its centre
                 world.SetFilter(body, world.Random(2) == 0 ? default : new CollisionFilter(2, 1));
                 break;
             case 11:
