@@ -1,0 +1,33 @@
+using LagSim.Events;
+using LagSim.Rules;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Net.Sessions;
+
+/// <summary>The rules of the scene that <see cref="SessionWarmup"/> plays in: a command sets a timer, and that pushes a ball.</summary>
+internal sealed class WarmupRules : GameRules
+{
+    internal WarmupRules()
+        : base("warm-up", 1) => WithWorldState<int>();
+
+    /// <inheritdoc/>
+    public override bool HearsContact(BodyId first, BodyId second, int surface) => surface == 0;
+
+    /// <inheritdoc/>
+    public override void OnContact(RuleWorld world, in RuleContact contact) => world.State<int>()++;
+
+    /// <inheritdoc/>
+    public override void OnCommand(RuleWorld world, byte player, GameCommand command) => world.SetTimer(1, SimDuration.FromMilliseconds(10));
+
+    /// <inheritdoc/>
+    public override void OnTimer(RuleWorld world, int timer)
+    {
+        BodyId beside = BodyId.OfScene(WarmupScene.HostsBody + 2);
+        world.Tell(timer);
+        if (world.TryRead(beside, out BodyState state) && state.Velocity.Length < 1)
+        {
+            world.Impulse(beside, new Vector3D(0, world.RandomFraction(), 0));
+        }
+    }
+}
