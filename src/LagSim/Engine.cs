@@ -143,7 +143,7 @@ internal sealed class Engine
 
         agenda = new Agenda(scheduler, Rules);
         Loop = new EventLoop(
-            Progress, Timelines, agenda, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures, Rules, Caller,
+            Progress, Timelines, agenda, rollback, Rewinder, dispatcher, BroadPhase, Meter, trajectories.Failures, Caller,
             options.Cancellation);
         Intake = new EventIntake(Roster, Bodies, log, Progress, growth, predictor, Rewinder, Loop, Rules);
     }

@@ -4,7 +4,6 @@ using LagSim.BroadPhase;
 using LagSim.Events;
 using LagSim.Handlers;
 using LagSim.Rollback;
-using LagSim.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 using LagSim.Trajectories;
@@ -19,7 +18,7 @@ namespace LagSim;
 internal sealed class EventLoop(
     Progress progress, TimelineStore timelines, Agenda agenda, RollbackState rollback, Rewinder rewinder,
     EventDispatcher dispatcher, AdaptiveBroadPhase broadPhase, WorkMeter meter, ForceFailures failures,
-    RuleLog? rules, RuleCaller? caller, CancellationToken cancellation)
+    RuleCaller? caller, CancellationToken cancellation)
 {
     private Exception? fault;
     private SimTime? partDone; // the instant that has happened only in part
@@ -216,7 +215,7 @@ internal sealed class EventLoop(
             progress.ForgetBefore(now - progress.History);
             timelines.ForgetBefore(progress.HistoryEdge);
             broadPhase.Current.DropBefore(progress.HistoryEdge);
-            rules?.DropBefore(progress.HistoryEdge);
+            caller?.DropBefore(progress.HistoryEdge);
         }
     }
 

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Rules;
+using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim;
@@ -38,6 +39,9 @@ internal class RuleCaller
     /// <summary>How many calls were made, those made again included.</summary>
     internal long Made { get; private set; }
 
+    /// <summary>Forgets calls before a time, which can no longer change.</summary>
+    internal void DropBefore(SimTime edge) => log.DropBefore(edge);
+
     /// <summary>Deals with the call that is next. What follows from it is scheduled.</summary>
     /// <exception cref="InstantException">The rules failed.</exception>
     internal void Process()
@@ -51,14 +55,14 @@ internal class RuleCaller
             return;
         }
 
-        uint first = FirstAct(call, out int place, out int rounds);
+        uint first = FirstAct(call, out int rounds);
         if (Stands(call, first))
         {
             log.Stand();
             return;
         }
 
-        Make(call, first, place);
+        Make(call, first);
         if (world.Chains && rounds >= MaxRounds)
         {
             throw Failed(call, $"caused more than {MaxRounds} rounds of events in one tick", null);
@@ -98,10 +102,10 @@ internal class RuleCaller
         to.AddRange(from);
     }
 
-    private void Make(RuleCall call, uint first, int place)
+    private void Make(RuleCall call, uint first)
     {
         Load();
-        world.Begin(call, first, place);
+        world.Begin(call, first);
         loaded = null; // until it is known what the call leaves
         Made++;
         try
@@ -159,18 +163,15 @@ internal class RuleCaller
         }
     }
 
-    /// <summary>The number of the first act of the next call, which of the calls of its key it is, and how many rounds rules have caused
-    /// at its tick.</summary>
-    private uint FirstAct(RuleCall call, out int place, out int rounds)
+    /// <summary>The number of the first act of the next call, and how many rounds rules have caused at its tick.</summary>
+    private uint FirstAct(RuleCall call, out int rounds)
     {
         uint first = 0;
-        place = 0;
         rounds = 0;
         uint round = uint.MaxValue;
         for (int n = log.Position - 1; n >= 0 && log[n].Key.Time == call.Key.Time; n--)
         {
             RuleCall before = log[n];
-            place += before.Key == call.Key ? 1 : 0;
             first += before.Key.Round == call.Key.Round ? (uint)before.Acts.Count : 0;
             if (before.Chains && before.Key.Round != round)
             {

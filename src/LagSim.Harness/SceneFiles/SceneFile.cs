@@ -94,6 +94,11 @@ public static class SceneFile
                 file, "", 0, $"the scene supplies accelerations written in C#, the first is '{first}'; a JSON file cannot hold code");
         }
 
+        if (scene.Rules is SceneRules rules)
+        {
+            throw new SceneFileException(file, "", 0, $"the scene has the rules '{rules}', written in C#; a JSON file cannot hold code");
+        }
+
         ArrayBufferWriter<byte> buffer = new();
         SceneJsonWriter.Write(scene, buffer);
         buffer.Write("\n"u8);

@@ -10,7 +10,7 @@ namespace LagSim.Harness.SceneFiles;
 internal ref struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies", "sensors"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies", "sensors", "seed"]);
 
     private readonly string? locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // parts to build once the name is known
@@ -60,6 +60,10 @@ internal ref struct SceneJsonReader
                 case "contact_tolerance_m":
                     double tolerance = cursor.Number();
                     Add(b => b.WithContactTolerance(tolerance));
+                    break;
+                case "seed":
+                    ulong seed = cursor.Whole(ulong.MaxValue);
+                    Add(b => b.WithSeed(seed));
                     break;
                 case "smallest_radius_m":
                     double smallest = cursor.Number();

@@ -37,6 +37,11 @@ internal static class SceneJsonWriter
             json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
         }
 
+        if (scene.Seed != 0)
+        {
+            json.WriteNumber("seed", scene.Seed);
+        }
+
         Peers(json, "spawners", scene.Spawners);
         if (scene.Box.Exists)
         {

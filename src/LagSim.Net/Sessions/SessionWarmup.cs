@@ -63,7 +63,10 @@ internal sealed class SessionWarmup
             host.Step();
         }
 
-        ClientOptions options = ClientOptions.From(Options(strategy, 8)) with { Contacts = new ContactNotices() };
+        ClientOptions options = ClientOptions.From(Options(strategy, 8)) with
+        {
+            Contacts = new ContactNotices(), Rules = new[] { scene.Rules! },
+        };
         client = new PeerThread(new ClientSession(null, clientPort, clock, options, hostPort.LocalAddress, 2), clientPort, "warm-up client");
         host.Session.Logged += entry => Note(entry, HeardByHost, from: 1);
         client.Session.Logged += entry => Note(entry, HeardByClient, from: 0);
@@ -73,7 +76,7 @@ internal sealed class SessionWarmup
     internal static IReadOnlyList<EventKind> EveryKind { get; } = new[]
     {
         EventKind.Spawn, EventKind.Impulse, EventKind.SetVelocity, EventKind.Teleport, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.Remove,
-        EventKind.SetFilter,
+        EventKind.SetFilter, EventKind.Command,
     };
 
     /// <summary>The kinds of client events that the host accepted.</summary>
@@ -153,6 +156,7 @@ internal sealed class SessionWarmup
             EventKind.Grab => PlayerAction.Grab(own, new Vector3D(0, 0.1, 0)),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(own, home + new Vector3D(0, 0.2, 0), new Vector3D(0, 1, 0)),
             EventKind.Release => PlayerAction.Release(own, new Vector3D(1, 1, 0)),
+            EventKind.Command => PlayerAction.Command(new GameCommand(1)),
             EventKind.SetFilter => PlayerAction.SetFilter(own, new CollisionFilter(2)),
             _ => PlayerAction.Remove(spawned),
         };

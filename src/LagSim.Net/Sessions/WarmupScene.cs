@@ -19,7 +19,7 @@ internal static class WarmupScene
     /// </summary>
     internal static Scene Of(bool few)
     {
-        SceneBuilder builder = new SceneBuilder("warm-up")
+        SceneBuilder builder = new SceneBuilder("warm-up").WithRules(new WarmupRules())
             .AddPlane("floor", Vector3D.Up, Vector3D.Zero)
             .AddPlane("wall", new Vector3D(1, 0, 0), new Vector3D(-20, 0, 0))
             .AddForce(Force.LinearDrag("syrup", 0.1), out ForceSet syrup)

@@ -27,10 +27,11 @@ public static class EventRights
     }
 
     /// <summary>
-    /// Whether a peer may do that to a spawned body, which belongs to some. The host may remove any: it clears up after who has left.
+    /// Whether a peer may do that to a spawned body, which belongs to some. The host may remove any: it clears up after who has left. Rules may
+    /// do anything.
     /// </summary>
     internal static bool MayTouch(in ExternalEvent external, PeerSet players) =>
-        players.Contains(external.Peer) || (external.Peer == 0 && external.Kind == EventKind.Remove);
+        players.Contains(external.Peer) || (external.Peer == 0 && external.Kind == EventKind.Remove) || external.Peer == SceneRules.Peer;
 
     /// <summary>Throws if the peer that did this may not do it.</summary>
     /// <param name="external">What it did.</param>

@@ -1,4 +1,5 @@
 using System;
+using System.Buffers.Binary;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
@@ -319,16 +320,17 @@ internal class RuleLog : IRuleTriggers
     internal static void AddTo(ref StableHash hash, ReadOnlySpan<byte> state)
     {
         hash.Add((ulong)state.Length);
-        for (int at = 0; at < state.Length; at += sizeof(ulong))
+        Span<byte> rest = stackalloc byte[sizeof(ulong)];
+        for (; state.Length >= sizeof(ulong); state = state.Slice(sizeof(ulong)))
         {
-            ulong word = 0;
-            ReadOnlySpan<byte> bytes = state.Slice(at, Math.Min(sizeof(ulong), state.Length - at));
-            for (int i = bytes.Length - 1; i >= 0; i--)
-            {
-                word = (word << 8) | bytes[i];
-            }
+            hash.Add(BinaryPrimitives.ReadUInt64LittleEndian(state));
+        }
 
-            hash.Add(word);
+        if (state.Length > 0)
+        {
+            rest.Clear();
+            state.CopyTo(rest);
+            hash.Add(BinaryPrimitives.ReadUInt64LittleEndian(rest));
         }
     }
 

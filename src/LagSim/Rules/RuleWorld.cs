@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Rules;
 
@@ -43,7 +44,7 @@ public sealed class RuleWorld
     private readonly List<RuleRead> reads = new();
     private EventKey key;
     private uint firstAct;
-    private ulong place; // which of the calls of its key it is
+    private ImpactContact contact; // of an impact, which of its contacts the call is for
     private ulong draws;
     private bool isCalled;
 
@@ -184,7 +185,13 @@ public sealed class RuleWorld
         hash.Add(key.Body.Packed);
         hash.Add(key.Other.Packed);
         hash.Add(key.Origin);
-        hash.Add(place);
+        if (key.Kind == EventKind.Impact)
+        {
+            hash.Add(contact.First.Packed);
+            hash.Add(contact.Second.Packed);
+            hash.Add((long)contact.Surface);
+        }
+
         hash.Add(draws++);
         return hash.Value;
     }
@@ -294,12 +301,11 @@ public sealed class RuleWorld
     /// <summary>A call begins.</summary>
     /// <param name="call">The call.</param>
     /// <param name="first">The number of its first act among those of its tick and round.</param>
-    /// <param name="place">Which of the calls of its key it is.</param>
-    internal void Begin(RuleCall call, uint first, int place)
+    internal void Begin(RuleCall call, uint first)
     {
         key = call.Key;
         firstAct = first;
-        this.place = (ulong)place;
+        contact = call.Trigger.Contact;
         draws = 0;
         acts.Clear();
         notices.Clear();

@@ -9,6 +9,12 @@ internal static class LargeTypes
         new("LagSim.Contacts.SolverContact", "a row of the solver, kept flat: what is read together lies together"),
         new("LagSim.Engine", "puts the parts together, a field for each part; it has next to no code of its own"),
 
+        new("LagSim.Hosting.LiveWorld", "a world with all that reports of it, and how late it was"),
+        new("LagSim.Scenes.Scene", "a field for each part that a scene has"),
+        new("LagSim.Scenes.SceneBuilder", "a documented method for each part that a scene may have"),
+        new("LagSim.Simulation", "the public face: a documented member for each thing that can be asked of a world; next to no code"),
+        new("LagSim.Timelines.TimelineStore", "the arrays of one store of segments, and who is notified of them"),
+
         // Peers.
         new("LagSim.Net.Sessions.Core.SessionParts", "puts the parts together, a field for each part; it has no code of its own"),
         new("LagSim.Net.Sessions.SessionCounters", "a number for each thing that is counted"),
@@ -26,6 +32,7 @@ internal static class LargeTypes
         new("LagSim.Harness.Experiments.Sweep.SweepOutcome", "a result record, a field for each column"),
         new("LagSim.Harness.Relays.RelayCore", "what a relay is set to, its clients, and what it counts"),
         new("LagSim.Harness.Verification.Check.CheckOutcome", "a result record, a field for each figure"),
+        new("LagSim.Harness.Verification.Check.SceneFeatures", "a result record, a field for each feature"),
         new("LagSim.Harness.Verification.Check.RoomScene", "draws a scene: a field for each trait that all its bodies share"),
         new("LagSim.Harness.Verification.Stalls.StallClient", "one client of a run, with all that is measured of it"),
         new("LagSim.Harness.Verification.Stalls.StallProcessRun", "one run from start to end: its set-up, its processes and what it measures"),

@@ -234,6 +234,7 @@ public sealed class RuleTests
     }
 
     [Fact]
+    [Trait("Time", "real")] // one of the rules reads a clock
     public void SyncTest_SeesRulesThatAreNoFunctionOfTheWorld()
     {
         int calls = 0;

@@ -109,7 +109,7 @@ public sealed class SceneFileRefusalTests
     [InlineData("0.8", "0.8, \"motion\": \"RK4\"", "bodies[0].motion", "\"RK4\" is unknown")]
     [InlineData("0.8", "0.8, \"step_s\": 0", "bodies[0].step_s", "the step is 0 s; it must lie between 1E-06 and 1 s")]
     [InlineData("0.8", "0.8, \"step_s\": 1e300", "bodies[0].step_s", "it must lie between 1E-06 and 1 s")]
-    [InlineData("0.8", "0.8, \"players\": [16]", "bodies[0].players[0]", "the peer 16 cannot be granted a right; it must be a whole number between 0 and 15")]
+    [InlineData("0.8", "0.8, \"players\": [17]", "bodies[0].players[0]", "the peer 17 cannot be granted a right; it must be a whole number between 0 and 16")]
     [InlineData("0.8", "0.8, \"players\": [0, 0.5]", "bodies[0].players[1]", "the peer 0.5 cannot be granted a right")]
     [InlineData("0.8", "0.8, \"players\": [3, 3]", "bodies[0].players[1]", "the peer 3 stands here twice")]
     [InlineData("0.8", "0.8, \"players\": 3", "bodies[0].players", "it is 3; it must be an array of the numbers of peers")]

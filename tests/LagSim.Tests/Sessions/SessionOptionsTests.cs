@@ -23,7 +23,7 @@ public sealed class SessionOptionsTests
     private static readonly string[] OfHosts =
         ["ConfirmsEarly", "ExpectedClients", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "SpectatorPlaces", "StartLead"];
 
-    private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection", "Token"];
+    private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection", "Rules", "Token"];
 
     private static readonly SimDuration Long = SimDuration.FromSeconds(10_000);
 
@@ -45,6 +45,7 @@ public sealed class SessionOptionsTests
         KeepAlive = SimDuration.FromSeconds(1),
         Contacts = new ContactNotices(),
         Crossings = new CrossingNotices(),
+        RuleNotices = new RuleNotices(),
         Strategy = LateEventStrategy.Interpolation,
         SyncTest = true,
         DisplayDelay = SimDuration.FromMilliseconds(70),
@@ -74,6 +75,7 @@ public sealed class SessionOptionsTests
         ["RenderedPast"] = new ClientOptions { RenderedPast = Long },
         ["ResendInterval"] = new ClientOptions { ResendInterval = Long },
         ["Role"] = new ClientOptions { Role = 0 },
+        ["Rules"] = new ClientOptions { Rules = [null!] },
         ["SpectatorPlaces"] = new HostOptions { SpectatorPlaces = 33 },
         ["StartLead"] = new HostOptions { StartLead = Long },
         ["Timeout"] = new ClientOptions { Timeout = Long },

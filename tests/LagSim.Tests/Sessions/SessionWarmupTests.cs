@@ -75,7 +75,7 @@ public sealed class SessionWarmupTests
         Assert.NotEqual(alone, Play(warmups: false, actions: 41));
     }
 
-    private static IReadOnlyList<EventKind> PlayersKinds { get; } = [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Impact)];
+    private static IReadOnlyList<EventKind> PlayersKinds { get; } = [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Timer)];
 
     private static string[] Play(bool warmups, int actions)
     {

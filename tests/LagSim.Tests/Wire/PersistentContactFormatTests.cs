@@ -18,9 +18,9 @@ namespace LagSim.Tests.Wire;
 public sealed class PersistentContactFormatTests
 {
     // Where things stand in a snapshot of one member that does not turn.
-    private const int LawAt = 28 + 119;
-    private const int SupportsAt = 28 + 208;
-    private const int CentreAt = 28 + 210;
+    private const int LawAt = 32 + 119;
+    private const int SupportsAt = 32 + 208;
+    private const int CentreAt = 32 + 210;
     private const int CountAt = CentreAt + 16;
     private const int FirstAt = CountAt + 2;
     private const int SurfaceAt = FirstAt + 8;

@@ -140,10 +140,11 @@ public sealed class SnapshotFormatTests
         {
             Span<byte> bytes = buffer.AsSpan(0, random.Next(buffer.Length));
             random.NextBytes(bytes);
-            if (i % 4 > 0 && bytes.Length > 28)
+            if (i % 4 > 0 && bytes.Length > 32)
             {
-                bytes[24] = (byte)(bytes.Length / 210); // a count that could be, or it tests nothing else
-                bytes[25..28].Clear();
+                bytes[24..28].Clear(); // no state of rules
+                bytes[28] = (byte)(bytes.Length / 210); // a count that could be, or it tests nothing else
+                bytes[29..32].Clear();
             }
 
             OneForm(bytes);
@@ -196,8 +197,8 @@ public sealed class SnapshotFormatTests
         // The control: what is really there does take room, and no more than a few times its length.
         byte[] many = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, Enumerable.Repeat(Plain(), 5000).ToArray()));
         Assert.InRange(Allocated(many), many.Length, 6L * many.Length);
-        many[28 + 8] = many[28 + 9] = many[28 + 15] = 0xFF; // no radius: refused, and as cheap
-        many[28 + 14] = 0xFF;
+        many[32 + 8] = many[32 + 9] = many[32 + 15] = 0xFF; // no radius: refused, and as cheap
+        many[32 + 14] = 0xFF;
         Refused(WireRefusal.BadValue, many);
         Assert.InRange(Allocated(many), 0, 6L * many.Length);
     }
@@ -208,8 +209,8 @@ public sealed class SnapshotFormatTests
     public void TryDecode_NumberNotFinite_IsRefusedInEveryField(double value)
     {
         byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain(MotionLaw.RungeKutta4)]));
-        int[] nine = [.. Enumerable.Range(0, 9).Select(n => 28 + (8 * n))];
-        int[] numbers = [28 + 8, 28 + 16, 28 + 24, .. nine.Select(n => n + 136), .. nine.Select(n => n + 209)];
+        int[] nine = [.. Enumerable.Range(0, 9).Select(n => 32 + (8 * n))];
+        int[] numbers = [32 + 8, 32 + 16, 32 + 24, .. nine.Select(n => n + 136), .. nine.Select(n => n + 209)];
         foreach (int at in numbers)
         {
             byte[] bytes = (byte[])good.Clone();
@@ -225,12 +226,12 @@ public sealed class SnapshotFormatTests
     {
         byte[] good = SnapshotFormat.Encode(new WorldSnapshot(At(0), At(1), 7, [Plain()]));
         byte[] step = (byte[])good.Clone();
-        step.AsSpan(28 + 8 + 25, 8).Clear();
+        step.AsSpan(32 + 8 + 25, 8).Clear();
         Refused(WireRefusal.BadValue, step);
         byte[] supports = (byte[])good.Clone();
-        supports[28 + 208] = BodySnapshot.MaxSupports + 1;
+        supports[32 + 208] = BodySnapshot.MaxSupports + 1;
         Refused(WireRefusal.BadValue, [.. supports, .. new byte[16]]);
-        supports[28 + 208] = 1;
+        supports[32 + 208] = 1;
         Refused(WireRefusal.BadValue, [.. supports[..^1], 0, 0, 0, 0x80, 0]);
         Decoded([.. supports[..^1], 0xFF, 0xFF, 0xFF, 0x7F, 0]);
         byte[] turns = (byte[])good.Clone();
