@@ -49,6 +49,11 @@ internal class RuleCaller
         RuleCall call = log.Next();
         if (call.IsGone)
         {
+            if (call.Acts.Count > 0)
+            {
+                TakeBackLater(call);
+            }
+
             TakeBack(call);
             log.Drop();
             acts.Follow();
@@ -66,6 +71,11 @@ internal class RuleCaller
         if (world.Chains && rounds >= MaxRounds)
         {
             throw Failed(call, $"caused more than {MaxRounds} rounds of events in one tick", null);
+        }
+
+        if (first + world.Acts.Count != call.FirstAct + call.Acts.Count)
+        {
+            TakeBackLater(call);
         }
 
         acts.Exchange(call, world.Acts);
@@ -95,6 +105,19 @@ internal class RuleCaller
 
     /// <summary>Whether a call would read what it read.</summary>
     private protected virtual bool ReadsTheSame(RuleCall call) => view.IsUnchanged(call.Reads, call.Key, spare);
+
+    /// <summary>
+    /// What a call does is numbered after what others of its tick and round do before it. Where their number changes, all later ones are
+    /// taken back first, so that no act ever has the number of another.
+    /// </summary>
+    private void TakeBackLater(RuleCall than)
+    {
+        for (int n = log.Position + 1; n < log.Count && log[n].Key.Time == than.Key.Time && log[n].Key.Round == than.Key.Round; n++)
+        {
+            acts.TakeBack(log[n]);
+            log[n].IsMade = false;
+        }
+    }
 
     private static void Copy<T>(List<T> from, List<T> to)
     {

@@ -23,7 +23,7 @@ namespace LagSim.Tests.Docs;
 [Trait("Time", "real")]
 public sealed partial class SnippetTests
 {
-    private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs")
+    private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs") + Read("tests/LagSim.Tests/Docs/RuleSnippets.cs")
         + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/SecuritySnippets.cs")
         + Read("tests/LagSim.Tests/Docs/SensorSnippets.cs") + Read("tests/LagSim.Tests/Docs/Examples.cs")
         + Read("samples/FirstGame/Program.cs");

@@ -139,6 +139,22 @@ public sealed class RuleTests
     }
 
     [Fact]
+    public void Acts_OfCallsOfOneTickThatALateCallComesBefore_AreAllThere()
+    {
+        Given rules = new() { Command = (w, player, _) => w.SetVelocity(First, V(player)) };
+        ExternalEvent[] commands = [.. Enumerable.Range(1, 3).Select(n => PlayerAction.Command(new GameCommand(1)).Stamp(At(0.25), (byte)n, 1))];
+        Simulation onTime = Run(Scene(rules), 1, commands);
+        Simulation late = Run(Scene(rules), 1, [commands[1], commands[2]]);
+        late.Submit(commands[0]);
+        late.AdvanceTo(At(1));
+        Assert.Equal([1u, 2, 3], late.Timeline(First).Where(entry => entry.Key.Peer == SceneRules.Peer).Select(entry => entry.Key.Sequence));
+        Assert.Equal(onTime.EventHash(At(1)), late.EventHash(At(1)));
+        late.Retract(commands[0]);
+        late.AdvanceTo(At(1));
+        Assert.Equal([1u, 2], late.Timeline(First).Where(entry => entry.Key.Peer == SceneRules.Peer).Select(entry => entry.Key.Sequence));
+    }
+
+    [Fact]
     public void Random_IsOfTheSeedAndTheEvent()
     {
         Given rules = new() { Command = (w, _, _) => w.State<Score>().Draw = w.Random() ^ (ulong)w.Random(6) };

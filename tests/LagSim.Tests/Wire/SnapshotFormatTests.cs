@@ -235,15 +235,16 @@ public sealed class SnapshotFormatTests
         Refused(WireRefusal.BadValue, [.. supports[..^1], 0, 0, 0, 0x80, 0]);
         Decoded([.. supports[..^1], 0xFF, 0xFF, 0xFF, 0x7F, 0]);
         byte[] turns = (byte[])good.Clone();
-        turns[^1] = 8;
+        turns[^1] = 16;
         Refused(WireRefusal.BadValue, turns);
         turns[^1] = 4;
-        Refused(WireRefusal.BadValue, [.. turns, 0xFF, 0xFF]); // everyone has no players
-        Assert.Equal(PeerSet.Of(1), Decoded([.. turns, 2, 0]).Bodies[0].Players);
+        Refused(WireRefusal.BadValue, [.. turns, 0xFF, 0xFF, 1, 0]); // everyone has no players
+        Refused(WireRefusal.BadValue, [.. turns, 0xFF, 0xFF, 3, 0]); // nor is there a peer 17
+        Assert.Equal(PeerSet.Of(1), Decoded([.. turns, 2, 0, 0, 0]).Bodies[0].Players);
         turns[^1] = 2;
         Refused(WireRefusal.BadValue, [.. turns, 1, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]); // nor has the filter of its spec
         Assert.Equal(new CollisionFilter(2), Decoded([.. turns, 2, 0, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF]).Bodies[0].Filter);
-        turns[^1] = 4;
+        turns[^1] = 8;
         Refused(WireRefusal.BadValue, [.. turns, .. new byte[4]]); // of no sensor has another form
         Decoded([.. turns, 1, 0, 0xFF, 3, 0, 0]);
         Refused(WireRefusal.BadValue, [.. turns, 1, 0, 0, 4, 0, 0]);

@@ -192,7 +192,7 @@ public sealed class WirePageTests
                 Second, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, centre: At(0.375),
                 contacts: contacts.AsSpan(0, 1));
             BodySnapshot carried = new(Third, b.Spec, b.Opened, MotionLaw.Resting, b.Epoch, b.End, b.Position, default, default, [3]);
-            snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [member, sleeper, carried]);
+            snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [member, sleeper, carried], new RandomWorld(5, rules: true).OnTime().Snapshot(At(0.6)).RuleState);
         }
 
         return (SessionSnapshot.Encode(world.Scene, snapshot), (Func<string[], byte[]>)(page => Copy(page, world.Scene, snapshot)));
