@@ -190,5 +190,5 @@ internal sealed partial class UpdateDatagram
     }
 
     internal static int LengthOf(in UpdateEntry entry) =>
-        entry.IsOwn ? OwnEntryBytes : VerdictBytes + EventFormat.EncodedLength(entry.Event.Kind);
+        entry.IsOwn ? OwnEntryBytes : VerdictBytes + EventFormat.EncodedLength(entry.Event);
 }

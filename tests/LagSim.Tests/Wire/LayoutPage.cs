@@ -130,7 +130,7 @@ internal static class LayoutPage
                 return value is CollisionFilter filter ? [.. BitConverter.GetBytes(filter.Category), .. BitConverter.GetBytes(filter.Mask)] : [];
             case "event":
                 ExternalEvent what = (ExternalEvent)value;
-                byte[] bytes = new byte[EventFormat.EncodedLength(what.Kind)];
+                byte[] bytes = new byte[EventFormat.EncodedLength(what)];
                 WireWriter writer = new(bytes);
                 EventFormat.Write(ref writer, what);
                 return bytes;

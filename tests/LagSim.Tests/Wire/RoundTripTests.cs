@@ -85,7 +85,7 @@ public class RoundTripTests
         EventFormat.Write(ref writer, what);
         WireReader reader = new(bytes.AsSpan(0, writer.Position));
         ExternalEvent again = EventFormat.Read(ref reader);
-        return writer.Position == EventFormat.EncodedLength(what.Kind) && reader.Finish(out _) && again.Equals(what);
+        return writer.Position == EventFormat.EncodedLength(what) && reader.Finish(out _) && again.Equals(what);
     });
 
     [Fact]
