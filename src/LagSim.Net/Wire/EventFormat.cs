@@ -10,7 +10,7 @@ namespace LagSim.Net.Wire;
 internal static class EventFormat
 {
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
-    public const int MaxBytes = HeadBytes + SpecBytes + (3 * VectorBytes) + PlayersBytes + 1;
+    public const int MaxBytes = PlainSpawnBytes + PlayersBytes + FilterBytes + TagBytes;
 
     /// <summary>The length of the shortest event, a command without bytes.</summary>
     public const int MinBytes = HeadBytes + CommandHeadBytes;
@@ -28,18 +28,47 @@ internal static class EventFormat
     internal const int VectorBytes = 24;
     internal const int FilterBytes = 8;
     internal const int PlayersBytes = 4;
-    internal const int SpecBytes = 61 + FilterBytes + sizeof(ulong);
+    internal const int SpecBytes = SpecHeadBytes + FilterBytes + TagBytes;
+    private const int SpecHeadBytes = 61;
+    private const int TagBytes = sizeof(ulong);
+    private const int PlainSpawnBytes = HeadBytes + SpecHeadBytes + (3 * VectorBytes) + 1; // everyone's, without a filter and a tag
+
+    // What a spawn has, so that a plain one stays short: the lowest two bits say what becomes of it where another body is.
+    private const int OccupiedBits = 3;
+    private const int PlayersFlag = 4;
+    private const int FilterFlag = 8;
+    private const int TagFlag = 16;
 
     /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
-    public static int EncodedLength(in ExternalEvent what) =>
-        what.Kind == EventKind.Command ? MinBytes + (what.Command?.Length ?? 0) : LengthOf(what.Kind);
+    public static int EncodedLength(in ExternalEvent what)
+    {
+        if (what.Command is GameCommand command)
+        {
+            return MinBytes + command.Length;
+        }
+
+        int has = what.Kind == EventKind.Spawn ? Has(what) : 0;
+        return ShortestLength(what.Kind) + ((has & PlayersFlag) != 0 ? PlayersBytes : 0) + ((has & FilterFlag) != 0 ? FilterBytes : 0)
+            + ((has & TagFlag) != 0 ? TagBytes : 0);
+    }
+
+    private static int ShortestLength(EventKind kind) => kind switch
+    {
+        EventKind.Spawn => PlainSpawnBytes,
+        EventKind.Remove => BodyEventBytes,
+        EventKind.SetFilter => BodyEventBytes + FilterBytes,
+        EventKind.Teleport => BodyEventBytes + (2 * VectorBytes) + 1,
+        EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
+        EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => BodyEventBytes + VectorBytes,
+        _ => 0,
+    };
 
     /// <summary>
     /// Whether an event can be encoded: a kind that can, a sequence of at least 1, a time within <see cref="WireFormat.MaxTimeTicks"/>,
     /// finite numbers, and for a spawn a <see cref="BodySpec"/> within its documented ranges. Every decoded event is well formed.
     /// </summary>
     public static bool IsWellFormed(in ExternalEvent what) =>
-        (LengthOf(what.Kind) > 0 || what.Command is not null)
+        (ShortestLength(what.Kind) > 0 || what.Command is not null)
         && what.Sequence >= 1
         && WireFormat.IsInRange(what.Time)
         && what.Position.IsFinite
@@ -69,7 +98,7 @@ internal static class EventFormat
 
         if (what.Kind == EventKind.Spawn)
         {
-            WriteSpec(ref writer, what.Spec);
+            WriteSpecHead(ref writer, what.Spec);
         }
         else
         {
@@ -89,10 +118,10 @@ internal static class EventFormat
         if (what.Kind == EventKind.Spawn)
         {
             writer.WriteVector(what.Spin);
-            writer.WriteUInt32(what.Players.Mask);
+            WriteWhatItHas(ref writer, what);
         }
 
-        if (what.Kind is EventKind.Spawn or EventKind.Teleport)
+        if (what.Kind == EventKind.Teleport)
         {
             writer.WriteByte((byte)what.WhenOccupied);
         }
@@ -108,7 +137,7 @@ internal static class EventFormat
     public static ExternalEvent Read(ref WireReader reader)
     {
         EventKind kind = (EventKind)reader.ReadByte();
-        reader.Require(LengthOf(kind) > 0 || kind == EventKind.Command);
+        reader.Require(ShortestLength(kind) > 0 || kind == EventKind.Command);
         byte peer = reader.ReadByte();
         uint sequence = reader.ReadUInt32();
         SimTime time = reader.ReadTime();
@@ -117,13 +146,18 @@ internal static class EventFormat
             return ReadCommand(ref reader, time, peer, sequence);
         }
 
-        BodySpec spec = kind == EventKind.Spawn ? ReadSpec(ref reader) : default;
+        BodySpec spec = kind == EventKind.Spawn ? ReadSpecHead(ref reader) : default;
         BodyId body = kind == EventKind.Spawn ? default : BodyId.FromPacked(reader.ReadUInt64());
         Vector3D position = HasPosition(kind) ? reader.ReadVector() : default;
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
-        PeerSet players = kind == EventKind.Spawn ? ReadPeers(ref reader) : default;
-        WhenOccupied whenOccupied = kind is EventKind.Spawn or EventKind.Teleport ? (WhenOccupied)reader.ReadByte() : default;
+        PeerSet players = default;
+        WhenOccupied whenOccupied = kind == EventKind.Teleport ? (WhenOccupied)reader.ReadByte() : default;
+        if (kind == EventKind.Spawn)
+        {
+            ReadWhatItHas(ref reader, ref spec, out players, out whenOccupied);
+        }
+
         CollisionFilter filter = kind == EventKind.SetFilter ? ReadFilter(ref reader) : default;
         PlayerAction action = kind switch
         {
@@ -161,17 +195,6 @@ internal static class EventFormat
         return reader.Refusal == WireRefusal.None ? PlayerAction.Command(new GameCommand(number, data)).Stamp(time, peer, sequence) : default;
     }
 
-    private static int LengthOf(EventKind kind) => kind switch
-    {
-        EventKind.Spawn => MaxBytes,
-        EventKind.Remove => BodyEventBytes,
-        EventKind.SetFilter => BodyEventBytes + FilterBytes,
-        EventKind.Teleport => BodyEventBytes + (2 * VectorBytes) + 1,
-        EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
-        EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => BodyEventBytes + VectorBytes,
-        _ => 0,
-    };
-
     private static PlayerAction Action(
         EventKind kind, BodyId body, in Vector3D position, in Vector3D velocity) => kind switch
         {
@@ -201,7 +224,52 @@ internal static class EventFormat
         && spec.RollingResistance is >= 0 and <= 1
         && (spec.Forces.IsEmpty || spec.Flight != MotionLaw.Ballistic);
 
+    private static int Has(in ExternalEvent spawn) => (int)spawn.WhenOccupied | (spawn.Players != PeerSet.Everyone ? PlayersFlag : 0)
+        | (!spawn.Spec.Filter.IsDefault ? FilterFlag : 0) | (spawn.Spec.Tag != 0 ? TagFlag : 0);
+
+    private static void WriteWhatItHas(ref WireWriter writer, in ExternalEvent spawn)
+    {
+        int has = Has(spawn);
+        writer.WriteByte((byte)has);
+        if ((has & PlayersFlag) != 0)
+        {
+            writer.WriteUInt32(spawn.Players.Mask);
+        }
+
+        if ((has & FilterFlag) != 0)
+        {
+            WriteFilter(ref writer, spawn.Spec.Filter);
+        }
+
+        if ((has & TagFlag) != 0)
+        {
+            writer.WriteUInt64(spawn.Spec.Tag);
+        }
+    }
+
+    private static void ReadWhatItHas(ref WireReader reader, ref BodySpec spec, out PeerSet players, out WhenOccupied whenOccupied)
+    {
+        int has = reader.ReadByte();
+        reader.Require(has < 2 * TagFlag);
+        whenOccupied = (WhenOccupied)(has & OccupiedBits);
+        players = (has & PlayersFlag) != 0 ? ReadPeers(ref reader) : default;
+        CollisionFilter filter = (has & FilterFlag) != 0 ? ReadFilter(ref reader) : default;
+        ulong tag = (has & TagFlag) != 0 ? reader.ReadUInt64() : 0;
+        spec = spec.With(filter).WithTag(tag);
+
+        // Exactly one encoding: what has the default is left out.
+        reader.Require((has & PlayersFlag) != 0 == (players != PeerSet.Everyone) && (has & FilterFlag) != 0 == !filter.IsDefault
+            && (has & TagFlag) != 0 == (tag != 0));
+    }
+
     internal static void WriteSpec(ref WireWriter writer, in BodySpec spec)
+    {
+        WriteSpecHead(ref writer, spec);
+        WriteFilter(ref writer, spec.Filter);
+        writer.WriteUInt64(spec.Tag);
+    }
+
+    private static void WriteSpecHead(ref WireWriter writer, in BodySpec spec)
     {
         writer.WriteDouble(spec.Radius);
         writer.WriteDouble(spec.Mass);
@@ -212,11 +280,12 @@ internal static class EventFormat
         writer.WriteDouble(spec.Tolerance);
         writer.WriteDouble(spec.Friction);
         writer.WriteDouble(spec.RollingResistance);
-        WriteFilter(ref writer, spec.Filter);
-        writer.WriteUInt64(spec.Tag);
     }
 
-    internal static BodySpec ReadSpec(ref WireReader reader)
+    internal static BodySpec ReadSpec(ref WireReader reader) =>
+        ReadSpecHead(ref reader).With(ReadFilter(ref reader)).WithTag(reader.ReadUInt64());
+
+    private static BodySpec ReadSpecHead(ref WireReader reader)
     {
         double radius = reader.ReadDouble();
         double mass = reader.ReadDouble();
@@ -227,8 +296,7 @@ internal static class EventFormat
         ForceSet forces = ForceSet.FromMask(reader.ReadUInt32());
         reader.Require(flight != MotionLaw.Automatic || !forces.IsEmpty); // that is Ballistic
         return new BodySpec(
-            radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble(),
-            ReadFilter(ref reader), reader.ReadUInt64());
+            radius, mass, restitution, flight, SimDuration.FromTicks(step), forces, reader.ReadDouble(), reader.ReadDouble(), reader.ReadDouble());
     }
 
     internal static void WriteFilter(ref WireWriter writer, CollisionFilter filter)

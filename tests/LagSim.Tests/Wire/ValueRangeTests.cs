@@ -28,7 +28,7 @@ public class ValueRangeTests
     private const int ToleranceAt = 111;
     private const int FrictionAt = 119;
     private const int RollingAt = 127;
-    private const int PositionAt = 151;
+    private const int PositionAt = 135;
 
     private static readonly BodySpec Ball = new(0.5, 1, 0.8);
 
@@ -272,7 +272,7 @@ public class ValueRangeTests
         }
 
         Assert.Equal(47, removals.Entries.Length);
-        Assert.Equal(6, spawns.Entries.Length);
+        Assert.Equal(7, spawns.Entries.Length);
         Assert.Equal(removals.EncodedLength, AnyDatagram.Bytes(removals.Encode).Length);
         Assert.Equal(spawns.EncodedLength, AnyDatagram.Bytes(spawns.Encode).Length);
         Assert.InRange(removals.EncodedLength, 1, WireFormat.MaxPlainBytes);

@@ -79,7 +79,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 34 + 5 + 4 + 10 + 3, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 32 + 6 + 5 + 4 + 10 + 3, rows);
     }
 
     [Fact]
@@ -167,7 +167,7 @@ public sealed class WirePageTests
         {
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot controlled = new(
-                b.Id, b.Spec, b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
+                b.Id, b.Spec.With(new CollisionFilter(2, 3)).WithTag(77), b.Opened, MotionLaw.DormandPrince54, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [], V(1, 2, 3), V(4, 5, 6), V(7, 8, 9),
                 nextStep: SimDuration.FromSeconds(0.25), spin: V(10, 11, 12), spinRate: V(13, 14, 15), filter: new CollisionFilter(5, 9), players: PeerSet.Of(1, 4));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [controlled]);
         }
@@ -389,7 +389,10 @@ public sealed class WirePageTests
         {
             bytes.Write(field switch
             {
-                "spec" => Spec(page, what.Spec),
+                "spec without filter and tag" => Spec(page, what.Spec)[..^16],
+                "u8 has" => Bytes("u8", (byte)((int)what.WhenOccupied + (what.Players == PeerSet.Everyone ? 0 : 4) + (what.Spec.Filter.IsDefault ? 0 : 8)
+                    + (what.Spec.Tag == 0 ? 0 : 16))),
+                "what it has" => More(page, what),
                 "u64 body" => Bytes("u64", what.Body.Packed),
                 "position" => Bytes("vector", what.Position),
                 "offset" => Bytes("vector", what.Position),
@@ -398,16 +401,23 @@ public sealed class WirePageTests
                 "u16 number" => Bytes("u16", what.Command!.Number),
                 "u8 length" => [(byte)what.Command!.Length],
                 "data" => what.Command!.Data.ToArray(),
-                "u32 players" => Bytes("u32", what.Players.Mask),
                 "u8 occupied" => Bytes("u8", (byte)what.WhenOccupied),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });
         }
 
-        Assert.Equal(int.Parse(row[2].Split(' ', StringSplitOptions.RemoveEmptyEntries)[0], CultureInfo.InvariantCulture) + (what.Command?.Length ?? 0), EventFormat.EncodedLength(what));
+        byte[] more = what.Kind == EventKind.Spawn ? More(page, what) : what.Command?.Data.ToArray() ?? [];
+        Assert.Equal(int.Parse(row[2].Split(' ', StringSplitOptions.RemoveEmptyEntries)[0], CultureInfo.InvariantCulture) + more.Length, EventFormat.EncodedLength(what));
         return bytes.ToArray();
     }
+
+    /// <summary>What a spawn has besides: players, filter, tag.</summary>
+    private static byte[] More(string[] page, ExternalEvent spawn) =>
+    [
+        .. spawn.Players == PeerSet.Everyone ? [] : Bytes("u32", spawn.Players.Mask),
+        .. spawn.Spec.Filter.IsDefault ? [] : Spec(page, spawn.Spec)[^16..^8], .. spawn.Spec.Tag == 0 ? [] : Spec(page, spawn.Spec)[^8..],
+    ];
 
     private static byte[] Spec(string[] page, BodySpec spec)
     {
