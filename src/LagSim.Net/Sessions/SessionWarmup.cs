@@ -65,7 +65,8 @@ internal sealed class SessionWarmup
 
         ClientOptions options = ClientOptions.From(Options(strategy, 8)) with
         {
-            Contacts = new ContactNotices(), Rules = new[] { scene.Rules! },
+            Contacts = new ContactNotices(),
+            Rules = new[] { scene.Rules! },
         };
         client = new PeerThread(new ClientSession(null, clientPort, clock, options, hostPort.LocalAddress, 2), clientPort, "warm-up client");
         host.Session.Logged += entry => Note(entry, HeardByHost, from: 1);

@@ -1,8 +1,6 @@
 using System;
 using LagSim.Events;
 using LagSim.Scenes;
-using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,11 +1,9 @@
 using System;
-using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

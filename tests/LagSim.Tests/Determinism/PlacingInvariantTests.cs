@@ -2,7 +2,6 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Tests.Faults;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,4 +1,3 @@
-using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Rules;
 using LagSim.Scenes;

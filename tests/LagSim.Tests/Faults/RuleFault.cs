@@ -1,7 +1,5 @@
 using System;
-using System.Collections.Generic;
 using LagSim.Rules;
-using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Tests.Faults;

@@ -1,5 +1,4 @@
 using System.Linq;
-using LagSim.Rules;
 using LagSim.Tests.Determinism;
 using LagSim.Tests.Faults;
 using LagSim.Time;

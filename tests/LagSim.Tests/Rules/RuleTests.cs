@@ -5,7 +5,6 @@ using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

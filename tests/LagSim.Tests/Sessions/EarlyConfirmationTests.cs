@@ -5,7 +5,6 @@ using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
-using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Time;
 using LagSim.Timelines;

@@ -169,7 +169,13 @@ internal sealed class RawClient
     {
         UpdateDatagram update = new()
         {
-            SessionId = SessionId, Peer = Peer, Number = ++number, Sent = SimTime.FromSeconds(number), FirstIndex = firstIndex, Ready = true, Watermark = earliest,
+            SessionId = SessionId,
+            Peer = Peer,
+            Number = ++number,
+            Sent = SimTime.FromSeconds(number),
+            FirstIndex = firstIndex,
+            Ready = true,
+            Watermark = earliest,
         };
         byte[] bytes = new byte[update.EncodedLength];
         update.Encode(bytes);

@@ -1,5 +1,4 @@
 using System.Collections.Generic;
-using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Testing.Links;

@@ -81,8 +81,13 @@ public readonly record struct SceneFeatures
     /// <param name="contactSteps">The number of contact steps.</param>
     internal static SceneFeatures Of(Simulation alone, IReadOnlyList<ExternalEvent> accepted, long contactSteps)
     {
-        SceneFeatures met = new() { ContactSteps = contactSteps > 0, PeriodicBox = alone.Scene.Box.Exists, Crossings = alone.Crossings(alone.Start, alone.SimulatedTo).Count >= Often,
-            RulesCalled = alone.Engine.Rules?.Position >= Often };
+        SceneFeatures met = new()
+        {
+            ContactSteps = contactSteps > 0,
+            PeriodicBox = alone.Scene.Box.Exists,
+            Crossings = alone.Crossings(alone.Start, alone.SimulatedTo).Count >= Often,
+            RulesCalled = alone.Engine.Rules?.Position >= Often
+        };
         List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
         Dictionary<EventKey, int> steps = [];
         for (int n = 0; n < alone.BodyCount; n++)

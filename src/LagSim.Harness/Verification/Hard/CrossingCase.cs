@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Verification.References;
 using LagSim.Scenes;
-using LagSim.Time;
 using LagSim.Timelines;
 using static LagSim.Harness.Verification.Hard.HardWorlds;
 

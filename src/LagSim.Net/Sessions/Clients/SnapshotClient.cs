@@ -1,9 +1,7 @@
 using System;
-using System.Collections.Generic;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
-using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Clients;

@@ -1,6 +1,4 @@
-using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
-using LagSim.Net.Wire;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
