@@ -29,7 +29,7 @@ public sealed class CheckCaseTests
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Friction > 0 && b.Spin != Vector3D.Zero));
         Assert.All(Enumerable.Range(0, 7), n => Assert.Contains(Cases, c => c.Scene.Forces.Count == 7 && c.Scene.Bodies.Any(b => b.Spec.Forces.Contains(n))));
         Assert.Contains(cases, c => c.Scene.Bodies.Any(b => b.Spec.Restitution == 0));
-        Assert.Equal(9, cases.SelectMany(c => c.Actions).Select(d => d.Kind).Distinct().Count());
+        Assert.Equal(10, cases.SelectMany(c => c.Actions).Select(d => d.Kind).Distinct().Count());
         Assert.Contains(cases.SelectMany(c => c.Actions), d => d.Kind == EventKind.Spawn && d.Spin != Vector3D.Zero && d.Spec.Friction > 0);
         HashSet<string> links = [.. Cases.SelectMany(c => c.Players.Skip(1)).Select(p => p.Link.Name)];
         Assert.Superset(LinkProfiles.All.Where(p => !p.Name.StartsWith("delay-", StringComparison.Ordinal)).Select(p => p.Name).ToHashSet(), links);
