@@ -69,14 +69,16 @@ public sealed class ThroughputTests(ITestOutputHelper output)
     [InlineData("awful", 15)]
     public void Log_EightClientsActAllTheTime_ReachesEveryoneAndIsCommittedMeanwhile(string profile, double rate)
     {
-        // How long it is kept at most is the longest row of losses that the link draws: half of the draws are judged by.
-        double[] kept = [.. new ulong[] { 1, 2, 3 }.Select(seed => Kept(profile, rate, seed)).Order()];
-        Assert.InRange(kept[1], 3, 6);
+        // The most of anything is that of the longest row of losses that the link draws: the middle one of three draws is judged.
+        const double history = 3;
+        (double Kept, int Unconfirmed, int Log)[] draws = [.. new ulong[] { 1, 2, 3 }.Select(seed => PlayAll(profile, rate, history, seed))];
+        Assert.InRange(draws.Select(d => d.Kept).Order().ElementAt(1), history, history + 3);
+        Assert.InRange(draws.Select(d => d.Unconfirmed).Order().ElementAt(1), 1, rate * 3);
+        Assert.InRange(draws.Select(d => d.Log).Order().ElementAt(1), 1, 8 * rate * (history + 3) * 2);
     }
 
-    private double Kept(string profile, double rate, ulong seed)
+    private (double Kept, int Unconfirmed, int Log) PlayAll(string profile, double rate, double history, ulong seed)
     {
-        const double history = 3;
         SessionGroup group = Group(profile, 9, history, seed);
         double kept = 0;
         int unconfirmed = 0, log = 0;
@@ -91,14 +93,12 @@ public sealed class ThroughputTests(ITestOutputHelper output)
             }
         });
         Report($"{profile}: history kept for {kept:0.00} s, {unconfirmed} not judged, {log} of the log kept", group);
-        Assert.InRange(unconfirmed, 1, rate * 3);
-        Assert.InRange(log, 1, 8 * rate * (history + 3) * 2);
         Assert.All(group.Sessions, s => Assert.True(s.Counters.StatesAgreed > 3 || s is HostSession, $"{s.Counters.StatesAgreed} compared while all act"));
         group.Run(history + 5);
         Assert.Equal(Count(rate) * 8, group.Host.Counters.EventsAccepted);
         Assert.Equal(0, group.Host.Counters.EventsRefused);
         AssertAgreed(group);
-        return kept;
+        return (kept, unconfirmed, log);
     }
 
     [Fact]
