@@ -141,7 +141,7 @@ internal static class SnapshotCheck
         CheckSides(body, whose);
     }
 
-    /// <summary>Whoever enters is inside until it leaves, and the other way round.</summary>
+    /// <summary>What enters a sensor was outside of it, and what leaves was inside.</summary>
     private static void CheckSides(in BodySnapshot body, string whose)
     {
         for (int n = body.CrossingArray.Length - 1; n >= 0; n--)

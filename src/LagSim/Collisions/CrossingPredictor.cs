@@ -9,8 +9,9 @@ namespace LagSim.Collisions;
 
 /// <summary>When a body's newest segment next crosses the boundary of a sensor.</summary>
 /// <remarks>
-/// A pure function of the segment, of what the body has crossed on it, and of which sensors it is inside of. Whoever is inside waits for the
-/// way out, and whoever is outside for the way in. So the two alternate, whatever rounding does to a place on the boundary.
+/// A pure function of the segment, of what the body has crossed on it, and of which sensors it is inside of. A body that is inside
+/// is only watched for the way out, and one that is outside for the way in. So the two alternate, whatever rounding does to a place on the
+/// boundary.
 /// </remarks>
 internal class CrossingPredictor(Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, CrossingLog log)
 {

@@ -62,7 +62,7 @@ internal sealed class FilterChange(Scene scene, BodyTable bodies, TimelineStore 
     }
 
     /// <summary>
-    /// Whether there may be something that collides with a filter and did not with the one before. Such a body is asked anew what it
+    /// Whether there may be something that collides with a filter and did not with the one before. Such a body is asked again what it
     /// touches, as one that was put there: two that rest are not tested against each other.
     /// </summary>
     private static bool IsWider(CollisionFilter filter, CollisionFilter before) =>

@@ -18,7 +18,7 @@ internal sealed class JoinIdentification(HostOptions options, PlayerPlaces place
     {
         bool isSpectator = join.Role == (byte)PeerRole.Spectator;
         (byte keyed, string? key) = KeyOf(join);
-        keyed = isSpectator ? (byte)0 : keyed; // whoever watches takes nobody's place, not even the own
+        keyed = isSpectator ? (byte)0 : keyed; // a spectator takes no player's place, not even one that was its own
         PlayerPlaces.Place? claimed = places.Claimed(join, keyed, identity);
         if (key is null || options.Protection is not { RequiresToken: true } protection)
         {
