@@ -86,10 +86,11 @@ internal sealed class Engine
             Crossings = new CrossingLog(scene.SensorArray.Length, Bodies, Timelines, Progress);
             Reader.Crossings = Crossings;
             Rewinder.Crossings = Crossings;
-            predictor.Crossings = parts.CrossingPredictor(scene, start, Bodies, Timelines, Crossings);
+            Rewinder.Carried = CarriedSensors.Of(scene, Bodies, Crossings);
+            predictor.Crossings = parts.CrossingPredictor(scene, start, Bodies, Timelines, view, Crossings);
             Reconvergence.Keep(parts.CutCrossings(Crossings));
             Reconvergence.CrossingObserver = options.CrossingObserver;
-            crossingHandler = new CrossingHandler(Crossings, graph);
+            crossingHandler = new CrossingHandler(scene, Bodies, Timelines, Crossings, graph, rewinds);
         }
 
         // Islands.

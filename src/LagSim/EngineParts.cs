@@ -53,8 +53,9 @@ internal class EngineParts
 
     internal virtual CutCrossings CutCrossings(CrossingLog log) => new(log);
 
-    internal virtual CrossingPredictor CrossingPredictor(Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, CrossingLog log) =>
-        new(scene, start, bodies, timelines, log);
+    internal virtual CrossingPredictor CrossingPredictor(
+        Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, SegmentLookup view, CrossingLog log) =>
+        new(scene, start, bodies, timelines, view, log);
 
     internal virtual Rewinder Rewinder(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,

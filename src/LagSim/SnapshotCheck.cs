@@ -123,6 +123,7 @@ internal static class SnapshotCheck
             }
 
             before = sensor;
+            CheckCarrier(scene.SensorArray[sensor], body.Id, whose);
         }
 
         for (int n = 0; n < body.CrossingArray.Length; n++)
@@ -136,9 +137,19 @@ internal static class SnapshotCheck
                     $"In the snapshot {crossing}, in the path of {whose}; it must be of that body, of one of {Limits.Count(scene.SensorArray.Length, "sensor")},"
                     + $" after {least} and before {snapshot.Time.ToShortString()}.");
             }
+
+            CheckCarrier(scene.SensorArray[crossing.Sensor], body.Id, whose);
         }
 
         CheckSides(body, whose);
+    }
+
+    private static void CheckCarrier(in Sensor sensor, BodyId body, string whose)
+    {
+        if (sensor.Carrier == body)
+        {
+            throw new SceneException($"In the snapshot sensor '{sensor.Name}' sees {whose}, which carries it; no sensor sees its carrier.");
+        }
     }
 
     /// <summary>What enters a sensor was outside of it, and what leaves was inside.</summary>

@@ -51,10 +51,10 @@ internal static class PartJson
                     friction = cursor.Number();
                     break;
                 case "category":
-                    filter = new CollisionFilter(Bits(ref cursor), filter.Mask);
+                    filter = new CollisionFilter(SceneJsonValues.Bits(ref cursor), filter.Mask);
                     break;
                 case "mask":
-                    filter = new CollisionFilter(filter.Category, Bits(ref cursor));
+                    filter = new CollisionFilter(filter.Category, SceneJsonValues.Bits(ref cursor));
                     break;
                 default:
                     restitution = cursor.Number();
@@ -101,10 +101,10 @@ internal static class PartJson
                     friction = cursor.Number();
                     break;
                 case "category":
-                    filter = new CollisionFilter(Bits(ref cursor), filter.Mask);
+                    filter = new CollisionFilter(SceneJsonValues.Bits(ref cursor), filter.Mask);
                     break;
                 case "mask":
-                    filter = new CollisionFilter(filter.Category, Bits(ref cursor));
+                    filter = new CollisionFilter(filter.Category, SceneJsonValues.Bits(ref cursor));
                     break;
                 default:
                     restitution = cursor.Number();
@@ -183,10 +183,10 @@ internal static class PartJson
                     spin = cursor.Vector();
                     break;
                 case "category":
-                    filter = new CollisionFilter(Bits(ref cursor), filter.Mask);
+                    filter = new CollisionFilter(SceneJsonValues.Bits(ref cursor), filter.Mask);
                     break;
                 case "mask":
-                    filter = new CollisionFilter(filter.Category, Bits(ref cursor));
+                    filter = new CollisionFilter(filter.Category, SceneJsonValues.Bits(ref cursor));
                     break;
                 case "tag":
                     tag = cursor.Whole(ulong.MaxValue);
@@ -204,6 +204,4 @@ internal static class PartJson
             b.AddBody(name, spec, position, velocity, players, spin);
         };
     }
-
-    private static uint Bits(ref JsonCursor cursor) => (uint)cursor.Whole(uint.MaxValue);
 }

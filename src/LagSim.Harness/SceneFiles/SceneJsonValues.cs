@@ -59,4 +59,7 @@ internal static class SceneJsonValues
             ? SimDuration.FromSeconds(seconds)
             : throw cursor.Fail($"the step is {seconds:R} s; it must lie between 1E-06 and 1 s");
     }
+
+    /// <summary>Reads 32 bits as a number.</summary>
+    internal static uint Bits(ref JsonCursor cursor) => (uint)cursor.Whole(uint.MaxValue);
 }

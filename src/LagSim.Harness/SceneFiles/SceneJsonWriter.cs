@@ -74,7 +74,7 @@ internal static class SceneJsonWriter
         List(json, "bodies", scene.Bodies, body => Body(json, scene, body));
         if (scene.Sensors.Count > 0)
         {
-            List(json, "sensors", scene.Sensors, sensor => WriteSensor(json, sensor));
+            List(json, "sensors", scene.Sensors, sensor => WriteSensor(json, scene, sensor));
         }
 
         json.WriteEndObject();
@@ -196,7 +196,7 @@ internal static class SceneJsonWriter
         }
     }
 
-    private static void WriteSensor(Utf8JsonWriter json, in Sensor sensor)
+    private static void WriteSensor(Utf8JsonWriter json, Scene scene, in Sensor sensor)
     {
         json.WriteString("name", sensor.Name);
         json.WriteString("shape", SensorNames.Of(sensor.Shape));
@@ -208,6 +208,11 @@ internal static class SceneJsonWriter
         bool isPlane = sensor.Shape == SensorShape.Plane;
         Vector(json, isPlane ? "normal" : "centre_m", isPlane ? sensor.Normal : sensor.Centre);
         json.WriteNumber(isPlane ? "offset_m" : "radius_m", isPlane ? sensor.Offset : sensor.Radius);
+        Filter(json, sensor.Filter);
+        if (sensor.Carrier is BodyId carrier)
+        {
+            json.WriteString("carrier", scene.Bodies[carrier.Index].Name);
+        }
     }
 
     private static void WriteForce(Utf8JsonWriter json, Force force)

@@ -6,7 +6,7 @@ namespace LagSim.Harness.SceneFiles;
 /// <summary>Reads the sensors of scene files: each becomes what adds it to a scene.</summary>
 internal static class SensorJson
 {
-    private static readonly JsonKeys Keys = new(["name", "shape"], ["coverage", "normal", "point_m", "offset_m", "centre_m", "radius_m"]);
+    private static readonly JsonKeys Keys = new(["name", "shape"], ["coverage", "normal", "point_m", "offset_m", "centre_m", "radius_m", "category", "mask", "carrier"]);
 
     /// <summary>Reads a sensor.</summary>
     /// <exception cref="SceneFileException">A key is missing, or does not belong to a sensor of that shape.</exception>
@@ -20,6 +20,8 @@ internal static class SensorJson
         double? offset = null;
         Vector3D? centre = null;
         double? radius = null;
+        CollisionFilter filter = default;
+        string? carrier = null;
         uint seen = 0;
         cursor.EnterObject();
         while (cursor.NextKey(Keys, ref seen) is string key)
@@ -47,6 +49,15 @@ internal static class SensorJson
                 case "centre_m":
                     centre = cursor.Vector();
                     break;
+                case "category":
+                    filter = new CollisionFilter(SceneJsonValues.Bits(ref cursor), filter.Mask);
+                    break;
+                case "mask":
+                    filter = new CollisionFilter(filter.Category, SceneJsonValues.Bits(ref cursor));
+                    break;
+                case "carrier":
+                    carrier = SceneJsonValues.Name(ref cursor);
+                    break;
                 default:
                     radius = cursor.Number();
                     break;
@@ -59,9 +70,14 @@ internal static class SensorJson
         Require(cursor, shape, "radius_m", radius.HasValue, !isPlane);
         Require(cursor, shape, "point_m", point.HasValue, isPlane && !offset.HasValue);
         Require(cursor, shape, "offset_m", offset.HasValue, isPlane && !point.HasValue);
-        return b => _ = !isPlane ? b.AddSensorSphere(name, centre!.Value, radius!.Value, coverage)
-            : point is Vector3D through ? b.AddSensorPlane(name, normal!.Value, through, coverage)
-            : b.AddSensorPlane(name, normal!.Value, offset!.Value, coverage);
+        if (isPlane && carrier is not null)
+        {
+            throw cursor.FailAt("carrier", "no body carries a plane; only a sensor of shape \"sphere\" has this key");
+        }
+
+        return b => _ = !isPlane ? b.AddSensorSphere(name, centre!.Value, radius!.Value, coverage, filter, carrier)
+            : point is Vector3D through ? b.AddSensorPlane(name, normal!.Value, through, coverage, filter)
+            : b.AddSensorPlane(name, normal!.Value, offset!.Value, coverage, filter);
     }
 
     private static string Shape(ref JsonCursor cursor)

@@ -11,7 +11,7 @@ public static class RecordingFormat
     public const string Extension = ".lagsim";
 
     /// <summary>The version of the records. The scene and events in them use that of the wire, <see cref="WireFormat.Version"/>.</summary>
-    public const byte Version = 5;
+    public const byte Version = 6;
 
     /// <summary>The longest snapshot of a late client in a recording: 64 MiB.</summary>
     public const int MaxSnapshotBytes = 1 << 26;

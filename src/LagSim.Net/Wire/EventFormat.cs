@@ -32,12 +32,13 @@ internal static class EventFormat
     private const int SpecHeadBytes = 61;
     private const int TagBytes = sizeof(ulong);
     private const int PlainSpawnBytes = HeadBytes + SpecHeadBytes + (3 * VectorBytes) + 1; // everyone's, without a filter and a tag
+    private const int OccupiedShift = 6; // the two highest bits of the kind: what becomes of what is put where another body is
+    private const int KindBits = (1 << OccupiedShift) - 1;
 
-    // What a spawn has, so that a plain one stays short: the lowest two bits say what becomes of it where another body is.
-    private const int OccupiedBits = 3;
-    private const int PlayersFlag = 4;
-    private const int FilterFlag = 8;
-    private const int TagFlag = 16;
+    // What a spawn has, so that a plain one stays short.
+    private const int PlayersFlag = 1;
+    private const int FilterFlag = 2;
+    private const int TagFlag = 4;
 
     /// <summary>The length of an event in bytes; 0 for a kind that cannot be encoded.</summary>
     public static int EncodedLength(in ExternalEvent what)
@@ -57,8 +58,7 @@ internal static class EventFormat
         EventKind.Spawn => PlainSpawnBytes,
         EventKind.Remove => BodyEventBytes,
         EventKind.SetFilter => BodyEventBytes + FilterBytes,
-        EventKind.Teleport => BodyEventBytes + (2 * VectorBytes) + 1,
-        EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
+        EventKind.Teleport or EventKind.HoldKeyframe => BodyEventBytes + (2 * VectorBytes),
         EventKind.SetVelocity or EventKind.Impulse or EventKind.Grab or EventKind.Release => BodyEventBytes + VectorBytes,
         _ => 0,
     };
@@ -86,7 +86,7 @@ internal static class EventFormat
             throw new ArgumentException($"'{what}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(what));
         }
 
-        writer.WriteByte((byte)what.Kind);
+        writer.WriteByte((byte)((int)what.Kind | ((int)what.WhenOccupied << OccupiedShift)));
         writer.WriteByte(what.Peer);
         writer.WriteUInt32(what.Sequence);
         writer.WriteTime(what.Time);
@@ -121,11 +121,6 @@ internal static class EventFormat
             WriteWhatItHas(ref writer, what);
         }
 
-        if (what.Kind == EventKind.Teleport)
-        {
-            writer.WriteByte((byte)what.WhenOccupied);
-        }
-
         if (what.Kind == EventKind.SetFilter)
         {
             WriteFilter(ref writer, what.Filter);
@@ -136,8 +131,11 @@ internal static class EventFormat
     /// <returns>The event; <c>default</c> when the reader has refused.</returns>
     public static ExternalEvent Read(ref WireReader reader)
     {
-        EventKind kind = (EventKind)reader.ReadByte();
-        reader.Require(ShortestLength(kind) > 0 || kind == EventKind.Command);
+        int first = reader.ReadByte();
+        EventKind kind = (EventKind)(first & KindBits);
+        WhenOccupied whenOccupied = (WhenOccupied)(first >> OccupiedShift);
+        reader.Require((ShortestLength(kind) > 0 || kind == EventKind.Command)
+            && (whenOccupied == WhenOccupied.Overlap || kind is EventKind.Spawn or EventKind.Teleport));
         byte peer = reader.ReadByte();
         uint sequence = reader.ReadUInt32();
         SimTime time = reader.ReadTime();
@@ -152,10 +150,9 @@ internal static class EventFormat
         Vector3D velocity = HasVelocity(kind) ? reader.ReadVector() : default;
         Vector3D spin = kind == EventKind.Spawn ? reader.ReadVector() : default;
         PeerSet players = default;
-        WhenOccupied whenOccupied = kind == EventKind.Teleport ? (WhenOccupied)reader.ReadByte() : default;
         if (kind == EventKind.Spawn)
         {
-            ReadWhatItHas(ref reader, ref spec, out players, out whenOccupied);
+            ReadWhatItHas(ref reader, ref spec, out players);
         }
 
         CollisionFilter filter = kind == EventKind.SetFilter ? ReadFilter(ref reader) : default;
@@ -224,7 +221,7 @@ internal static class EventFormat
         && spec.RollingResistance is >= 0 and <= 1
         && (spec.Forces.IsEmpty || spec.Flight != MotionLaw.Ballistic);
 
-    private static int Has(in ExternalEvent spawn) => (int)spawn.WhenOccupied | (spawn.Players != PeerSet.Everyone ? PlayersFlag : 0)
+    private static int Has(in ExternalEvent spawn) => (spawn.Players != PeerSet.Everyone ? PlayersFlag : 0)
         | (!spawn.Spec.Filter.IsDefault ? FilterFlag : 0) | (spawn.Spec.Tag != 0 ? TagFlag : 0);
 
     private static void WriteWhatItHas(ref WireWriter writer, in ExternalEvent spawn)
@@ -247,11 +244,10 @@ internal static class EventFormat
         }
     }
 
-    private static void ReadWhatItHas(ref WireReader reader, ref BodySpec spec, out PeerSet players, out WhenOccupied whenOccupied)
+    private static void ReadWhatItHas(ref WireReader reader, ref BodySpec spec, out PeerSet players)
     {
         int has = reader.ReadByte();
         reader.Require(has < 2 * TagFlag);
-        whenOccupied = (WhenOccupied)(has & OccupiedBits);
         players = (has & PlayersFlag) != 0 ? ReadPeers(ref reader) : default;
         CollisionFilter filter = (has & FilterFlag) != 0 ? ReadFilter(ref reader) : default;
         ulong tag = (has & TagFlag) != 0 ? reader.ReadUInt64() : 0;

@@ -14,6 +14,7 @@ internal ref struct SceneDecoder
     private readonly int length;
     private readonly List<Vector3D> normals;
     private readonly List<Vector3D> sensorVectors;
+    private readonly List<string> bodyNames;
     private WireReader reader;
     private string? error;
 
@@ -27,6 +28,7 @@ internal ref struct SceneDecoder
         length = bytes.Length;
         normals = new List<Vector3D>();
         sensorVectors = new List<Vector3D>();
+        bodyNames = new List<string>();
         reader = new WireReader(bytes, SceneFormat.MaxBytes);
         error = null;
         part = "head";
@@ -194,6 +196,7 @@ internal ref struct SceneDecoder
             if (IsSound)
             {
                 builder.AddBody(name, spec, position, velocity, players, spin);
+                bodyNames.Add(name);
             }
         }
     }
@@ -209,16 +212,24 @@ internal ref struct SceneDecoder
             SensorCoverage coverage = (SensorCoverage)reader.ReadByte();
             Vector3D vector = reader.ReadVector();
             double measure = reader.ReadDouble();
+            CollisionFilter filter = EventFormat.ReadFilter(ref reader);
+            uint carrier = reader.ReadUInt32(); // its number, counted from 1
             if (IsSound && shape > SensorShape.Sphere)
             {
                 Refuse($"Sensor {number} of the scene has shape {(byte)shape}; shapes are 0 to {(byte)SensorShape.Sphere}.");
             }
 
+            uint most = shape == SensorShape.Plane ? 0 : (uint)bodyNames.Count;
+            if (IsSound && carrier > most)
+            {
+                Refuse($"Sensor {number} of the scene is carried by body {carrier}; 0 to {most} are allowed, 0 for none.");
+            }
+
             if (IsSound)
             {
                 _ = shape == SensorShape.Plane
-                    ? builder.AddSensorPlane(name, vector, measure, coverage)
-                    : builder.AddSensorSphere(name, vector, measure, coverage);
+                    ? builder.AddSensorPlane(name, vector, measure, coverage, filter)
+                    : builder.AddSensorSphere(name, vector, measure, coverage, filter, carrier == 0 ? null : bodyNames[(int)carrier - 1]);
                 sensorVectors.Add(vector);
             }
         }

@@ -32,7 +32,7 @@ internal static class SceneFormat
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 4;
-    internal const int SensorBytes = EventFormat.VectorBytes + 10; // shape, coverage, a vector and a number
+    internal const int SensorBytes = EventFormat.VectorBytes + EventFormat.FilterBytes + 14; // shape, coverage, a vector, a number, a filter and the carrier
     private const int RulesBytes = 9 + MaxTextBytes + 12; // seed, whether there are any; name, author's version, two sizes
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, five counts.
@@ -101,6 +101,8 @@ internal static class SceneFormat
             writer.WriteByte((byte)sensor.Coverage);
             writer.WriteVector(sensor.Shape == SensorShape.Plane ? sensor.Normal : sensor.Centre);
             writer.WriteDouble(sensor.Shape == SensorShape.Plane ? sensor.Offset : sensor.Radius);
+            EventFormat.WriteFilter(ref writer, sensor.Filter);
+            writer.WriteUInt32(sensor.Carrier is BodyId carrier ? (uint)carrier.Index + 1 : 0);
         }
 
         writer.WriteUInt64(scene.Seed);

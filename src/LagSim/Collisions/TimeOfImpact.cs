@@ -100,14 +100,20 @@ internal static class TimeOfImpact
     }
 
     /// <summary>
-    /// When a moving point next leaves a sphere that never moves, in [from, until]; at once where it is outside and moves outward.
+    /// When a moving point next leaves a sphere, in [from, until]; at once where it is outside and moves outward.
     /// </summary>
     internal static bool OutOfSphere(
-        in MotionSegment segment, in DenseOutput dense, in Vector3D centre, double reach, SimTime from, SimTime until, out ContactTime contact)
+        in MotionSegment segment, in DenseOutput dense, in MotionSegment centre, in DenseOutput denseCentre, double reach, SimTime from,
+        SimTime until, out ContactTime contact)
     {
         Span<Vector3D> d = stackalloc Vector3D[PathLength];
-        int length = Path(segment, dense, from, d);
-        d[0] -= centre;
+        Span<Vector3D> other = stackalloc Vector3D[PathLength];
+        int length = Math.Max(Path(segment, dense, from, d), Path(centre, denseCentre, from, other));
+        for (int i = 0; i < length; i++)
+        {
+            d[i] -= other[i];
+        }
+
         while (length > 1 && d[length - 1] == Vector3D.Zero)
         {
             length--;

@@ -20,7 +20,7 @@ internal sealed class EventDispatcher(
     /// </summary>
     internal void Process(int slot, in EventKey key)
     {
-        if (key.Kind == EventKind.None || (key.Kind == EventKind.Impact && predictor.IsStale(slot, key)))
+        if (key.Kind == EventKind.None || (key.Kind is EventKind.Impact or EventKind.Crossing && predictor.IsStale(slot, key)))
         {
             predictor.Recheck(slot);
             return;
@@ -30,7 +30,7 @@ internal sealed class EventDispatcher(
         {
             EventKind.Impact => impacts.TryHandle(slot, key),
             EventKind.StepEnd => steps.TryHandle(slot, key),
-            EventKind.Crossing => crossings!.Handle(slot, key),
+            EventKind.Crossing => crossings!.TryHandle(key),
             _ => externals.TryHandle(slot, key),
         };
         while (!isDone && rewinds.TryTake(out int ahead, out EventKey to))
@@ -40,6 +40,7 @@ internal sealed class EventDispatcher(
 
         if (isDone)
         {
+            rewinder.RewindCarried();
             for (int i = 0; i < graph.BodyCount; i++)
             {
                 predictor.Predict(graph.Slots[i]);

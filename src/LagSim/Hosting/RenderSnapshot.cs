@@ -1,4 +1,5 @@
 using System;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -20,6 +21,8 @@ public sealed class RenderSnapshot
     private int[] slots = Array.Empty<int>();
     private long orderVersion = -1;
     private PeriodicBox box;
+    private RenderRules? rules; // only in a scene that has some
+    private Scene? scene;
 
     internal RenderSnapshot()
     {
@@ -79,6 +82,27 @@ public sealed class RenderSnapshot
         hold = default;
         at = default;
         return n >= 0 && timelines[slots[n]].TryReadHoldEnd(after, upTo, out hold, out at);
+    }
+
+    /// <summary>The world's state of the scene's rules, such as a score, at an instant that the render snapshot covers.</summary>
+    /// <typeparam name="T">The type that the rules declare.</typeparam>
+    /// <returns>False, and the default, if the instant is not covered, the scene has no rules, or they declare another type.</returns>
+    /// <remarks>It is what the world predicts: a late event may still change it. Cost: the calls since that instant, and a copy.</remarks>
+    public bool TryReadRules<T>(SimTime time, out T state)
+        where T : unmanaged
+    {
+        state = default;
+        return rules is not null && Covers(time) && RuleStateReader.TryRead(scene!, rules.At(time), out state);
+    }
+
+    /// <summary>A body's state of the scene's rules at an instant that the render snapshot covers.</summary>
+    /// <typeparam name="T">The type that the rules declare for bodies.</typeparam>
+    /// <returns>False, and the default, if the body has none, or as above.</returns>
+    public bool TryReadRules<T>(BodyId body, SimTime time, out T state)
+        where T : unmanaged
+    {
+        state = default;
+        return rules is not null && Covers(time) && RuleStateReader.TryRead(scene!, rules.At(time), body, out state);
     }
 
     /// <summary>The radius of a body, in metres; 0 for one that is unknown or was never there.</summary>
@@ -156,7 +180,14 @@ public sealed class RenderSnapshot
             SetTag(slot, simulation.Engine.Bodies.Spec(slot).Tag);
         }
 
-        box = simulation.Scene.Box;
+        if (simulation.Engine.Rules is RuleLog log)
+        {
+            rules ??= new RenderRules();
+            rules.Follow(log, from);
+        }
+
+        scene = simulation.Scene;
+        box = scene.Box;
         Number = number;
         From = from;
         To = simulation.Horizon;

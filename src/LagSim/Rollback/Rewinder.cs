@@ -33,6 +33,7 @@ internal class Rewinder : ISegmentOpenedObserver
     private readonly HealingMode mode;
     private readonly Stack<(int Slot, EventKey Key)> cuts = new();
     private readonly List<int> cut = new(); // the bodies cut since the last prediction
+    private readonly List<(int Slot, EventKey Key)> dependents = new(); // bodies that cross what a body carries whose path has changed
     private HealReport report; // what the current rollback began with
 
     internal Rewinder(
@@ -59,6 +60,9 @@ internal class Rewinder : ISegmentOpenedObserver
 
     /// <summary>The crossings of sensors, which are cut with the paths; null in a scene without.</summary>
     internal CrossingLog? Crossings { get; set; }
+
+    /// <summary>The sensors that bodies carry; null in a scene without.</summary>
+    internal CarriedSensors? Carried { get; set; }
 
     /// <summary>
     /// With so few bodies or less a rollback never rewinds all that it has not touched; an eighth of all for each late event is the limit
@@ -87,6 +91,19 @@ internal class Rewinder : ISegmentOpenedObserver
             {
                 CutCrossings(crossings, slot, key); // what it crossed later on the segment that ends here
             }
+
+            AddDependents(slot, key);
+        }
+    }
+
+    /// <summary>An event is done: bodies that crossed later what is carried on paths that have ended with it are rewound.</summary>
+    internal void RewindCarried()
+    {
+        while (dependents.Count > 0)
+        {
+            (int slot, EventKey key) = dependents[dependents.Count - 1];
+            dependents.RemoveAt(dependents.Count - 1);
+            Rewind(slot, key);
         }
     }
 
@@ -273,7 +290,20 @@ internal class Rewinder : ISegmentOpenedObserver
 
             if (Crossings is CrossingLog crossings)
             {
+                bool crosses = crossings.Last(body) is int newest && newest != CrossingLog.None && EventKey.Compare(crossings.Key(newest), from) >= 0;
+                if (crosses && body != slot)
+                {
+                    Touch(body);
+                    any = true; // it crosses what the other carries
+                }
+
                 CutCrossings(crossings, body, from);
+                int known = dependents.Count;
+                AddDependents(body, from);
+                for (; dependents.Count > known; dependents.RemoveAt(dependents.Count - 1))
+                {
+                    cuts.Push(dependents[dependents.Count - 1]);
+                }
             }
 
             if (any)
@@ -286,6 +316,9 @@ internal class Rewinder : ISegmentOpenedObserver
             }
         }
     }
+
+    /// <summary>Adds the bodies that from a key on cross what a body carries.</summary>
+    private protected virtual void AddDependents(int slot, in EventKey from) => Carried?.AddDependents(slot, from, dependents);
 
     /// <summary>From which key on a body is cut that is rewound to a key: from that very key.</summary>
     private protected virtual EventKey CutsFrom(in EventKey key) => key;

@@ -280,8 +280,8 @@ internal class RuleLog : IRuleTriggers
         Position -= count;
     }
 
-    /// <summary>The state after everything up to and including a time.</summary>
-    internal StateVersion StateAt(SimTime time)
+    /// <summary>The place of the first call that stands after a time; <see cref="Position"/> if none does.</summary>
+    internal int FirstAfter(SimTime time)
     {
         int n = Position;
         while (n > 0 && calls[n - 1].Key.Time > time)
@@ -289,8 +289,11 @@ internal class RuleLog : IRuleTriggers
             n--;
         }
 
-        return n == 0 ? first! : calls[n - 1].After!;
+        return n;
     }
+
+    /// <summary>The state after everything up to and including a time.</summary>
+    internal StateVersion StateAt(SimTime time) => FirstAfter(time) is int n && n > 0 ? calls[n - 1].After! : first!;
 
     /// <summary>The sum of the hashes of all calls up to and including a time, with the state after each.</summary>
     internal ulong EventHash(SimTime time)

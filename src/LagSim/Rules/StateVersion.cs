@@ -14,9 +14,13 @@ internal sealed class StateVersion
     /// <summary>The encoded state.</summary>
     internal ReadOnlySpan<byte> Bytes => bytes.AsSpan(0, length);
 
+    /// <summary>A number that no other state of this world ever has; 0 before the first.</summary>
+    internal long Serial { get; private set; }
+
     /// <summary>Takes the place of another state that nobody keeps.</summary>
-    internal void Set(ReadOnlySpan<byte> state)
+    internal void Set(ReadOnlySpan<byte> state, long serial)
     {
+        Serial = serial;
         if (bytes.Length < state.Length)
         {
             bytes = new byte[Math.Max(state.Length, 2 * bytes.Length)];

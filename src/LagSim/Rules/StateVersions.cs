@@ -8,12 +8,13 @@ namespace LagSim.Rules;
 internal sealed class StateVersions
 {
     private readonly Stack<StateVersion> free = new();
+    private long lastSerial;
 
     /// <summary>A version of this state, kept once.</summary>
     internal StateVersion Add(ReadOnlySpan<byte> state)
     {
         StateVersion version = free.Count > 0 ? free.Pop() : new StateVersion();
-        version.Set(state);
+        version.Set(state, ++lastSerial);
         version.Uses = 1;
         return version;
     }

@@ -264,9 +264,18 @@ public sealed class Scene
 
         foreach (Sensor sensor in SensorArray)
         {
-            hash.Add((ulong)sensor.Shape | ((ulong)sensor.Coverage << 8));
+            hash.Add((ulong)sensor.Shape | ((ulong)sensor.Coverage << 8) | (sensor.Filter.IsDefault ? 0 : 1UL << 16) | (sensor.Carrier is null ? 0 : 1UL << 17));
             hash.Add(sensor.Vector);
             hash.Add(sensor.Measure);
+            if (!sensor.Filter.IsDefault)
+            {
+                hash.Add(sensor.Filter.Packed);
+            }
+
+            if (sensor.Carrier is BodyId carrier)
+            {
+                hash.Add(carrier.Packed);
+            }
         }
 
         AddRules(ref hash);

@@ -5,7 +5,7 @@ namespace LagSim.Scenes;
 
 /// <summary>Collects what a <see cref="Scene"/> consists of and checks it on <see cref="Build"/>.</summary>
 /// <remarks>Not thread-safe. Nothing is checked before <see cref="Build"/>, nothing is silently clamped.</remarks>
-public sealed partial class SceneBuilder
+public sealed class SceneBuilder
 {
     /// <summary>Gravity where a scene sets none: 9.81 m/s^2 downwards.</summary>
     public static readonly Vector3D DefaultGravity = new(0, -9.81, 0);
@@ -28,11 +28,16 @@ public sealed partial class SceneBuilder
     /// <summary>The most bodies a scene may have.</summary>
     public const int MaxBodies = BodyId.MaxIndex + 1;
 
+    /// <summary>The most sensors a scene may have. Each is looked at whenever a body's next event is predicted.</summary>
+    public const int MaxSensors = 1024;
+
     private readonly string name;
     private readonly List<StaticPlane> planes = new();
     private readonly List<StaticSphere> spheres = new();
     private readonly List<SceneBody> bodies = new();
     private readonly List<Force> forces = new();
+    private readonly List<Sensor> sensors = new();
+    private readonly List<string?> carriers = new(); // of each sensor the name of the body that carries it
     private Vector3D gravity = DefaultGravity;
     private PeerSet spawners;
     private PeriodicBox box;
@@ -122,7 +127,7 @@ public sealed partial class SceneBuilder
             throw new SceneException($"The point of plane '{planeName}' is {point}; every component must be finite.");
         }
 
-        return AddPlane(planeName, normal, Vector3D.Dot(Unit("plane", planeName, normal), point), restitution, friction, filter);
+        return AddPlane(planeName, normal, Vector3D.Dot(UnitNormal.Of("plane", planeName, normal), point), restitution, friction, filter);
     }
 
     /// <summary>Adds the plane of the points p with n . p = <paramref name="offset"/>, n the normal at unit length, towards the
@@ -138,7 +143,7 @@ public sealed partial class SceneBuilder
     public SceneBuilder AddPlane(
         string planeName, Vector3D normal, double offset, double restitution = 1, double friction = Limits.MaxFriction, CollisionFilter filter = default)
     {
-        planes.Add(new StaticPlane(planeName, Unit("plane", planeName, normal), offset + 0.0, restitution, friction, filter));
+        planes.Add(new StaticPlane(planeName, UnitNormal.Of("plane", planeName, normal), offset + 0.0, restitution, friction, filter));
         return this;
     }
 
@@ -189,6 +194,57 @@ public sealed partial class SceneBuilder
     public SceneBuilder WithPeriodicBox(Vector3D size)
     {
         box = new PeriodicBox(size);
+        return this;
+    }
+
+    /// <summary>Adds a sensor behind a plane through a point, such as a goal behind its line. It touches nothing and never moves.</summary>
+    /// <param name="sensorName">1 to 64 characters, no control characters among them, and no other part's.</param>
+    /// <param name="normal">Points away from the region; of any length between 1e-150 and 1e150.</param>
+    /// <param name="point">Any point of the plane, in metres.</param>
+    /// <param name="coverage">How much of a body has to be behind the plane; default its centre.</param>
+    /// <param name="filter">Which bodies it sees: those that would collide with this; default all.</param>
+    /// <exception cref="SceneException">The point is not finite, or the normal has no length.</exception>
+    public SceneBuilder AddSensorPlane(
+        string sensorName, Vector3D normal, Vector3D point, SensorCoverage coverage = SensorCoverage.Centre, CollisionFilter filter = default)
+    {
+        if (!point.IsFinite)
+        {
+            throw new SceneException($"The point of sensor '{sensorName}' is {point}; every component must be finite.");
+        }
+
+        return AddSensorPlane(sensorName, normal, Vector3D.Dot(UnitNormal.Of("sensor", sensorName, normal), point), coverage, filter);
+    }
+
+    /// <summary>Adds a sensor of the points p with n . p below <paramref name="offset"/>, n the normal at unit length.</summary>
+    /// <param name="sensorName">1 to 64 characters, no control characters among them, and no other part's.</param>
+    /// <param name="normal">Points away from the region; of any length between 1e-150 and 1e150.</param>
+    /// <param name="offset">The signed distance of the plane from the origin along the normal, in metres, within 1e12.</param>
+    /// <param name="coverage">How much of a body has to be behind the plane; default its centre.</param>
+    /// <param name="filter">Which bodies it sees: those that would collide with this; default all.</param>
+    /// <exception cref="SceneException">The normal is not finite, or has no length.</exception>
+    public SceneBuilder AddSensorPlane(
+        string sensorName, Vector3D normal, double offset, SensorCoverage coverage = SensorCoverage.Centre, CollisionFilter filter = default)
+    {
+        sensors.Add(new Sensor(sensorName, SensorShape.Plane, UnitNormal.Of("sensor", sensorName, normal), offset + 0.0, coverage, filter));
+        carriers.Add(null);
+        return this;
+    }
+
+    /// <summary>Adds a sensor in a sphere, which touches nothing. It never moves, or goes with a body: a player's reach, a magnet's.</summary>
+    /// <param name="sensorName">1 to 64 characters, no control characters among them, and no other part's.</param>
+    /// <param name="centre">In metres, each component within 1e12; from the centre of the carrier, without turning, if there is
+    /// one.</param>
+    /// <param name="radius">In metres, 1e-9 to 1e9.</param>
+    /// <param name="coverage">How much of a body has to be in the sphere; default its centre.</param>
+    /// <param name="filter">Which bodies it sees: those that would collide with this; default all.</param>
+    /// <param name="carrier">The name of the body of the scene that carries it, and that it does not see; default none. Where the
+    /// carrier is removed, nothing is inside.</param>
+    public SceneBuilder AddSensorSphere(
+        string sensorName, Vector3D centre, double radius, SensorCoverage coverage = SensorCoverage.Centre, CollisionFilter filter = default,
+        string? carrier = null)
+    {
+        sensors.Add(new Sensor(sensorName, SensorShape.Sphere, centre.WithoutNegativeZero(), radius, coverage, filter));
+        carriers.Add(carrier);
         return this;
     }
 
@@ -244,8 +300,13 @@ public sealed partial class SceneBuilder
             }
         });
         double smallest = Smallest();
-        CheckBox();
-        SensorCheck.Throw(name, sensors, box);
+        if (box.Exists)
+        {
+            Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
+            PeriodicBoxCheck.Throw(name, box, gravity, planes.Count, spheres.Count, forces.Count, sensors.Count, bodies);
+        }
+
+        Sensor[] sensorArray = SensorCheck.Checked(name, sensors, carriers, bodies);
         ParallelPair.InParts(0, bodyArray.Length, used, (from, to) =>
         {
             for (int i = from; i < to; i++)
@@ -267,7 +328,7 @@ public sealed partial class SceneBuilder
             PartName.CheckAll(name, PartNames());
             scene = new Scene(
                 name, gravity.WithoutNegativeZero(), restitutionThreshold, contactTolerance ?? DefaultContactTolerance(smallest),
-                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box, sensors.ToArray(), rules, seed);
+                planes.ToArray(), spheres.ToArray(), bodyArray, forceArray, smallest, spawners, box, sensorArray, rules, seed);
         }
     }
 
@@ -288,21 +349,6 @@ public sealed partial class SceneBuilder
         }
 
         return smallestSpawn ?? (smallest == double.MaxValue ? Limits.MaxRadius : smallest);
-    }
-
-    /// <summary>The normal at unit length. One that has it, apart from rounding, stays as it is, so that what is read back has the same
-    /// bits.</summary>
-    private static Vector3D Unit(string what, string partName, in Vector3D normal)
-    {
-        const double rounding = 2e-15;
-        double length = normal.Length;
-        if (!normal.IsFinite || !(length > 1e-150 && length < 1e150))
-        {
-            throw new SceneException($"The normal of {what} '{partName}' is {normal}; its length must be between 1e-150 and 1e150.");
-        }
-
-        bool isUnit = Math.Abs(normal.LengthSquared - 1) <= rounding;
-        return (isUnit ? normal : normal / length).WithoutNegativeZero();
     }
 
     private void CheckWhole()
@@ -341,27 +387,6 @@ public sealed partial class SceneBuilder
         }
 
         StaticSurfaceCheck.Throw(planes, spheres);
-    }
-
-    private void CheckBox()
-    {
-        if (!box.Exists)
-        {
-            return;
-        }
-
-        Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
-        if (gravity != Vector3D.Zero || planes.Count + spheres.Count + forces.Count > 0)
-        {
-            throw new SceneException(
-                $"Scene '{name}' has a periodic box, gravity {gravity} m/s^2, {Limits.Count(planes.Count, "plane")},"
-                + $" {Limits.Count(spheres.Count, "static sphere")} and {Limits.Count(forces.Count, "other force")}; a periodic box goes with none of those.");
-        }
-
-        foreach (SceneBody body in bodies)
-        {
-            Limits.CheckInBox(body.Spec, body.Position, box, Whose(body));
-        }
     }
 
     /// <summary>The names of all parts.</summary>

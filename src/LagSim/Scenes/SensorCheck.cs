@@ -1,43 +1,56 @@
+using System;
 using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>Checks the sensors of a scene.</summary>
+/// <summary>Checks the sensors of a scene, and finds the bodies that carry them.</summary>
 internal static class SensorCheck
 {
     /// <summary>Checks them all.</summary>
     /// <param name="scene">The name of the scene.</param>
     /// <param name="sensors">Its sensors.</param>
-    /// <param name="box">Its periodic box, if it has one.</param>
+    /// <param name="carriers">Of each the name of the body that carries it; null for none.</param>
+    /// <param name="bodies">The bodies of the scene.</param>
+    /// <returns>The sensors, with their carriers.</returns>
     /// <exception cref="SceneException">Something is not valid; the sentence names the value and what is allowed.</exception>
-    internal static void Throw(string scene, List<Sensor> sensors, PeriodicBox box)
+    internal static Sensor[] Checked(string scene, List<Sensor> sensors, List<string?> carriers, List<SceneBody> bodies)
     {
         if (sensors.Count > SceneBuilder.MaxSensors)
         {
             throw new SceneException($"Scene '{scene}' has {sensors.Count} sensors; at most {SceneBuilder.MaxSensors} are allowed.");
         }
 
-        if (box.Exists && sensors.Count > 0)
+        Sensor[] all = sensors.ToArray();
+        for (int i = 0; i < all.Length; i++)
         {
-            throw new SceneException($"Scene '{scene}' has a periodic box and {Limits.Count(sensors.Count, "sensor")}; a periodic box goes with none.");
+            Check(all[i]);
+            if (carriers[i] is string carrier)
+            {
+                int index = bodies.FindIndex(body => string.Equals(body.Name, carrier, StringComparison.Ordinal));
+                all[i] = index >= 0
+                    ? all[i].CarriedBy(BodyId.OfScene(index))
+                    : throw new SceneException($"The carrier of sensor '{all[i].Name}' is '{PartName.Shown(carrier)}'; it must be the name of a body of the scene.");
+            }
         }
 
-        foreach (Sensor sensor in sensors)
+        return all;
+    }
+
+    private static void Check(in Sensor sensor)
+    {
+        string whose = $"sensor '{sensor.Name}'";
+        if (sensor.Coverage > SensorCoverage.Whole)
         {
-            string whose = $"sensor '{sensor.Name}'";
-            if (sensor.Coverage > SensorCoverage.Whole)
-            {
-                throw new SceneException($"The coverage of {whose} is {(byte)sensor.Coverage}; it is 0 to {(byte)SensorCoverage.Whole}.");
-            }
-
-            if (sensor.Shape == SensorShape.Plane)
-            {
-                Limits.InRange(sensor.Offset, -Limits.MaxCoordinate, Limits.MaxCoordinate, whose, "offset", "m");
-                continue;
-            }
-
-            Limits.CheckPosition(sensor.Centre, whose);
-            Limits.InRange(sensor.Radius, Limits.MinRadius, Limits.MaxRadius, whose, "radius", "m");
+            throw new SceneException($"The coverage of {whose} is {(byte)sensor.Coverage}; it is 0 to {(byte)SensorCoverage.Whole}.");
         }
+
+        if (sensor.Shape == SensorShape.Plane)
+        {
+            Limits.InRange(sensor.Offset, -Limits.MaxCoordinate, Limits.MaxCoordinate, whose, "offset", "m");
+            return;
+        }
+
+        Limits.CheckPosition(sensor.Centre, whose);
+        Limits.InRange(sensor.Radius, Limits.MinRadius, Limits.MaxRadius, whose, "radius", "m");
     }
 }

@@ -35,6 +35,15 @@ internal static class RandomFilters
             builder.AddBody(body.Name, Drawn(body.Spec, from), body.Position, body.Velocity, body.Players, body.Spin);
         }
 
+        foreach (Sensor sensor in scene.Sensors)
+        {
+            _ = sensor.Shape == SensorShape.Plane
+                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, from.Next(2) == 0 ? Draw(from) : default)
+                : builder.AddSensorSphere(
+                    sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage, from.Next(2) == 0 ? Draw(from) : default,
+                    sensor.Carrier is BodyId carrier ? scene.Bodies[carrier.Index].Name : null);
+        }
+
         return builder.Build();
     }
 

@@ -231,14 +231,14 @@ internal sealed class RandomWorld
 
         if (sensorSeed is int drawn)
         {
-            DrawSensors(builder, new Random(drawn));
+            DrawSensors(builder, new Random(drawn), bodies);
         }
 
         return builder.Build();
     }
 
-    /// <summary>Regions where the bodies are: some of them with their boundary where bodies start, bounce or rest.</summary>
-    private static void DrawSensors(SceneBuilder builder, Random from)
+    /// <summary>Regions where the bodies are, or that they carry: some of them with their boundary where bodies start, bounce or rest.</summary>
+    private static void DrawSensors(SceneBuilder builder, Random from, int bodies)
     {
         int count = from.Next(1, 9);
         for (int i = 0; i < count; i++)
@@ -251,7 +251,9 @@ internal sealed class RandomWorld
             }
             else
             {
-                builder.AddSensorSphere($"in {i}", V(from.Next(-4, 5) * 0.5, from.Next(0, 9) * 0.5, from.Next(3) * 0.125), from.Next(1, 8) * 0.25, coverage);
+                bool isCarried = from.Next(2) == 0;
+                Vector3D place = isCarried ? V(from.Next(-1, 2) * 0.25) : V(from.Next(-4, 5) * 0.5, from.Next(0, 9) * 0.5, from.Next(3) * 0.125);
+                builder.AddSensorSphere($"in {i}", place, from.Next(1, 8) * 0.25, coverage, carrier: isCarried ? $"ball {from.Next(bodies)}" : null);
             }
         }
     }

@@ -15,7 +15,8 @@ internal static class SensorSnippets
             .AddPlane("lawn", Vector3D.Up, Vector3D.Zero, friction: 0.5)
             .AddBody("ball", new BodySpec(0.11, 0.43, 0.7, friction: 0.6), new Vector3D(0, 0.11, 0), velocity: new Vector3D(20, 4, 0))
             .AddSensorPlane("goal", normal: new Vector3D(-1, 0, 0), point: new Vector3D(11, 0, 0), SensorCoverage.Whole) // behind x = 11 m
-            .AddSensorSphere("keeper's reach", new Vector3D(10.5, 1, 0), radius: 2, SensorCoverage.Part)
+            .AddBody("keeper", new BodySpec(0.4, 80, 0.1), new Vector3D(10.5, 0.4, 0))
+            .AddSensorSphere("keeper's reach", new Vector3D(0, 0.6, 0), radius: 2, SensorCoverage.Part, carrier: "keeper") // about its centre
             .Build();
         return scene;
     }

@@ -84,8 +84,9 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override CutCrossings CutCrossings(CrossingLog log) => new FaultyCutCrossings(log, this);
 
-    internal override CrossingPredictor CrossingPredictor(Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, CrossingLog log) =>
-        SearchesFromOpening ? new OpeningSearch(scene, start, bodies, timelines, log) : base.CrossingPredictor(scene, start, bodies, timelines, log);
+    internal override CrossingPredictor CrossingPredictor(
+        Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, SegmentLookup view, CrossingLog log) =>
+        SearchesFromOpening ? new OpeningSearch(scene, start, bodies, timelines, view, log) : base.CrossingPredictor(scene, start, bodies, timelines, view, log);
 
     internal override Rewinder Rewinder(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,

@@ -61,9 +61,17 @@ internal sealed class FaultyRewinder(
 
     private protected override void CutCrossings(CrossingLog crossings, int slot, in EventKey from)
     {
-        if (!faults.Has(HealingFault.LeavesCrossings))
+        if (!faults.Has(HealingFault.LeavesCrossings) || from.Kind == EventKind.Crossing) // else a carrier would ask for ever
         {
             base.CutCrossings(crossings, slot, from);
+        }
+    }
+
+    private protected override void AddDependents(int slot, in EventKey from)
+    {
+        if (!faults.Has(HealingFault.LeavesCarried))
+        {
+            base.AddDependents(slot, from);
         }
     }
 }

@@ -73,4 +73,7 @@ internal enum HealingFault
 
     /// <summary>Whether a spawn or a teleport finds its place free is not asked again where a heal changes who is there.</summary>
     LeavesPlacings = 131072,
+
+    /// <summary>Crossings of a sensor that a body carries are not cut with that body's path.</summary>
+    LeavesCarried = 262144,
 }

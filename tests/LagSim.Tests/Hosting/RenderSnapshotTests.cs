@@ -1,7 +1,9 @@
 using System;
 using LagSim.Events;
+using LagSim.Harness.Verification.Check;
 using LagSim.Hosting;
 using LagSim.Scenes;
+using LagSim.Tests.Determinism;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -63,6 +65,43 @@ public sealed class RenderSnapshotTests
         simulation.AdvanceTo(At(0.5));
         RenderSnapshot snapshot = Shown(simulation);
         Assert.Equal((0.5, 0.75, 0), (snapshot.RadiusOf(First), snapshot.RadiusOf(new BodyId(1, 2, 0)), snapshot.RadiusOf(Second)));
+    }
+
+    /// <summary>What the rules' state is in a render snapshot is what it is in the world, also after a late event, and also in the buffer that
+    /// showed something else before.</summary>
+    [Fact]
+    public void TryReadRules_AtAnyInstant_IsTheStateOfTheWorld()
+    {
+        RandomWorld drawn = new(3, rules: true);
+        Simulation world = new(drawn.Scene, KeepAll);
+        RenderTripleBuffer exchange = new();
+        int changes = 0;
+        SimTime shown = world.Start;
+        foreach (ExternalEvent external in drawn.Events)
+        {
+            shown = SimTime.Max(shown + SimDuration.FromSeconds(0.1), world.SimulatedTo);
+            world.AdvanceTo(shown);
+            world.Submit(external);
+            world.AdvanceTo(shown);
+            SimTime from = world.Start + SimDuration.FromSeconds(0.05);
+            exchange.Publish(world, from);
+            RenderSnapshot snapshot = exchange.Latest();
+            DrawnRules.Total before = default;
+            for (SimTime time = from; time <= world.SimulatedTo; time += SimDuration.FromSeconds(0.003))
+            {
+                Assert.True(snapshot.TryReadRules(time, out DrawnRules.Total inSnapshot) && world.TryReadRules(time, out DrawnRules.Total total) && total.Equals(inSnapshot));
+                Assert.Equal(world.TryReadRules(First, time, out DrawnRules.OfBody body), snapshot.TryReadRules(First, time, out DrawnRules.OfBody bodyInSnapshot));
+                Assert.Equal(body, bodyInSnapshot);
+                changes += inSnapshot.Equals(before) ? 0 : 1;
+                before = inSnapshot;
+            }
+
+            Assert.False(snapshot.TryReadRules(from - SimDuration.OneTick, out DrawnRules.Total _));
+            Assert.False(snapshot.TryReadRules(from, out long _));
+        }
+
+        Assert.True(changes > 50, $"{changes} states seen");
+        Assert.False(Shown(Run(Drop(5, 0.8), 0.5)).TryReadRules(At(0.25), out DrawnRules.Total _)); // a scene without
     }
 
     private static double Change(RenderSnapshot snapshot, double after, double upTo)

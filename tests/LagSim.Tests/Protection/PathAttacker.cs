@@ -80,7 +80,7 @@ internal sealed class PathAttacker
     /// <summary>An Update with a teleport of the scene's first body, in the name of a client of which one was heard.</summary>
     internal static byte[] Teleport(byte[] heard, byte peer, uint number, uint sequence, long time, double height)
     {
-        byte[] bytes = new byte[59 + 1 + 71];
+        byte[] bytes = new byte[59 + 1 + 70];
         Empty(heard, peer, number).CopyTo(bytes, 0);
         BinaryPrimitives.WriteUInt32LittleEndian(bytes.AsSpan(54), sequence);
         bytes[58] = 1; // one entry, its verdict 0, pending

@@ -191,7 +191,7 @@ public sealed class DamageTests
         {
             bytes[8] = version;
             Assert.Equal(
-                $"Damaged at byte 8: The recording is of version {version}; this library reads version 5.", Read(bytes).Damage!.ToString());
+                $"Damaged at byte 8: The recording is of version {version}; this library reads version 6.", Read(bytes).Damage!.ToString());
         }
 
         bytes[8] = RecordingFormat.Version;

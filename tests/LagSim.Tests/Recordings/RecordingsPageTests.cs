@@ -66,7 +66,7 @@ public sealed class RecordingsPageTests
             }
         }
 
-        Assert.Equal(3 + 4 + 5 + 50 + 2 + 3 + 3, rows); // of each table
+        Assert.Equal(3 + 4 + 5 + 53 + 2 + 3 + 3, rows); // of each table
     }
 
     [Fact]
@@ -99,7 +99,7 @@ public sealed class RecordingsPageTests
         Scene scene = new SceneBuilder("all").WithSmallestRadius(0.125).AddForce(Force.Supplied(force)).AddForce(Force.Spring("spring", V(8, 9, 10), 11, 12)).AddForce(Force.Central("pull", V(13, 14, 15), 16, -3))
             .AddPlane("floor", Vector3D.Up, -3.0, 0.5, 0.625, new CollisionFilter(3, 5))
             .AddStaticSphere("rock", V(5, 6, 7), 2, 0.25, 0.375, new CollisionFilter(9, 7)).AddBody("ball", new BodySpec(0.5, 3, 0.75, friction: 0.125, rollingResistance: 0.0625, filter: new CollisionFilter(6, 10), tag: 1234567890123), V(1, 2, 3), V(4), PeerSet.Of(1, 4), V(17, 18, 19)).WithSpawners(PeerSet.Of(0, 9))
-            .AddSensorSphere("hole", V(20, 21, 22), 23, SensorCoverage.Whole).AddSensorPlane("goal", V(0, 0, 1), 24.0, SensorCoverage.Part)
+            .AddSensorSphere("hole", V(20, 21, 22), 23, SensorCoverage.Whole, new CollisionFilter(11, 13), "ball").AddSensorPlane("goal", V(0, 0, 1), 24.0, SensorCoverage.Part)
             .WithRules(new DrawnRules(5)).WithSeed(77).Build();
         Simulation world = new(scene, new SimulationOptions(Start, SimDuration.MaxValue));
         world.AdvanceTo(Start + Seconds(1));
@@ -216,7 +216,8 @@ public sealed class RecordingsPageTests
             ["rules"] = ("rules ", new[] { scene.Rules }.OfType<SceneRules>().Select(r => LayoutPage.Values(
                 ("rules name", r.Name), ("rules version", r.Version), ("rules world bytes", r.WorldBytes), ("rules body bytes", r.BodyBytes)))),
             ["sensors"] = ("sensor ", scene.Sensors.Select(s => LayoutPage.Values(
-                ("sensor name", s.Name), ("sensor shape", (byte)s.Shape), ("sensor coverage", (byte)s.Coverage), ("sensor vector", s.Shape == SensorShape.Plane ? s.Normal : s.Centre), ("sensor measure", s.Shape == SensorShape.Plane ? s.Offset : s.Radius)))),
+                ("sensor name", s.Name), ("sensor shape", (byte)s.Shape), ("sensor coverage", (byte)s.Coverage), ("sensor vector", s.Shape == SensorShape.Plane ? s.Normal : s.Centre), ("sensor measure", s.Shape == SensorShape.Plane ? s.Offset : s.Radius),
+                ("sensor category", s.Filter.Category), ("sensor mask", s.Filter.Mask), ("sensor carrier", (uint)(s.Carrier?.Index + 1 ?? 0))))),
         };
         LayoutPage.Write(bytes, Table(page, "2 Scene"), head, lists);
         return bytes.ToArray();

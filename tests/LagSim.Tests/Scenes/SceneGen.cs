@@ -86,14 +86,17 @@ internal static class SceneGen
             _ => Force.Central(name, vector, strength, power),
         });
 
-    private static Gen<Action<SceneBuilder, string>> Sensor =>
+    private static Gen<Action<SceneBuilder, string, string?>> Sensor =>
         from coverage in Gen.Elements(SensorCoverage.Centre, SensorCoverage.Part, SensorCoverage.Whole)
         from isPlane in Gen.Elements(true, false)
         from normal in Direction
         from place in Within(1e11)
         from radius in Log(-8, 8)
-        select (Action<SceneBuilder, string>)((builder, name) => _ = isPlane
-            ? builder.AddSensorPlane(name, normal, place, coverage) : builder.AddSensorSphere(name, place, radius, coverage));
+        from filter in Wire.WireGen.Filter
+        from isCarried in Gen.Elements(true, false)
+        select (Action<SceneBuilder, string, string?>)((builder, name, body) => _ = isPlane
+            ? builder.AddSensorPlane(name, normal, place, coverage, filter)
+            : builder.AddSensorSphere(name, place, radius, coverage, filter, isCarried ? body : null));
 
     private static Gen<double> Log(int least, int most) =>
         from u in Unit from e in Gen.Choose(least, most - 1) select (1 + (9 * u)) * Math.Pow(10, e);
@@ -114,7 +117,7 @@ internal static class SceneGen
         Func<string, Force>[] forces,
         PeerSet spawners,
         (BodySpec Spec, Vector3D Velocity, PeerSet Players)[] bodies,
-        Action<SceneBuilder, string>[] sensors)
+        Action<SceneBuilder, string, string?>[] sensors)
     {
         SceneBuilder builder = new SceneBuilder(name).WithGravity(gravity).WithRestitutionThreshold(restitutionThreshold).WithSpawners(spawners);
         double least = bodies.Select(b => b.Spec.Radius).Append(smallest > 0 ? smallest : 1e9).Min();
@@ -160,7 +163,7 @@ internal static class SceneGen
 
         for (int i = 0; i < sensors.Length; i++)
         {
-            sensors[i](builder, $"{name}q{i}");
+            sensors[i](builder, $"{name}q{i}", bodies.Length > 0 ? $"{name}b{i % bodies.Length}" : null);
         }
 
         return builder.Build();

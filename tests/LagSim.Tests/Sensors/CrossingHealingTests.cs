@@ -45,6 +45,7 @@ public sealed class CrossingHealingTests
     [Theory]
     [InlineData((int)HealingFault.LeavesCrossings)]
     [InlineData((int)HealingFault.PutsNoCrossingsBack)]
+    [InlineData((int)HealingFault.LeavesCarried)]
     public void Crossings_HealedWrongly_AreSeenToDiffer(int fault)
     {
         Assert.Contains(Enumerable.Range(0, Worlds), seed =>
@@ -97,11 +98,15 @@ public sealed class CrossingHealingTests
                     bool isThere = world.TryRead(body, time, out BodyState state);
                     for (int sensor = 0; sensor < world.Scene.Sensors.Count; sensor++)
                     {
-                        double gap = world.Scene.Sensors[sensor].Gap(state.Position, world.SpecOf(body).Radius);
-                        if (!isThere || Math.Abs(gap) > 1e-7)
+                        Sensor region = world.Scene.Sensors[sensor];
+                        BodyState carrier = default;
+                        bool isSeen = isThere && region.Filter.CollidesWith(state.Filter) && body != region.Carrier
+                            && (region.Carrier is not BodyId carried || world.TryRead(carried, time, out carrier));
+                        double gap = region.Gap(state.Position - carrier.Position, world.SpecOf(body).Radius);
+                        if (!isSeen || Math.Abs(gap) > 1e-7)
                         {
-                            Assert.True((isThere && gap < 0) == world.IsInside(body, sensor, time), $"seed {seed}: body {body}, sensor {sensor} at {time}: {gap}");
-                            inside += gap < 0 ? 1 : 0;
+                            Assert.True((isSeen && gap < 0) == world.IsInside(body, sensor, time), $"seed {seed}: body {body}, sensor {sensor} at {time}: {gap}");
+                            inside += isSeen && gap < 0 ? 1 : 0;
                             seen++;
                         }
                     }
@@ -173,7 +178,7 @@ public sealed class CrossingHealingTests
             ++count < most ? WorkVerdict.GoOn : WorkVerdict.StopNow;
     }
 
-    private static RandomWorld World(int seed) => new(seed, hands: seed % 5 == 0, forced: seed % 3 == 0, sensors: true);
+    private static RandomWorld World(int seed) => new(seed, hands: seed % 5 == 0, forced: seed % 3 == 0, filters: seed % 4 == 0, sensors: true);
 
     private static Scene Without(RandomWorld world)
     {

@@ -197,6 +197,52 @@ public sealed class CrossingTimeTests
         static Crossing Key(double seconds, BodyId body, bool entered) => new(new EventKey(At(seconds), 1, EventKind.Crossing, body, body, 0, 0), entered);
     }
 
+    [Fact]
+    public void Carried_ByABody_CrossesByTheirRelativeMotion()
+    {
+        SceneBuilder builder = new SceneBuilder("reach").WithGravity(Floating).AddBody("carrier", Ball(0.5), V(0), V(1)).AddBody("ball", Ball(0.5), V(10, 0.6), V(-1));
+        SensorCoverage part = SensorCoverage.Part;
+        Scene scene = builder.AddSensorSphere("reach", V(0), 1.5, part, carrier: "carrier").AddSensorSphere("ahead", V(3), 1, carrier: "carrier").Build();
+        double chord = Math.Sqrt((2 * 2) - (0.6 * 0.6));
+        Simulation world = Run(scene, 4.5);
+        Assert.All(All(world), crossing => Assert.Equal(Second, crossing.Body)); // no sensor sees its carrier
+        Same([.. All(world).Where(c => c.Sensor == 1)], 1e-11, ((10 - 3 - 0.8) / 2, true), ((10 - 3 + 0.8) / 2, false));
+        Same([.. All(world).Where(c => c.Sensor == 0)], 1e-11, ((10 - chord) / 2, true));
+    }
+
+    [Fact]
+    public void Carrier_ThatFallsOrBouncesOrIsTakenAway_TakesItsSensorAlong()
+    {
+        // The carrier falls by 5 t^2 and bounces; the mark lies 3 m beside where it does.
+        Scene scene = new SceneBuilder("bounce").WithGravity(V(0, -10)).AddPlane("floor", Vector3D.Up, V(0)).AddBody("carrier", new BodySpec(1, 1, 1), V(0, 11))
+            .AddBody("mark", new BodySpec(0.25, 1, 0), V(3, 0.25)).AddSensorSphere("near", V(0), 5, carrier: "carrier").Build();
+        double down = Math.Sqrt(2 * (11 - 4.25) / 10); // from 4.25 m on the two are within 5 m
+        double bounce = Math.Sqrt(2 * 10 / 10.0);
+        Same(All(Run(scene, 2)), 1e-11, (down, true), ((2 * bounce) - down, false));
+
+        ExternalEvent remove = ExternalEvent.Remove(At(1.25), 1, 2, First);
+        Assert.Equal([At(1.25)], All(Run(scene, 3, [remove])).Skip(1).Select(c => c.Time));
+        ExternalEvent away = ExternalEvent.Teleport(At(1.25), 1, 2, First, V(100, 5), V(0));
+        ExternalEvent back = ExternalEvent.Teleport(At(1.5), 1, 3, First, V(1, 4), V(0));
+        Assert.Equal([(At(1.25), false), (At(1.5), true)], All(Run(scene, 1.6, [away, back])).Skip(1).Select(c => (c.Time, c.Entered)));
+    }
+
+    [Fact]
+    public void Filter_OfASensor_DecidesWhomItSees()
+    {
+        CollisionFilter pucks = new(2);
+        Scene scene = new SceneBuilder("filter").WithGravity(Floating).AddBody("puck", Ball(0.25).With(pucks), V(-2, 0), V(1)).AddBody("hand", Ball(0.25), V(-2, 2), V(1))
+            .AddSensorPlane("goal", V(-1), 0.0, filter: new CollisionFilter(1, 2)).Build();
+        Assert.Equal([(First, At(2))], All(Run(scene, 4)).Select(c => (c.Body, c.Time)));
+
+        // A filter that changes has it seen, and seen no more, at that tick.
+        Simulation changed = Run(scene, 6,
+        [
+            ExternalEvent.SetFilter(At(1), 1, 1, Second, pucks), ExternalEvent.SetFilter(At(3), 1, 2, First, default), ExternalEvent.SetFilter(At(4), 1, 3, First, pucks),
+        ]);
+        Assert.Equal([(First, At(2), true), (Second, At(2), true), (First, At(3), false), (First, At(4), true)], All(changed).Select(c => (c.Body, c.Time, c.Entered)));
+    }
+
     /// <summary>A sensor thinner than the way of a tick is entered and left in one, and nothing hangs.</summary>
     [Fact]
     public void Chord_ShorterThanATick_IsCrossedAtOneTick()
@@ -235,6 +281,7 @@ public sealed class CrossingTimeTests
         Refused("The point of sensor 'a' is", b => b.AddSensorPlane("a", V(1), V(double.NaN)));
         Refused("Two parts of scene 'bad' are named 'ball'", b => b.AddSensorSphere("ball", V(0), 1));
         Refused("a periodic box goes with none", b => b.WithGravity(Floating).WithPeriodicBox(V(9, 9, 9)).AddSensorSphere("a", V(0), 1));
+        Refused("The carrier of sensor 'a' is 'bell'; it must be the name of a body", b => b.AddSensorSphere("a", V(0), 1, carrier: "bell"));
         Refused("has 1025 sensors; at most 1024", b => Enumerable.Range(0, 1025).ToList().ForEach(n => b.AddSensorSphere($"a{n}", V(0), 1)));
         Scene scene = new SceneBuilder("good").AddSensorSphere("a", V(0), 1).Build();
         Assert.Equal(0, scene.SensorNamed("a"));

@@ -382,7 +382,7 @@ public sealed class WirePageTests
     private static byte[] Event(string[] page, ExternalEvent what)
     {
         MemoryStream bytes = new();
-        Write(bytes, Table(page, "### Event"), Values(("kind", (byte)what.Kind), ("peer", what.Peer), ("sequence", what.Sequence), ("time", what.Time)));
+        Write(bytes, Table(page, "### Event"), Values(("kind", (byte)((int)what.Kind + ((int)what.WhenOccupied * 64))), ("peer", what.Peer), ("sequence", what.Sequence), ("time", what.Time)));
         string words = Regex.Replace(what.Kind.ToString(), "(?<!^)([A-Z])", " $1").ToLowerInvariant();
         string[] row = page.Single(line => line.StartsWith($"| {words} |", StringComparison.Ordinal)).Split('|');
         foreach (string field in row[3].Split(';')[0].Split(',', StringSplitOptions.TrimEntries))
@@ -390,8 +390,7 @@ public sealed class WirePageTests
             bytes.Write(field switch
             {
                 "spec without filter and tag" => Spec(page, what.Spec)[..^16],
-                "u8 has" => Bytes("u8", (byte)((int)what.WhenOccupied + (what.Players == PeerSet.Everyone ? 0 : 4) + (what.Spec.Filter.IsDefault ? 0 : 8)
-                    + (what.Spec.Tag == 0 ? 0 : 16))),
+                "u8 has" => Bytes("u8", (byte)((what.Players == PeerSet.Everyone ? 0 : 1) + (what.Spec.Filter.IsDefault ? 0 : 2) + (what.Spec.Tag == 0 ? 0 : 4))),
                 "what it has" => More(page, what),
                 "u64 body" => Bytes("u64", what.Body.Packed),
                 "position" => Bytes("vector", what.Position),
@@ -401,7 +400,6 @@ public sealed class WirePageTests
                 "u16 number" => Bytes("u16", what.Command!.Number),
                 "u8 length" => [(byte)what.Command!.Length],
                 "data" => what.Command!.Data.ToArray(),
-                "u8 occupied" => Bytes("u8", (byte)what.WhenOccupied),
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });

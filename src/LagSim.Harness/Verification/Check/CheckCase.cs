@@ -113,7 +113,7 @@ internal sealed class CheckCase
         SeededRandom sensed = random.Fork(SensorStream);
         if (room is not BoxScene && sensed.IsLucky(SensorPercent))
         {
-            room.Sensors = new CheckSensors(sensed); // after its events are counted, so that all else that is drawn stays the same
+            room.Sensors = new CheckSensors(sensed, room.BodyCount); // after its events are counted, so that all else that is drawn stays the same
         }
 
         LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));

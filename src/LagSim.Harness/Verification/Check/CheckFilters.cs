@@ -74,8 +74,10 @@ internal sealed class CheckFilters
         foreach (Sensor sensor in scene.Sensors)
         {
             _ = sensor.Shape == SensorShape.Plane
-                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage)
-                : builder.AddSensorSphere(sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage);
+                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, sensor.Filter)
+                : builder.AddSensorSphere(
+                    sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage, sensor.Filter,
+                    sensor.Carrier is BodyId carrier ? scene.Bodies[carrier.Index].Name : null);
         }
 
         return builder.Build();

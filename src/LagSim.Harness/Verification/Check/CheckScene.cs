@@ -39,11 +39,11 @@ internal abstract class CheckScene
     {
         SceneBuilder builder = new SceneBuilder("check").WithSmallestRadius(0.15);
         AddSurroundings(builder);
-        Sensors?.AddTo(builder);
+        Sensors?.AddTo(builder, kept, NameOf);
         foreach (int i in kept)
         {
             (BodySpec spec, Vector3D position, Vector3D velocity) = bodies[i];
-            builder.AddBody($"ball {i}", spec, position, velocity, spin: MayTurn(spec) ? new Vector3D(0, 3, i - 4) : Vector3D.Zero);
+            builder.AddBody(NameOf(i), spec, position, velocity, spin: MayTurn(spec) ? new Vector3D(0, 3, i - 4) : Vector3D.Zero);
         }
 
         return builder.Build();
@@ -67,6 +67,8 @@ internal abstract class CheckScene
 
     /// <summary>Draws a velocity up to about a given size along each axis.</summary>
     internal abstract Vector3D DrawVelocity(double most);
+
+    private static string NameOf(int body) => $"ball {body}";
 
     /// <summary>Whether it makes a difference that a ball turns.</summary>
     protected static bool MayTurn(in BodySpec spec) => spec.Friction > 0 || spec.Forces.Contains(Magnus);

@@ -1,3 +1,6 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 
@@ -7,10 +10,15 @@ namespace LagSim.Harness.Verification.Check;
 internal sealed class CheckSensors
 {
     private const int Most = 6;
+    private const ulong LaterStream = 1; // what is drawn of sensors besides their places, so that all else stays the same
 
     private readonly Sensor[] sensors;
+    private readonly int[] carriers; // by sensor: the number of the body that carries it, -1 for none
+    private readonly CollisionFilter[] filters; // by sensor
 
-    internal CheckSensors(SeededRandom random)
+    /// <param name="random">The stream to draw from.</param>
+    /// <param name="bodies">How many bodies the scene has.</param>
+    internal CheckSensors(SeededRandom random, int bodies)
     {
         SceneBuilder drawn = new("sensors");
         int count = 1 + random.NextInt(Most);
@@ -31,15 +39,27 @@ internal sealed class CheckSensors
         }
 
         sensors = [.. drawn.Build().Sensors];
+        SeededRandom later = random.Fork(LaterStream);
+        carriers = Array.ConvertAll(sensors, sensor => sensor.Shape == SensorShape.Sphere && later.IsLucky(50) ? later.NextInt(bodies) : -1);
+        filters = Array.ConvertAll(sensors, _ => later.IsLucky(25)
+            ? later.Pick(new CollisionFilter(2), new CollisionFilter(1, 1), new CollisionFilter(2, 1), new CollisionFilter(3, 2)) : default);
     }
 
-    internal void AddTo(SceneBuilder builder)
+    /// <summary>Adds the sensors to a scene; those whose carrier is not in it stand still.</summary>
+    /// <param name="builder">The scene.</param>
+    /// <param name="kept">The numbers that its bodies had when drawn.</param>
+    /// <param name="nameOf">The name of the body of a number.</param>
+    internal void AddTo(SceneBuilder builder, IReadOnlyList<int> kept, Func<int, string> nameOf)
     {
-        foreach (Sensor sensor in sensors)
+        for (int i = 0; i < sensors.Length; i++)
         {
+            Sensor sensor = sensors[i];
+            bool isCarried = kept.Contains(carriers[i]);
             _ = sensor.Shape == SensorShape.Plane
-                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage)
-                : builder.AddSensorSphere(sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage);
+                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, filters[i])
+                : builder.AddSensorSphere(
+                    sensor.Name, isCarried ? Vector3D.Zero : sensor.Centre, sensor.Radius, sensor.Coverage, filters[i],
+                    isCarried ? nameOf(carriers[i]) : null);
         }
     }
 }

@@ -215,7 +215,7 @@ internal sealed class DrawnRules : GameRules
     }
 
     /// <summary>The state of a body.</summary>
-    private struct OfBody
+    internal struct OfBody
     {
         /// <summary>How often it was in a contact that was heard.</summary>
         internal long Hits;

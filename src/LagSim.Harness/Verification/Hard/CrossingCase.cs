@@ -34,6 +34,7 @@ internal sealed class CrossingCase : IHardCase
         }
 
         yield return Orbit(context, 1);
+        yield return Carried(context, 1);
         yield return Graze(context, off => off);
     }
 
@@ -43,6 +44,7 @@ internal sealed class CrossingCase : IHardCase
         yield return Line(context, 1 + 1e-9) with { Note = "a radius 1e-9 too large" };
         yield return Drag(context, HardFlight.Closed(1e-9), K * (1 + 1e-6)) with { Note = "a drag 1e-6 too strong" };
         yield return Orbit(context, 1 + 1e-6) with { Note = "a radius 1e-6 too large" };
+        yield return Carried(context, 1 + 1e-9) with { Note = "a radius 1e-9 too large" };
         yield return Graze(context, off => off - 1e-9) with { Note = "a region a nanometre too near" };
     }
 
@@ -93,6 +95,21 @@ internal sealed class CrossingCase : IHardCase
         double bound = Tick + (HardFlight.Closed(1e-10).ErrorOf(pieces, 4) * 10 / (1 - orbit.E) / across);
         return Row("in and out of a sphere on an ellipse", world, [enters, leaves], bound, "the tolerance once, 40 roundings a piece, times 10/(1 - e), over the speed across",
             "Kepler's equation; the roots by bisection");
+    }
+
+    /// <summary>Two that fall under the same drag: what is between them slows down as if there were no gravity.</summary>
+    private HardRow Carried(HardContext context, double radius)
+    {
+        const double apart = 6;
+        const double closing = 8;
+        BodySpec ball = HardFlight.Closed(1e-9).Ball();
+        Simulation world = context.Run(
+            new SceneBuilder("reach").AddForce(Force.LinearDrag("air", K)).AddBody("carrier", ball, V(1), V(-1, 12))
+                .AddBody("ball", ball, V(1 - apart), V(closing - 1, 12)).AddSensorSphere("reach", V(0, 2), radius: Math.Sqrt(4 + (radius * radius)), carrier: "carrier").Build(), 4);
+        double[] expected = [.. new[] { apart - 1, apart + 1 }.Select(way => -Math.Log(1 - (K * way / closing)) / K)];
+        double slowest = closing * Math.Exp(-K * expected[1]) / Math.Sqrt(5); // the way in is oblique: one beside two
+        double bound = Tick + (2 * HardFlight.Closed(1e-9).ErrorOf(Math.Max(world.Timeline(First).Count, world.Timeline(BodyId.OfScene(1)).Count), 24) * (1 + expected[1]) / slowest);
+        return Row("a sphere that another carries, both under drag", world, expected, bound, "twice the tolerance and 24 m, over the speed across", "the logarithm");
     }
 
     /// <summary>Deeper and shallower by 1e-2 m down to where rounding decides, and exactly touching, which is no crossing.</summary>
