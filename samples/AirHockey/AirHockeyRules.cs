@@ -10,7 +10,6 @@ using LagSim.Timelines;
 public class AirHockeyRules : GameRules
 {
     public const int Chat = 1, Again = 2; // commands
-
     private const int CountTimer = 1, EndTimer = 2, ServeTimer = 3, PrizeTimer = 4;
     private static readonly SimDuration Second = SimDuration.FromSeconds(1);
 
@@ -31,6 +30,8 @@ public class AirHockeyRules : GameRules
         ref Match match = ref world.State<Match>();
         (match.Left, match.Right, match.Phase, match.Count) = (0, 0, Phase.CountDown, 3);
         world.SetTimer(CountTimer, Second);
+        world.Teleport(Table.Puck, Vector3D.Zero);
+        world.SetFilter(Table.Puck, Table.PuckThatWaits);
     }
 
     public override void OnCommand(RuleWorld world, byte player, GameCommand command)
@@ -50,20 +51,18 @@ public class AirHockeyRules : GameRules
     public override void OnContact(RuleWorld world, in RuleContact contact)
     {
         (BodyId mallet, BodyId other) = Table.IsMallet(contact.First) ? (contact.First, contact.Second) : (contact.Second, contact.First);
-        int player = Table.PlayerOf(mallet);
         if (!Table.IsPrize(world.SpecOf(other)))
         {
-            world.State<PuckState>(other).LastTouch = 1 + player;
+            world.State<PuckState>(other)[Table.SideOf(Table.PlayerOf(mallet))] = 1 + Table.PlayerOf(mallet);
         }
         else if (other.Packed == world.State<Match>().Prize) // two may touch it at one tick
         {
-            Take(world, player, other);
+            Take(world, Table.PlayerOf(mallet), other);
         }
     }
 
     public override void OnCrossing(RuleWorld world, in Crossing crossing)
     {
-        ref Match match = ref world.State<Match>();
         BodyId body = crossing.Body;
         int side = crossing.Sensor & 1;
         switch (crossing.Sensor)
@@ -72,7 +71,7 @@ public class AirHockeyRules : GameRules
                 world.SetFilter(body, Table.FilterOf(mallet: body, isRight: crossing.Entered));
                 break;
             case Table.Mouths or Table.Mouths + 1:
-                world.SetFilter(body, crossing.Entered && match.Shielded != 1 + side ? Table.PuckInMouth : Table.PuckOnTable);
+                world.SetFilter(body, crossing.Entered && world.State<Match>().IsOpen(side) ? Table.PuckInMouth : Table.PuckOnTable);
                 break;
             case Table.Goals or Table.Goals + 1 when crossing.Entered:
                 Score(world, body, scorer: 1 - side);
@@ -96,6 +95,7 @@ public class AirHockeyRules : GameRules
                 world.Tell((int)Told.Begins);
                 world.SetTimer(EndTimer, Match.Length);
                 world.SetTimer(PrizeTimer, Second * 5);
+                world.SetFilter(Table.Puck, Table.PuckOnTable);
                 Centre(world, SimDuration.Zero);
                 break;
             case EndTimer when match.IsDecided(world.Elapsed): // else the next goal wins
@@ -133,11 +133,11 @@ public class AirHockeyRules : GameRules
         {
             match.Left += 1 - scorer;
             match.Right += scorer;
-            int player = world.State<PuckState>(puck).LastTouch - 1;
+            int player = world.State<PuckState>(puck)[scorer] - 1;
             world.Tell((int)Told.Goal, new Goal(scorer, player, match.Left, match.Right).ToValue());
         }
 
-        world.State<PuckState>(puck).LastTouch = 0;
+        world.State<PuckState>(puck) = default;
         if (puck == Table.Puck)
         {
             Centre(world, Second);

@@ -39,7 +39,7 @@ public sealed class LiveGame
     {
         RuleNotices notices = new();
         Scene scene = Table.Build(players, new AirHockeyRules(), seed: (ulong)DateTime.UtcNow.Ticks);
-        HostOptions options = new() { Window = Window, ConfirmsEarly = true, RuleNotices = notices, ExpectedClients = players - 1, Name = "host" };
+        HostOptions options = new() { Window = Window, ConfirmsEarly = true, RuleNotices = notices, ExpectedClients = players - 1 };
         using PeerThread host = PeerThread.Host(scene, port, options);
         Console.WriteLine($"listening on port {host.LocalAddress.ToEndPoint().Port}; waiting for {players - 1}");
         return new LiveGame(host, notices).Play();
@@ -99,7 +99,7 @@ public sealed class LiveGame
 
         while (notices.TryRead(out RuleEvent told))
         {
-            screen.Take(told, elapsed);
+            screen.Take(told, now, elapsed);
         }
 
         (Vector3D place, double speed) = isBot ? bot.Think(snapshot, now, hand.At) : (target, Pace);

@@ -46,14 +46,24 @@ public struct Match
     public ChatLine Chat;
     public int Spare; // no padding: the size is a multiple of eight bytes
 
+    /// <summary>Whether a side's goal has no shield.</summary>
+    public readonly bool IsOpen(int side) => Shielded != 1 + side;
+
     /// <summary>Whether one side has won, so long after the scene began; without a lead at full time the next goal wins.</summary>
     public readonly bool IsDecided(SimDuration elapsed) => Math.Max(Left, Right) >= GoalsToWin || (elapsed.Ticks >= Ends && Left != Right);
 }
 
-/// <summary>The state of a puck.</summary>
+/// <summary>The state of a puck: who touched it last, for each side; 1 + the player, 0 for none.</summary>
 public struct PuckState
 {
-    public int LastTouch; // 1 + the player; 0 for none
+    public int Left;
+    public int Right;
+
+    public int this[int side]
+    {
+        readonly get => side == 0 ? Left : Right;
+        set => (Left, Right) = side == 0 ? (value, Right) : (Left, value);
+    }
 }
 
 /// <summary>The last line of chat, as bytes of UTF-8; zeros fill it up.</summary>
@@ -64,7 +74,8 @@ public struct ChatLine
     private byte first;
 }
 
-/// <summary>Who scored, and what the score is then; it travels as the value of a notice.</summary>
+/// <summary>Which side scored, who of it touched the puck last (-1 for nobody), and the score; it travels as the value of a notice.
+/// </summary>
 public readonly record struct Goal(int Side, int Player, int Left, int Right)
 {
     public static Goal From(long value) =>

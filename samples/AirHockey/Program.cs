@@ -1,8 +1,8 @@
 // Air hockey for two to four players, from the LagSim packages alone: a game whose rules are part of the world.
-//   dotnet run -c Release --project samples/AirHockey -- --bots             bots play over every link; every peer must have the same history
-//   dotnet run -c Release --project samples/AirHockey -- --bots --broken    the same with rules that keep a field: it is seen, exit code 1
-//   dotnet run -c Release --project samples/AirHockey -- --watch awful 4    four bots over a link, as the last of them sees it
-//   dotnet run -c Release --project samples/AirHockey -- host 5000 2        a host, and how many play
+//   dotnet run -c Release --project samples/AirHockey -- --bots            bots play over every link, all with one history
+//   dotnet run -c Release --project samples/AirHockey -- --bots --broken   rules that keep a field: seen, exit code 1
+//   dotnet run -c Release --project samples/AirHockey -- --watch awful 4   four bots over a link, as the last of them sees it
+//   dotnet run -c Release --project samples/AirHockey -- host 5000 2       a host, and how many play
 //   dotnet run -c Release --project samples/AirHockey -- join 127.0.0.1:5000
 using System;
 using System.Globalization;

@@ -18,7 +18,7 @@ public sealed class Screen : IDisposable
     public string? BannerAt(double seconds) => seconds < until ? word : null;
 
     /// <summary>Takes what the rules told: the picture shows what is predicted, a log what is confirmed.</summary>
-    public void Take(RuleEvent told, double seconds)
+    public void Take(RuleEvent told, SimTime now, double seconds)
     {
         if (told.Kind == NoticeKind.Predicted)
         {
@@ -30,7 +30,7 @@ public sealed class Screen : IDisposable
         }
         else if (told.Kind == NoticeKind.Confirmed && !isShown)
         {
-            Console.WriteLine($"{seconds,7:0.00} s  {WordFor(told.Notice)}");
+            Console.WriteLine($"{seconds - (now - told.Time).ToSeconds(),8:0.000} s  {WordFor(told.Notice)}");
         }
     }
 
@@ -62,9 +62,7 @@ public sealed class Screen : IDisposable
                 return "GO";
             case Told.Goal:
                 Goal goal = Goal.From(notice.Value);
-                string own = Table.SideOf(Math.Max(goal.Player, 0)) == goal.Side ? " by" : ", own goal of";
-                string by = goal.Player < 0 ? "" : $"{own} {goal.Player}";
-                return $"GOAL {goal.Left}:{goal.Right}{by}";
+                return $"GOAL {goal.Left}:{goal.Right}" + (goal.Player < 0 ? ", an own goal" : $" by {goal.Player}");
             case Told.Prize:
                 string what = (PrizeKind)(notice.Value & 15) switch
                 {

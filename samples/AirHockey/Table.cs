@@ -38,8 +38,9 @@ public static class Table
 
     private const uint Ends = 2, Pucks = 4, Mallets = 8, Prizes = 16;
 
-    /// <summary>A puck that plays, and one in the mouth of a goal, for which the end is open.</summary>
+    /// <summary>A puck that plays, one that nobody touches before play begins, and one in the mouth of a goal.</summary>
     public static readonly CollisionFilter PuckOnTable = new(Pucks, ~Prizes);
+    public static readonly CollisionFilter PuckThatWaits = new(Pucks, 0);
     public static readonly CollisionFilter PuckInMouth = new(Pucks, ~(Prizes | Ends));
 
     /// <summary>A mallet in its own half, and one beyond the middle line, where it touches nothing.</summary>

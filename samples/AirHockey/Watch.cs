@@ -26,7 +26,7 @@ public static class Watch
             {
                 while (log.Notices.TryRead(out RuleEvent told))
                 {
-                    screen.Take(told, me.Seconds);
+                    screen.Take(told, me.Session.SharedTime.Now, me.Seconds);
                     isOver |= told.Kind == NoticeKind.Confirmed && told.Notice.Code == (int)Told.Won;
                 }
 
