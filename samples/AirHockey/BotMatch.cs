@@ -123,6 +123,11 @@ public sealed class BotMatch
 
         result.World.TryReadRules(end, out Match last);
         End = last;
+        if (result.World.Crossings(start, end).Any(crossing => HasLeft(crossing, result.World)))
+        {
+            differences.Add("Something left the table.");
+        }
+
         for (int peer = 0; peer < Peers.Count; peer++)
         {
             if (!Peers[peer].IsSameAs(Peers[0]))
@@ -144,6 +149,10 @@ public sealed class BotMatch
         }
     }
 
+    /// <summary>Whether something leaves the table and is there all the same: what is removed leaves, too.</summary>
+    private static bool HasLeft(Crossing crossing, Simulation world) =>
+        crossing.Sensor == Table.Inside && !crossing.Entered && world.TryRead(crossing.Body, crossing.Time, out _);
+
     /// <summary>Every confirmed goal is in the world that had every event on time, at its tick and not before; and no others are.</summary>
     private void CompareGoals(Simulation world, int peer)
     {
@@ -153,7 +162,9 @@ public sealed class BotMatch
             Goal goal = Goal.From(told.Notice.Value);
             goals++;
             if (!world.TryReadRules(told.Time, out Match at) || !world.TryReadRules(told.Time - SimDuration.OneTick, out Match before)
-                || (at.Left, at.Right) != (goal.Left, goal.Right) || before.Left + before.Right != goals - 1)
+                || (at.Left, at.Right) != (goal.Left, goal.Right) || before.Left + before.Right != goals - 1
+                || !world.TryRead(told.Key.Body, told.Time - SimDuration.OneTick, out BodyState puck)
+                || Math.Abs(puck.Position.Z) >= Table.HalfMouth)
             {
                 differences.Add($"Peer {peer} was told a goal at {(told.Time - world.Start).ToSeconds():0.000} s that did not happen.");
                 return;

@@ -36,16 +36,16 @@ public static class Table
     public const ulong MalletTag = 2;
     public const ulong PrizeTag = 16;
 
-    private const uint Ends = 2, Pucks = 4, Mallets = 8, Prizes = 16;
+    private const uint Sides = 1, Ends = 2, Pucks = 4, Mallets = 8, Prizes = 16;
 
     /// <summary>A puck that plays, one that nobody touches before play begins, and one in the mouth of a goal.</summary>
     public static readonly CollisionFilter PuckOnTable = new(Pucks, ~Prizes);
     public static readonly CollisionFilter PuckThatWaits = new(Pucks, 0);
     public static readonly CollisionFilter PuckInMouth = new(Pucks, ~(Prizes | Ends));
 
-    /// <summary>A mallet in its own half, and one beyond the middle line, where it touches nothing.</summary>
+    /// <summary>A mallet in its own half, and one beyond the middle line, where it touches no puck.</summary>
     public static readonly CollisionFilter MalletAtHome = new(Mallets);
-    public static readonly CollisionFilter MalletBeyond = new(Mallets, 0);
+    public static readonly CollisionFilter MalletBeyond = new(Mallets, Sides | Ends);
 
     public static readonly BodySpec PuckSpec = new(PuckRadius, mass: 0.1, restitution: 1, filter: PuckOnTable, tag: PuckTag);
     public static readonly BodyId Puck = BodyId.OfScene(0);
