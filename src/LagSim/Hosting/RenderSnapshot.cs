@@ -31,6 +31,9 @@ public sealed class RenderSnapshot
     /// <summary>Counts the render snapshots that were published; 0 before the first, which shows nothing.</summary>
     public long Number { get; private set; }
 
+    /// <summary>When the scene began: rules count from there.</summary>
+    public SimTime Start { get; private set; }
+
     /// <summary>The earliest instant shown.</summary>
     public SimTime From { get; private set; } = SimTime.MaxValue;
 
@@ -188,6 +191,7 @@ public sealed class RenderSnapshot
 
         scene = simulation.Scene;
         box = scene.Box;
+        Start = simulation.Start;
         Number = number;
         From = from;
         To = simulation.Horizon;
