@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Experiments.Metrics;
 using LagSim.Harness.SceneFiles;
+using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -22,10 +23,11 @@ internal sealed class GasWorld
     private uint sequence;
 
     /// <summary>So many balls at a volume fraction, and the seconds kept of their past.</summary>
-    internal GasWorld(int bodies, double fraction, HealingMode mode, double history)
+    internal GasWorld(int bodies, double fraction, HealingMode mode, double history, GameRules? rules = null)
     {
         this.bodies = bodies;
-        Simulation = new Simulation(BuiltInScenes.Gas(bodies, fraction), new SimulationOptions(default, SimDuration.FromSeconds(history), healing: mode));
+        Scene scene = BuiltInScenes.Gas(bodies, fraction);
+        Simulation = new Simulation(rules is null ? scene : scene.With(rules, 1), new SimulationOptions(default, SimDuration.FromSeconds(history), healing: mode));
         Simulation.Healed += healed => report = healed;
         Simulation.AdvanceTo(Simulation.Start + Half);
         long before = Simulation.ImpactsProcessed;

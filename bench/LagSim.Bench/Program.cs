@@ -15,6 +15,7 @@ internal static class Program
         ["traffic"] = _ => TrafficTable.Print(),
         ["protection"] = ProtectionTable.Print,
         ["heal"] = HealTable.Print,
+        ["rules"] = RuleHealTable.Print,
         ["dense"] = DenseTable.Print,
         ["bunch"] = BunchTable.Print,
         ["memory"] = MemoryTable.Print,
