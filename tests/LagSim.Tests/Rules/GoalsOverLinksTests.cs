@@ -84,7 +84,7 @@ public sealed class GoalsOverLinksTests
         ClientSession joined = group.Join(7, 77, new ClientOptions { Rules = [Football], RuleNotices = late.Notices, Window = Window });
         ClientSession without = group.Join(8, 88, new ClientOptions { Window = Window });
         Assert.True(group.RunUntil(() => joined.State == SessionState.Running && without.State == SessionState.Ended), $"{joined.State} {without.State}");
-        Assert.Contains("'given 1'", without.EndReason, StringComparison.Ordinal); // the control: without the code nobody gets in
+        Assert.Contains("given", without.EndReason, StringComparison.Ordinal); // the control: without the code nobody gets in
         group.DropLast();
         SimTime from = joined.BegunFrom!.Time;
         for (int n = 0; n < 12; n++)

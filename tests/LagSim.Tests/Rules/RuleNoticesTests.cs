@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Hosting;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
 using LagSim.Time;
