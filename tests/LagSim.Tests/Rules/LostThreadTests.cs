@@ -144,9 +144,13 @@ public sealed class LostThreadTests
                 + " was given up. Its thread could not be ended, and is left to itself until the process ends.$",
             session.EndReason);
         Assert.False(lost.WaitUntilRunning(Deadline));
-        Assert.Contains("is not there any more: The rules 'given 1'", Assert.Throws<InvalidOperationException>(() => { _ = lost.Do(PlayerAction.Command(new GameCommand(1))); }).Message,
-            StringComparison.Ordinal);
-        Assert.Contains("is not there any more: The rules 'given 1'", Assert.Throws<InvalidOperationException>(() => { _ = lost.Ask(_ => 1); }).Message, StringComparison.Ordinal);
+        foreach (Action ask in new Action[] { () => _ = lost.Do(PlayerAction.Command(new GameCommand(1))), () => _ = lost.Ask(_ => 1) })
+        {
+            // What is asked while the session is just ending still gets an answer, which is the failure; what is asked later is refused at once.
+            Assert.True(Within(() => Record.Exception(ask) is InvalidOperationException no
+                && no.Message.StartsWith("The session's thread is not there any more: The rules 'given 1'", StringComparison.Ordinal)));
+        }
+
         await Assert.ThrowsAnyAsync<Exception>(() => Answered(question!));
         lost.Dispose(); // would wait for ever
 
