@@ -48,6 +48,11 @@ internal sealed class Engine
         Timelines.ForgetBefore(from);
         RuleMemory? ruleMemory = scene.Rules is null ? null : new RuleMemory(scene.Rules);
         Rules = ruleMemory is null ? null : parts.RuleLog((GameRules)scene.Rules!, start, ruleState ?? ruleMemory.Begin());
+        if (Rules is not null)
+        {
+            Rules.Running = options.RunningRuleCall;
+        }
+
         Reader = new StateReader(scene.Box, Bodies, Timelines, Progress, Rules);
 
         // The laws that bodies follow, and where contact is.
@@ -137,7 +142,7 @@ internal sealed class Engine
         if (Rules is not null)
         {
             RuleView ruleView = new(scene, Bodies, Timelines);
-            RuleWorld ruleWorld = new(scene, (GameRules)scene.Rules!, ruleMemory!, ruleView, start);
+            RuleWorld ruleWorld = new(scene, (GameRules)scene.Rules!, ruleMemory!, ruleView, start, options.RunningRuleCall);
             RuleActs acts = new(Roster, Bodies, log, growth, predictor, Rewinder);
             Caller = parts.RuleCaller((GameRules)scene.Rules!, Rules, ruleMemory!, ruleWorld, ruleView, acts, options.Healing);
         }

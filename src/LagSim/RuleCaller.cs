@@ -21,6 +21,7 @@ internal class RuleCaller
     private readonly RuleActs acts;
     private readonly HealingMode mode;
     private readonly List<RuleRead> spare = new();
+    private readonly RunningRuleCall? running;
     private StateVersion? loaded; // what the memory holds
 
     /// <summary>Calls these rules in one world.</summary>
@@ -34,6 +35,7 @@ internal class RuleCaller
         this.view = view;
         this.acts = acts;
         this.mode = mode;
+        running = log.Running;
     }
 
     /// <summary>How many calls were made, those made again included.</summary>
@@ -131,19 +133,35 @@ internal class RuleCaller
         world.Begin(call, first);
         loaded = null; // until it is known what the call leaves
         Made++;
+        running?.Begin(rules, MethodFor(call.Key.Kind), call.Key);
+        Exception? failure = null;
         try
         {
             Dispatch(call);
         }
-        catch (Exception failure)
+        catch (Exception thrown)
+        {
+            failure = thrown;
+        }
+
+        world.End();
+        running?.End(); // throws if the call was given up, whatever came of it
+        if (failure is not null)
         {
             throw Failed(call, failure.Message, failure);
         }
-        finally
-        {
-            world.End();
-        }
     }
+
+    private static string MethodFor(EventKind kind) => kind switch
+    {
+        EventKind.Start => nameof(GameRules.OnStart),
+        EventKind.Command => nameof(GameRules.OnCommand),
+        EventKind.Timer => nameof(GameRules.OnTimer),
+        EventKind.Impact => nameof(GameRules.OnContact),
+        EventKind.Crossing => nameof(GameRules.OnCrossing),
+        EventKind.Spawn => nameof(GameRules.OnSpawned),
+        _ => nameof(GameRules.OnRemoved),
+    };
 
     private void Dispatch(RuleCall call)
     {

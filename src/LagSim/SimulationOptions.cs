@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -117,6 +118,12 @@ public sealed class SimulationOptions
 
     /// <summary>The same with an observer of crossings.</summary>
     internal SimulationOptions WithCrossingObserver(ICrossingObserver? observer) => With(changed => changed.CrossingObserver = observer);
+
+    /// <summary>Where the world says which call of rules it is in; null, the default, if nobody looks.</summary>
+    internal RunningRuleCall? RunningRuleCall { get; private set; }
+
+    /// <summary>The same with a place for the call of rules that runs.</summary>
+    internal SimulationOptions WithRunningRuleCall(RunningRuleCall? running) => With(changed => changed.RunningRuleCall = running);
 
     /// <summary>The same with parts that others make.</summary>
     internal SimulationOptions WithParts(EngineParts parts) => With(changed => changed.Parts = parts);

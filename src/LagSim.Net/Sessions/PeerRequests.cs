@@ -13,8 +13,17 @@ internal sealed class PeerRequests(Session session, Action wake)
     private Exception? fault; // set before isOver is
     private volatile bool isOver;
 
-    /// <summary>Whether no request is answered any more.</summary>
-    internal bool AreOver => isOver;
+    /// <summary>Throws if no request is answered any more.</summary>
+    /// <exception cref="ObjectDisposedException">The thread was disposed, or cancelled.</exception>
+    /// <exception cref="InvalidOperationException">It was given up, or has failed.</exception>
+    internal void ThrowIfOver()
+    {
+        if (isOver)
+        {
+            throw fault is null ? new ObjectDisposedException(nameof(PeerThread))
+                : new InvalidOperationException($"The session's thread is not there any more: {fault.Message}", fault);
+        }
+    }
 
     /// <summary>Adds a request and wakes the session's thread. From any thread.</summary>
     internal void Add(IPeerRequest request)

@@ -39,7 +39,7 @@ public sealed class PeerThread : IDisposable
     private readonly ActionRequests actions;
     private readonly IDatagramPort port;
     private readonly SessionOwner owner;
-    private readonly HandlerList<Action<PlayerAction, Exception>> refused;
+    private readonly ActionRefusals refused;
     private readonly WorldThread thread;
     private readonly ManualResetEventSlim decided = new(); // set once running or ended
     private readonly object ending = new(); // held while a thread cleans up
@@ -64,7 +64,7 @@ public sealed class PeerThread : IDisposable
         this.port = port ?? throw new ArgumentNullException(nameof(port));
         owner = session.Parts.Owner;
         refused = new(owner);
-        actions = new ActionRequests(TellRefused, owner.Failures);
+        actions = new ActionRequests(refused.Tell, owner.Failures);
         thread = new WorldThread(name, Step, session.Interrupt, End);
         requests = new PeerRequests(session, thread.Wake);
         port.Arrived += thread.Wake;
@@ -202,12 +202,14 @@ public sealed class PeerThread : IDisposable
         }
 
         isOwner = true;
+        Session.Parts.World.Watchdog.Abandoned = Abandon;
         try
         {
             thread.Start();
         }
         catch
         {
+            Session.Parts.World.Watchdog.Abandoned = null;
             isOwner = false;
             owner.Release();
             throw;
@@ -265,7 +267,8 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>
-    /// Stops the thread, even in the middle of a step, and waits for it. One made by <c>Host</c> or <c>Join</c> leaves its session and
+    /// Stops the thread, even in the middle of a step, and waits for it; if rules do not return from a call, until it is given up
+    /// (<see cref="SessionOptions.RuleTimeout"/>). One made by <c>Host</c> or <c>Join</c> leaves its session and
     /// closes its port; any other sends no goodbye, <see cref="Session.Leave"/> does.
     /// </summary>
     /// <remarks>
@@ -327,10 +330,7 @@ public sealed class PeerThread : IDisposable
     private void ThrowIfOver()
     {
         thread.ThrowIfFaulted();
-        if (requests.AreOver)
-        {
-            throw new ObjectDisposedException(nameof(PeerThread));
-        }
+        requests.ThrowIfOver();
     }
 
     /// <summary>One step of the thread's loop; for that thread only, or for the caller if it was never started.</summary>
@@ -383,20 +383,25 @@ public sealed class PeerThread : IDisposable
             requests.Close(hasFailed ? fault : null);
             if (isOwner)
             {
+                Session.Parts.World.Watchdog.Abandoned = null;
                 isOwner = false;
                 owner.Release();
             }
         }
     }
 
-    private void TellRefused(PlayerAction action, Exception why)
+    /// <summary>
+    /// Rules never return from a call on the session's thread: this thread takes its place, and ends the session. Nobody waits for the
+    /// other any more, which never comes back.
+    /// </summary>
+    private void Abandon(SimulationException why)
     {
-        if (refused.IsEmpty)
+        lock (ending)
         {
-            HandlerFailures.Write(
-                $"{action.Kind} was refused, and nothing listens to {nameof(PeerThread)}.{nameof(Refused)}: {why.Message}");
+            thread.Abandon(null);
+            owner.Enter();
+            owner.Failures.Guard(() => Session.EndLostWorld(why));
+            End(why);
         }
-
-        refused.Raise((Action: action, Why: why), static (handler, told) => handler(told.Action, told.Why));
     }
 }

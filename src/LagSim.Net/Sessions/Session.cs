@@ -58,6 +58,7 @@ public abstract class Session
         loop = new SessionLoop(parts, protocol);
         watch = parts.Options.Cancellation.Register(static session => ((Session)session!).Interrupt(), this);
         parts.Status.Ended += () => watch.Dispose(); // a long-lived token would otherwise keep every session alive
+        parts.Status.Ended += parts.World.Watchdog.Dispose;
         parts.Start.Begun += () => begun.Raise(0, static (handler, _) => handler());
         parts.Start.Renewed += why => renewed.Raise(why, static (handler, told) => handler(told));
         parts.Status.Ended += () => ended.Raise(0, static (handler, _) => handler());
@@ -366,6 +367,12 @@ public abstract class Session
             protocol.WipeKeys();
         }
     }
+
+    /// <summary>
+    /// Ends the session for a thread that never comes back from its world; for the thread that takes its place. Other peers need not wait
+    /// for the timeout.
+    /// </summary>
+    internal void EndLostWorld(SimulationException failure) => loop.EndWorld(failure);
 
     /// <summary>Says in <see cref="System.Diagnostics.Trace"/>, at the first step, that a session is not protected.</summary>
     private void WarnOnceIfUnprotected()

@@ -134,6 +134,16 @@ public abstract record SessionOptions
     /// </remarks>
     public SimDuration Timeout { get; init; } = DefaultTimeout;
 
+    /// <summary>
+    /// How long a call of the scene's rules may take before the session ends because of it, 100 ms to 10 min of real time; default 10 s.
+    /// </summary>
+    /// <remarks>
+    /// Then whatever the call asks of the world throws. If it still goes on for half as long again, the thread of a <see cref="PeerThread"/>
+    /// is given up; on any other thread the call goes on, because nothing can end it. Time in which the process stands still does not
+    /// count.
+    /// </remarks>
+    public SimDuration RuleTimeout { get; init; } = RuleWatchdog.DefaultLimit;
+
     /// <summary>How long unacknowledged data waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
     public SimDuration ResendInterval { get; init; } = SimDuration.FromMilliseconds(30);
 
@@ -236,6 +246,7 @@ public abstract record SessionOptions
             Range(given, 0.01, Timeout.ToSeconds() / 3, nameof(KeepAlive));
         }
 
+        Range(RuleTimeout, RuleWatchdog.MinLimit.ToSeconds(), RuleWatchdog.MaxLimit.ToSeconds(), nameof(RuleTimeout));
         Range(CommitInterval, 0.1, 60, nameof(CommitInterval));
         if (Window is null)
         {

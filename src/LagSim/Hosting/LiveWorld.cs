@@ -46,12 +46,15 @@ public sealed class LiveWorld
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
     /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
+    /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see cref="RuleWatchdog.Start"/>
+    /// it before, since making a world calls <c>OnStart</c>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null,
-        CrossingNotices? crossings = null, RuleNotices? notices = null)
+        CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null)
         : this(
-            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices)), lookAhead, renderedPast, contacts, crossings, notices)
+            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead, renderedPast, contacts,
+            crossings, notices)
     {
     }
 
@@ -64,14 +67,16 @@ public sealed class LiveWorld
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
     /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
+    /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see cref="RuleWatchdog.Start"/>
+    /// it before, since making a world calls <c>OnStart</c>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
         Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
-        ContactNotices? contacts = null, CrossingNotices? crossings = null, RuleNotices? notices = null)
+        ContactNotices? contacts = null, CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null)
         : this(
-            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices)), lookAhead, renderedPast, contacts,
+            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead, renderedPast, contacts,
             crossings, notices)
     {
     }
@@ -288,7 +293,7 @@ public sealed class LiveWorld
     /// <summary>The options, if they and the spans go together.</summary>
     private static SimulationOptions Checked(
         SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings,
-        RuleNotices? notices)
+        RuleNotices? notices, RuleWatchdog? watchdog)
     {
         if (options is null)
         {
@@ -316,6 +321,7 @@ public sealed class LiveWorld
         contacts?.Follow();
         notices?.Follow();
         crossings?.Follow();
+        options = watchdog is null ? options : options.WithRunningRuleCall(watchdog.Running);
         options = contacts is null ? options : options.WithObserver(contacts);
         return crossings is null ? options : options.WithCrossingObserver(crossings);
     }

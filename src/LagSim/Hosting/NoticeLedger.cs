@@ -7,7 +7,7 @@ using LagSim.Time;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Keeps account of what is predicted of a world, such as contacts and crossings: each is reported as predicted, and then confirmed when
+/// Keeps account of what is predicted of a world, such as contacts, crossings and what rules tell: each is reported as predicted, and then confirmed when
 /// nothing can change it any more, or retracted after a late event.
 /// </summary>
 /// <remarks>For the simulation's thread, apart from <see cref="TryRead"/> and <see cref="Lost"/>.</remarks>
@@ -61,6 +61,18 @@ internal sealed class NoticeLedger<T>
 
     /// <summary>All that was to happen at a key is undone.</summary>
     internal void Cut(in EventKey key) => Note(new Change(changes.Count, true, key, default));
+
+    /// <summary>All that was to happen at a key or later is undone, confirmed ones apart. Between two steps.</summary>
+    internal void CutFrom(in EventKey key)
+    {
+        for (int n = FirstFrom(key); n < standing.Count; n++)
+        {
+            if (n == confirmed || standing[n - 1].Key != standing[n].Key)
+            {
+                Cut(standing[n].Key);
+            }
+        }
+    }
 
     /// <summary>Takes one world on, once.</summary>
     /// <exception cref="InvalidOperationException">It follows a world already.</exception>

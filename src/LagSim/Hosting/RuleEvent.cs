@@ -9,7 +9,7 @@ namespace LagSim.Hosting;
 /// <summary>Something that the rules of a game told, predicted, confirmed or retracted.</summary>
 /// <remarks>Immutable, safe on any thread. Key, place and notice are the same on every peer; <see cref="Number"/>, and which come as
 /// predicted, are each peer's own.</remarks>
-public readonly struct RuleEvent : IEquatable<RuleEvent>
+public readonly struct RuleEvent : IEquatable<RuleEvent>, INotice<RuleEvent>
 {
     internal RuleEvent(NoticeKind kind, long number, in EventKey key, int place, RuleNotice notice)
     {
@@ -41,6 +41,16 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>
     /// <summary>Whether it is about the same, whatever its kind.</summary>
     public bool IsSameNotice(in RuleEvent other) => Key == other.Key && Place == other.Place && Notice == other.Notice;
 
+    int INotice<RuleEvent>.CompareWith(RuleEvent other)
+    {
+        int byKey = EventKey.Compare(Key, other.Key);
+        return byKey != 0 ? byKey : Place.CompareTo(other.Place);
+    }
+
+    bool INotice<RuleEvent>.IsSameAs(RuleEvent other) => IsSameNotice(other);
+
+    RuleEvent INotice<RuleEvent>.As(NoticeKind kind, long number) => new(kind, number, Key, Place, Notice);
+
     /// <inheritdoc/>
     public bool Equals(RuleEvent other) => Kind == other.Kind && Number == other.Number && IsSameNotice(other);
 
@@ -58,13 +68,4 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>
 
     /// <summary>Kind, notice and time, for logs.</summary>
     public override string ToString() => string.Format(CultureInfo.InvariantCulture, "{0} {1} at {2}", Kind, Notice, Time);
-
-    /// <summary>The order in which the rules told them.</summary>
-    internal static int Compare(in RuleEvent a, in RuleEvent b)
-    {
-        int byKey = EventKey.Compare(a.Key, b.Key);
-        return byKey != 0 ? byKey : a.Place.CompareTo(b.Place);
-    }
-
-    internal RuleEvent As(NoticeKind kind, long number) => new(kind, number, Key, Place, Notice);
 }

@@ -33,6 +33,7 @@ public sealed class SimulationHost : IDisposable
     private readonly IClock clock;
     private readonly LiveWorld world;
     private readonly WorldThread thread;
+    private readonly RuleWatchdog watchdog;
     private uint lastSequence;
     private volatile bool disposed;
 
@@ -43,18 +44,31 @@ public sealed class SimulationHost : IDisposable
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none. They are confirmed after 2 s.</param>
     /// <param name="crossings">Receives the crossings of sensors of this world alone, likewise; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone, likewise; null, the default, for none.</param>
+    /// <param name="ruleTimeout">How long a call of the scene's rules may take before the world ends because of it, 100 ms to 600 s of real
+    /// time; default 10 s. If the call goes on for half as long again, the thread is given up.</param>
+    /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated from the start; <c>OnStart</c> of rules is called here.</exception>
     public SimulationHost(
         Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, CrossingNotices? crossings = null,
-        RuleNotices? notices = null)
+        RuleNotices? notices = null, SimDuration? ruleTimeout = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
+        watchdog = new RuleWatchdog(ruleTimeout);
         SimulationOptions options = new(clock.Now, SimDuration.FromSeconds(2), cancellation: stop.Token);
-        world = new LiveWorld(scene, options, lookAhead, contacts: contacts, crossings: crossings, notices: notices);
+        if (scene?.Rules is not null)
+        {
+            watchdog.Start(); // before there is a world: its making calls OnStart
+        }
+
+        world = new LiveWorld(scene!, options, lookAhead, contacts: contacts, crossings: crossings, notices: notices, watchdog: watchdog);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
     internal LiveWorld World => world;
+
+    /// <summary>Ends the world if rules do not return from a call.</summary>
+    internal RuleWatchdog Watchdog => watchdog;
 
     /// <summary>
     /// The clock's time: what to read the render snapshot at. From any thread, if the clock can be read so, as a
@@ -97,7 +111,11 @@ public sealed class SimulationHost : IDisposable
     /// <summary>Starts the thread.</summary>
     /// <exception cref="InvalidOperationException">It has been started already.</exception>
     /// <exception cref="ObjectDisposedException">It has been stopped for good.</exception>
-    public void Start() => thread.Start();
+    public void Start()
+    {
+        watchdog.Abandoned = thread.Abandon;
+        thread.Start();
+    }
 
     /// <summary>
     /// Applies an action to the world, now by the clock. The render snapshot has it as soon as the world's thread has simulated it. From
@@ -133,13 +151,14 @@ public sealed class SimulationHost : IDisposable
     }
 
     /// <summary>
-    /// Stops the thread, in the middle of its work if it is at some, and waits for it. The last render snapshot stays readable; nothing
-    /// more can be done to the world.
+    /// Stops the thread, in the middle of its work if it is at some, and waits for it; if rules do not return from a call, until it is given
+    /// up. The last render snapshot stays readable; nothing more can be done to the world.
     /// </summary>
     public void Dispose()
     {
         disposed = true;
         thread.Dispose();
+        watchdog.Dispose();
     }
 
     private SimDuration Step()

@@ -17,7 +17,9 @@ public sealed class WorldThread : IDisposable
     private readonly Action? interrupt;
     private readonly Action<Exception?>? atEnd;
     private readonly AutoResetEvent wake = new(false);
+    private readonly ManualResetEvent over = new(false); // the thread does nothing any more
     private readonly Thread thread;
+    private volatile bool isAbandoned;
     private Exception? fault;
     private long steps;
     private volatile bool stopping;
@@ -89,8 +91,8 @@ public sealed class WorldThread : IDisposable
 
     /// <summary>Interrupts the current step, or waits for it where nothing can, and ends the thread.</summary>
     /// <remarks>
-    /// Safe to call twice, and from several threads: each returns once the thread has ended. Called from the thread itself it returns at
-    /// once, and the thread ends after this step.
+    /// Safe to call twice, and from several threads: each returns once the thread has ended, or was given up because rules did not return
+    /// from a call. Called from the thread itself it returns at once, and the thread ends after this step.
     /// </remarks>
     public void Dispose()
     {
@@ -103,10 +105,29 @@ public sealed class WorldThread : IDisposable
 
         if (thread.IsAlive && thread != Thread.CurrentThread)
         {
-            thread.Join();
+            over.WaitOne();
+            if (!isAbandoned)
+            {
+                thread.Join();
+            }
         }
 
-        // The event itself is left to its finaliser: another thread may be about to set it.
+        // The events themselves are left to their finalisers: another thread may be about to set one.
+    }
+
+    /// <summary>
+    /// Gives a thread up that is in a step that never returns: <see cref="Dispose"/> does not wait for it, and what it was to do at its end
+    /// is left to the caller.
+    /// </summary>
+    /// <param name="why">What becomes the <see cref="Fault"/>; null for none.</param>
+    /// <remarks>From any thread. .NET can end no thread, so it is the caller's to know that this one does not come back; see
+    /// <see cref="RuleWatchdog.Abandoned"/>.</remarks>
+    public void Abandon(Exception? why)
+    {
+        Volatile.Write(ref fault, why);
+        isAbandoned = true;
+        stopping = true;
+        over.Set();
     }
 
     private void Run()
@@ -140,6 +161,8 @@ public sealed class WorldThread : IDisposable
         {
             Volatile.Write(ref fault, Fault ?? failure);
         }
+
+        over.Set();
     }
 
     // Rounded up: a wait that ends early would only be followed by another.

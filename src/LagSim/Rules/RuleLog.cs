@@ -16,7 +16,7 @@ namespace LagSim.Rules;
 /// </remarks>
 internal class RuleLog : IRuleTriggers
 {
-    private readonly GameRules rules;
+    private readonly RuleHearing hearing;
     private readonly SimTime start;
     private readonly List<RuleCall> calls = new();
     private readonly Stack<RuleCall> free = new();
@@ -31,11 +31,18 @@ internal class RuleLog : IRuleTriggers
     /// <summary>Of a world that continues from an encoded state.</summary>
     internal RuleLog(GameRules rules, SimTime start, ReadOnlySpan<byte> state)
     {
-        this.rules = rules;
+        hearing = new RuleHearing(rules);
         this.start = start;
         first = versions.Add(state);
         versions.Replace(ref current, first);
         versions.Replace(ref beforeRollback, first);
+    }
+
+    /// <summary>Knows which method of the rules is called; null if nobody looks.</summary>
+    internal RunningRuleCall? Running
+    {
+        get => hearing.Running;
+        set => hearing.Running = value;
     }
 
     /// <summary>How many calls stand; the call at this place is the next.</summary>
@@ -52,7 +59,7 @@ internal class RuleLog : IRuleTriggers
 
     void IRuleTriggers.OnContact(in EventKey impact, in ImpactContact contact)
     {
-        if (rules.HearsContact(contact.First, contact.Second, contact.Surface))
+        if (hearing.Hears(impact, contact))
         {
             Add(impact, new RuleTrigger(contact));
         }
@@ -60,7 +67,7 @@ internal class RuleLog : IRuleTriggers
 
     void IRuleTriggers.OnCrossing(in Crossing crossing)
     {
-        if (rules.HearsCrossing(crossing.Body, crossing.Sensor))
+        if (hearing.Hears(crossing))
         {
             Add(crossing.Key, new RuleTrigger(crossing.Entered));
         }
@@ -68,7 +75,7 @@ internal class RuleLog : IRuleTriggers
 
     void IRuleTriggers.OnOpened(BodyId body, in EventKey key)
     {
-        if (HearsBody(body, key))
+        if (hearing.Hears(body, key))
         {
             Add(key, default);
         }
@@ -76,7 +83,7 @@ internal class RuleLog : IRuleTriggers
 
     void IRuleTriggers.OnCut(BodyId body, in EventKey key)
     {
-        if (key.Kind is not (EventKind.Impact or EventKind.Crossing) && !HearsBody(body, key))
+        if (key.Kind is not (EventKind.Impact or EventKind.Crossing) && !hearing.Hears(body, key))
         {
             return;
         }
@@ -341,9 +348,6 @@ internal class RuleLog : IRuleTriggers
         new(time, round, EventKind.Timer, default, default, 0, unchecked((uint)number));
 
     private EventKey KeyOf(in RuleTimer timer) => KeyFor(start + SimDuration.FromTicks(timer.At), timer.Round, timer.Number);
-
-    private bool HearsBody(BodyId body, in EventKey key) =>
-        key.Kind is EventKind.Spawn or EventKind.Remove && key.Body == body && (rules.HearsBodies || rules.BodyBytes > 0);
 
     private ulong HashOf(RuleCall call)
     {

@@ -46,10 +46,12 @@ public sealed class RuleWorld
     private uint firstAct;
     private ImpactContact contact; // of an impact, which of its contacts the call is for
     private ulong draws;
+    private readonly RunningRuleCall? running;
     private bool isCalled;
 
-    internal RuleWorld(Scene scene, GameRules rules, RuleMemory memory, RuleView view, SimTime start)
+    internal RuleWorld(Scene scene, GameRules rules, RuleMemory memory, RuleView view, SimTime start, RunningRuleCall? running)
     {
+        this.running = running;
         Scene = scene;
         this.rules = rules;
         this.memory = memory;
@@ -61,10 +63,17 @@ public sealed class RuleWorld
     public Scene Scene { get; }
 
     /// <summary>When this is, in shared simulation time.</summary>
-    public SimTime Time => key.Time;
+    public SimTime Time
+    {
+        get
+        {
+            running?.Touch();
+            return key.Time;
+        }
+    }
 
     /// <summary>How long ago the scene began.</summary>
-    public SimDuration Elapsed => key.Time - start;
+    public SimDuration Elapsed => Time - start;
 
     /// <summary>What the last call did to bodies.</summary>
     internal List<RuleAct> Acts => acts;
@@ -356,5 +365,7 @@ public sealed class RuleWorld
         {
             throw new InvalidOperationException("The world of rules is used outside a call of theirs; it is valid during the call only.");
         }
+
+        running?.Touch();
     }
 }

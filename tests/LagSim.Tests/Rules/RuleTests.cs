@@ -16,23 +16,23 @@ public sealed class RuleTests
     [Fact]
     public void OnContact_OfTheSurfaceThatIsHeard_CountsBounces()
     {
-        Simulation world = Run(Scene(new Given { Hears = (_, _, surface) => surface == 0, Contact = (w, _) => w.State<Score>().Count++ }), 3);
+        Simulation world = Run(Scene(new GivenRules { Hears = (_, _, surface) => surface == 0, Contact = (w, _) => w.State<GivenState>().Count++ }), 3);
         int bounces = Impacts(world, First).Count;
         Assert.True(bounces > 1);
         Assert.Equal(bounces, Count(world, 3));
         Assert.Equal(0, Count(world, 0.1));
-        Assert.Equal(0, Count(Run(Scene(new Given { Contact = (w, _) => w.State<Score>().Count++ }), 3), 3)); // none is heard
+        Assert.Equal(0, Count(Run(Scene(new GivenRules { Contact = (w, _) => w.State<GivenState>().Count++ }), 3), 3)); // none is heard
     }
 
     [Fact]
     public void SetTimer_CountsDown_ExactlyThen()
     {
-        Given rules = new()
+        GivenRules rules = new()
         {
             Start = w => w.SetTimer(1, SimDuration.FromSeconds(0.5)),
             Timer = (w, _) =>
             {
-                if (++w.State<Score>().Count < 3)
+                if (++w.State<GivenState>().Count < 3)
                 {
                     w.SetTimer(1, SimDuration.FromSeconds(0.5));
                 }
@@ -47,7 +47,7 @@ public sealed class RuleTests
     [Fact]
     public void CancelTimer_IsNotCalled()
     {
-        Given rules = new()
+        GivenRules rules = new()
         {
             Start = w =>
             {
@@ -55,7 +55,7 @@ public sealed class RuleTests
                 Assert.True(w.CancelTimer(1));
                 Assert.False(w.CancelTimer(1));
             },
-            Timer = (w, _) => w.State<Score>().Count++,
+            Timer = (w, _) => w.State<GivenState>().Count++,
         };
         Assert.Equal(0, Count(Run(Scene(rules), 2), 2));
     }
@@ -63,7 +63,7 @@ public sealed class RuleTests
     [Fact]
     public void OnCommand_LateOrOnTime_SameState()
     {
-        Given rules = new() { Command = (w, player, command) => w.State<Score>().Count = (w.State<Score>().Count * 10) + (player * command.Number) };
+        GivenRules rules = new() { Command = (w, player, command) => w.State<GivenState>().Count = (w.State<GivenState>().Count * 10) + (player * command.Number) };
         ExternalEvent first = PlayerAction.Command(new GameCommand(2)).Stamp(At(0.5), 1, 1);
         ExternalEvent second = PlayerAction.Command(new GameCommand(3)).Stamp(At(0.7), 2, 1);
         Simulation onTime = Run(Scene(rules), 2, [first, second]);
@@ -83,7 +83,7 @@ public sealed class RuleTests
     [Fact]
     public void Acts_HappenAtThatTickInTheNextRound()
     {
-        Given rules = new()
+        GivenRules rules = new()
         {
             Command = (w, _, _) =>
             {
@@ -105,24 +105,24 @@ public sealed class RuleTests
     [Fact]
     public void TryRead_OfABodyThatIsKnownBeyond_SeesItAtTheCall()
     {
-        Given rules = new() { Command = (w, _, _) => w.State<Score>().Height = w.TryRead(First, out BodyState state) ? state.Position.Y : -1 };
+        GivenRules rules = new() { Command = (w, _, _) => w.State<GivenState>().Height = w.TryRead(First, out BodyState state) ? state.Position.Y : -1 };
         Simulation world = Run(Scene(rules), 2);
         world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1));
         world.AdvanceTo(At(2));
-        Assert.True(world.TryReadRules(At(2), out Score score));
+        Assert.True(world.TryReadRules(At(2), out GivenState score));
         Assert.Equal(Read(world, First, At(0.5)).Position.Y, score.Height);
     }
 
     [Fact]
     public void LateEvent_OfABodyThatNoCallRead_MakesNoCallAgain()
     {
-        Given rules = new()
+        GivenRules rules = new()
         {
             Start = w => w.SetTimer(1, SimDuration.FromSeconds(0.1)),
             Timer = (w, timer) =>
             {
                 w.SetTimer(timer, SimDuration.FromSeconds(0.1));
-                w.State<Score>().Height += w.TryRead(First, out BodyState state) ? state.Position.Y : 0;
+                w.State<GivenState>().Height += w.TryRead(First, out BodyState state) ? state.Position.Y : 0;
             },
         };
         Scene scene = new SceneBuilder("two").WithGravity(Floating).AddBody("read", Ball(), V(0, 0, 0), V(0.5)).AddBody("other", Ball(), V(0, 10, 0)).WithRules(rules).Build();
@@ -140,7 +140,7 @@ public sealed class RuleTests
     [Fact]
     public void Acts_OfCallsOfOneTickThatALateCallComesBefore_AreAllThere()
     {
-        Given rules = new() { Command = (w, player, _) => w.SetVelocity(First, V(player)) };
+        GivenRules rules = new() { Command = (w, player, _) => w.SetVelocity(First, V(player)) };
         ExternalEvent[] commands = [.. Enumerable.Range(1, 3).Select(n => PlayerAction.Command(new GameCommand(1)).Stamp(At(0.25), (byte)n, 1))];
         Simulation onTime = Run(Scene(rules), 1, commands);
         Simulation late = Run(Scene(rules), 1, [commands[1], commands[2]]);
@@ -156,7 +156,7 @@ public sealed class RuleTests
     [Fact]
     public void Random_IsOfTheSeedAndTheEvent()
     {
-        Given rules = new() { Command = (w, _, _) => w.State<Score>().Draw = w.Random() ^ (ulong)w.Random(6) };
+        GivenRules rules = new() { Command = (w, _, _) => w.State<GivenState>().Draw = w.Random() ^ (ulong)w.Random(6) };
         ExternalEvent one = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1);
         ExternalEvent other = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 2);
         ulong[] draws = [Draw(0, one), Draw(0, one), Draw(7, one), Draw(0, other)];
@@ -165,7 +165,7 @@ public sealed class RuleTests
 
         ulong Draw(ulong seed, ExternalEvent command)
         {
-            Run(Scene(rules, seed), 1, [command]).TryReadRules(At(1), out Score score);
+            Run(Scene(rules, seed), 1, [command]).TryReadRules(At(1), out GivenState score);
             return score.Draw;
         }
     }
@@ -173,18 +173,18 @@ public sealed class RuleTests
     [Fact]
     public void BodyState_GoesWithTheBody()
     {
-        Given rules = new(bodies: true)
+        GivenRules rules = new(bodies: true)
         {
             HearsAll = true,
-            Spawned = (w, body) => w.State<Score>(body).Count = 5,
-            Removed = (w, body) => w.State<Score>().Count += w.State<Score>(body).Count,
+            Spawned = (w, body) => w.State<GivenState>(body).Count = 5,
+            Removed = (w, body) => w.State<GivenState>().Count += w.State<GivenState>(body).Count,
         };
         BodyId spawned = new(1, 1, 0);
         Simulation world = Run(Scene(rules), 2, [
             PlayerAction.Spawn(Ball(), V(4, 4)).Stamp(At(0.5), 1, 1), PlayerAction.Remove(spawned).Stamp(At(1), 1, 2)]);
-        Assert.True(world.TryReadRules(spawned, At(0.75), out Score there));
+        Assert.True(world.TryReadRules(spawned, At(0.75), out GivenState there));
         Assert.Equal(5, there.Count);
-        Assert.False(world.TryReadRules(spawned, At(1), out Score _));
+        Assert.False(world.TryReadRules(spawned, At(1), out GivenState _));
         Assert.Equal(5, Count(world, 2));
         Assert.False(world.TryReadRules(At(1), out long _));
     }
@@ -203,7 +203,7 @@ public sealed class RuleTests
     [Fact]
     public void Rules_ThatFail_InAWorldThatWaits_BlockItUntilTheCauseIsGone()
     {
-        Given rules = new() { Command = (_, _, command) => throw new InvalidOperationException("No such command.") };
+        GivenRules rules = new() { Command = (_, _, command) => throw new InvalidOperationException("No such command.") };
         Simulation world = new(Scene(rules), KeepAll) { WaitsForLateEvents = true };
         ExternalEvent bad = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1);
         world.Submit(bad);
@@ -220,7 +220,7 @@ public sealed class RuleTests
     {
         Assert.Contains("fields use 9", Assert.Throws<SceneException>(() => new Declares<Padded>()).Message, StringComparison.Ordinal);
         Assert.Contains("at most 16384", Assert.Throws<SceneException>(() => new Declares<Large>()).Message, StringComparison.Ordinal);
-        Assert.Equal(24, new Declares<Score>().WorldBytes);
+        Assert.Equal(24, new Declares<GivenState>().WorldBytes);
         Assert.Equal(32, new Declares<Nested>().WorldBytes);
     }
 
@@ -229,7 +229,7 @@ public sealed class RuleTests
     {
         ExternalEvent command = PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1);
         Assert.Contains("has no rules", Assert.Throws<SceneException>(() => new Simulation(Drop(1, 1)).Submit(command)).Message, StringComparison.Ordinal);
-        Simulation world = new(Scene(new Given()));
+        Simulation world = new(Scene(new GivenRules()));
         Assert.Contains("of peer 255", Assert.Throws<SceneException>(() => world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 255, 1))).Message, StringComparison.Ordinal);
         Assert.Contains("counts its events from 1", Assert.Throws<SceneException>(() => world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 0))).Message,
             StringComparison.Ordinal);
@@ -240,8 +240,8 @@ public sealed class RuleTests
     [Fact]
     public void Command_OfAValue_ReadsItBack()
     {
-        GameCommand command = GameCommand.Of(3, new Score { Count = 7, Draw = 9 });
-        Assert.True(command.TryRead(out Score score));
+        GameCommand command = GameCommand.Of(3, new GivenState { Count = 7, Draw = 9 });
+        Assert.True(command.TryRead(out GivenState score));
         Assert.Equal((7, 9UL), (score.Count, score.Draw));
         Assert.False(command.TryRead(out int _));
         Assert.Equal(command, GameCommand.Of(3, score));
@@ -254,19 +254,19 @@ public sealed class RuleTests
     {
         int calls = 0;
         long Stamp() => System.Diagnostics.Stopwatch.GetTimestamp();
-        Given[] faulty =
+        GivenRules[] faulty =
         [
-            new() { Contact = (w, _) => w.State<Score>().Count = ++calls, Hears = (_, _, _) => true },
-            new() { Contact = (w, _) => w.State<Score>().Draw = (ulong)Stamp(), Hears = (_, _, _) => true },
-            new() { Contact = (w, _) => w.State<Score>().Count = new HashSet<object> { new(), new(), new() }.First().GetHashCode(), Hears = (_, _, _) => true },
+            new() { Contact = (w, _) => w.State<GivenState>().Count = ++calls, Hears = (_, _, _) => true },
+            new() { Contact = (w, _) => w.State<GivenState>().Draw = (ulong)Stamp(), Hears = (_, _, _) => true },
+            new() { Contact = (w, _) => w.State<GivenState>().Count = new HashSet<object> { new(), new(), new() }.First().GetHashCode(), Hears = (_, _, _) => true },
         ];
-        foreach (Given rules in faulty)
+        foreach (GivenRules rules in faulty)
         {
             Simulation world = new(Scene(rules), new SimulationOptions(default, SimDuration.MaxValue, healing: HealingMode.SyncTest));
             Assert.Contains("sync test", Assert.Throws<SimulationException>(() => world.AdvanceTo(At(3))).Message, StringComparison.Ordinal);
         }
 
-        Given sound = new() { Contact = (w, _) => w.State<Score>().Count++, Hears = (_, _, _) => true };
+        GivenRules sound = new() { Contact = (w, _) => w.State<GivenState>().Count++, Hears = (_, _, _) => true };
         Simulation right = new(Scene(sound), new SimulationOptions(default, SimDuration.MaxValue, healing: HealingMode.SyncTest));
         right.AdvanceTo(At(3));
         right.Submit(PlayerAction.Impulse(First, V(0, 2, 0)).Stamp(At(1), 1, 1));
@@ -276,9 +276,9 @@ public sealed class RuleTests
     [Fact]
     public void Hash_OfASceneWithRules_IsOfNameVersionAndSeed()
     {
-        ulong[] hashes = [Scene(null!).Hash, Scene(new Given()).Hash, Scene(new Given(), 3).Hash, Scene(new Given(bodies: true)).Hash];
+        ulong[] hashes = [Scene(null!).Hash, Scene(new GivenRules()).Hash, Scene(new GivenRules(), 3).Hash, Scene(new GivenRules(bodies: true)).Hash];
         Assert.Equal(4, hashes.Distinct().Count());
-        Assert.Equal(hashes[1], Scene(new Given()).Hash);
+        Assert.Equal(hashes[1], Scene(new GivenRules()).Hash);
     }
 
     public static TheoryData<string, string> Failures() => new()
@@ -287,7 +287,7 @@ public sealed class RuleTests
         { "wrong state", "the rules declared" }, { "absent", "is not there" }, { "delay", "Timer 1 is set to" }, { "limit", "random number below 0" },
     };
 
-    private static readonly Dictionary<string, Given> Failing = new()
+    private static readonly Dictionary<string, GivenRules> Failing = new()
     {
         ["throws"] = At025(_ => throw new InvalidOperationException("broken")),
         ["chains"] = new() { Start = Later, Timer = (w, _) => w.Spawn(Ball(0.125), V(8, 8)), HearsAll = true, Spawned = (w, b) => w.Spawn(Ball(0.125), V(8, 8)) },
@@ -301,12 +301,12 @@ public sealed class RuleTests
         }),
         ["place"] = At025(w => w.Teleport(First, V(0, -3))),
         ["wrong state"] = At025(w => w.State<long>()++),
-        ["absent"] = new(bodies: true) { Start = Later, Timer = (w, _) => w.State<Score>(new BodyId(3, 3, 0)).Count++ },
+        ["absent"] = new(bodies: true) { Start = Later, Timer = (w, _) => w.State<GivenState>(new BodyId(3, 3, 0)).Count++ },
         ["delay"] = At025(w => w.SetTimer(1, SimDuration.FromSeconds(-1))),
         ["limit"] = At025(w => w.Random(0)),
     };
 
-    private static Given At025(Action<RuleWorld> act) => new() { Start = Later, Timer = (w, _) => act(w) };
+    private static GivenRules At025(Action<RuleWorld> act) => new() { Start = Later, Timer = (w, _) => act(w) };
 
     private static void Later(RuleWorld world) => world.SetTimer(1, SimDuration.FromSeconds(0.25));
 
@@ -318,17 +318,9 @@ public sealed class RuleTests
 
     private static int Count(Simulation world, double seconds) => CountAt(world, At(seconds));
 
-    private static int CountAt(Simulation world, SimTime time) => world.TryReadRules(time, out Score score) ? score.Count : -1;
+    private static int CountAt(Simulation world, SimTime time) => world.TryReadRules(time, out GivenState score) ? score.Count : -1;
 
 #pragma warning disable CS0649 // sizes are all that matters of some
-    private struct Score
-    {
-        internal double Height;
-        internal ulong Draw;
-        internal int Count;
-        internal int Spare;
-    }
-
     private struct Padded
     {
         internal long Wide;
@@ -337,7 +329,7 @@ public sealed class RuleTests
 
     private struct Nested
     {
-        internal Score Score;
+        internal GivenState GivenState;
         internal SimTime Time;
     }
 
@@ -354,51 +346,5 @@ public sealed class RuleTests
     {
         internal Declares()
             : base("declares", 1) => WithWorldState<T>();
-    }
-
-    /// <summary>Rules of functions.</summary>
-    private sealed class Given : GameRules
-    {
-        internal Given(bool bodies = false)
-            : base("given", 1)
-        {
-            WithWorldState<Score>();
-            if (bodies)
-            {
-                WithBodyState<Score>();
-            }
-        }
-
-        internal Action<RuleWorld>? Start { get; init; }
-
-        internal Action<RuleWorld, int>? Timer { get; init; }
-
-        internal Action<RuleWorld, byte, GameCommand>? Command { get; init; }
-
-        internal Func<BodyId, BodyId, int, bool>? Hears { get; init; }
-
-        internal Action<RuleWorld, RuleContact>? Contact { get; init; }
-
-        internal Action<RuleWorld, BodyId>? Spawned { get; init; }
-
-        internal Action<RuleWorld, BodyId>? Removed { get; init; }
-
-        internal bool HearsAll { get; init; }
-
-        public override bool HearsBodies => HearsAll;
-
-        public override bool HearsContact(BodyId first, BodyId second, int surface) => Hears?.Invoke(first, second, surface) == true;
-
-        public override void OnStart(RuleWorld world) => Start?.Invoke(world);
-
-        public override void OnTimer(RuleWorld world, int timer) => Timer?.Invoke(world, timer);
-
-        public override void OnCommand(RuleWorld world, byte player, GameCommand command) => Command?.Invoke(world, player, command);
-
-        public override void OnContact(RuleWorld world, in RuleContact contact) => Contact?.Invoke(world, contact);
-
-        public override void OnSpawned(RuleWorld world, BodyId body) => Spawned?.Invoke(world, body);
-
-        public override void OnRemoved(RuleWorld world, BodyId body) => Removed?.Invoke(world, body);
     }
 }

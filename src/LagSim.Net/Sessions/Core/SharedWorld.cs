@@ -42,6 +42,7 @@ internal sealed class SharedWorld
         this.sharedTime = sharedTime;
         this.counters = counters;
         Limits = new PlayerLimits(options);
+        Watchdog = new RuleWatchdog(options.RuleTimeout);
         strategy = LateEventStrategies.Create(options.Strategy, options.DisplayDelay);
         if (options.SyncTest && !(strategy.RewritesPast && strategy.Mode == HealingMode.CausalCone))
         {
@@ -65,6 +66,9 @@ internal sealed class SharedWorld
 
     /// <summary>The time of its initial state, which includes all earlier events.</summary>
     internal SimTime From => BegunFrom?.Time ?? SimTime.MinValue;
+
+    /// <summary>Ends the world if rules do not return from a call.</summary>
+    internal RuleWatchdog Watchdog { get; }
 
     /// <summary>The limits on what players may do in it.</summary>
     internal PlayerLimits Limits { get; private set; }
@@ -98,7 +102,7 @@ internal sealed class SharedWorld
         live?.Retire();
         begunAt = start;
         LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings,
-            options.RuleNotices)
+            options.RuleNotices, Watchdog)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -113,7 +117,7 @@ internal sealed class SharedWorld
         live?.Retire();
         LiveWorld copied = new(
             Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings,
-            options.RuleNotices)
+            options.RuleNotices, Watchdog)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -218,7 +222,14 @@ internal sealed class SharedWorld
     }
 
     // The session decides what history to drop, by the watermark; the simulation's own limit would go by its look-ahead.
-    private SimulationOptions WorldOptions(SimTime start) => optionsRule(new SimulationOptions(
-        start, SimDuration.MaxValue, options.MaxSegments, interruption.Token,
-        options.SyncTest ? HealingMode.SyncTest : strategy.Mode));
+    private SimulationOptions WorldOptions(SimTime start)
+    {
+        if (Scene!.Rules is not null)
+        {
+            Watchdog.Start(); // before there is a world: its making calls OnStart
+        }
+
+        return optionsRule(new SimulationOptions(
+            start, SimDuration.MaxValue, options.MaxSegments, interruption.Token, options.SyncTest ? HealingMode.SyncTest : strategy.Mode));
+    }
 }

@@ -1,0 +1,44 @@
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Timelines;
+
+namespace LagSim.Rules;
+
+/// <summary>What rules hear of: asks them, for each event that they can hear.</summary>
+internal sealed class RuleHearing(GameRules rules)
+{
+    /// <summary>Knows which method of the rules is called; null if nobody looks.</summary>
+    internal RunningRuleCall? Running { get; set; }
+
+    /// <summary>Whether they hear a contact of an impact.</summary>
+    internal bool Hears(in EventKey impact, in ImpactContact contact)
+    {
+        Running?.Begin(rules, nameof(GameRules.HearsContact), impact);
+        try
+        {
+            return rules.HearsContact(contact.First, contact.Second, contact.Surface);
+        }
+        finally
+        {
+            Running?.End();
+        }
+    }
+
+    /// <summary>Whether they hear a crossing of a sensor.</summary>
+    internal bool Hears(in Crossing crossing)
+    {
+        Running?.Begin(rules, nameof(GameRules.HearsCrossing), crossing.Key);
+        try
+        {
+            return rules.HearsCrossing(crossing.Body, crossing.Sensor);
+        }
+        finally
+        {
+            Running?.End();
+        }
+    }
+
+    /// <summary>Whether a call is due for what opened a segment of a body, or ended there: it appears or disappears.</summary>
+    internal bool Hears(BodyId body, in EventKey key) =>
+        key.Kind is EventKind.Spawn or EventKind.Remove && key.Body == body && (rules.HearsBodies || rules.BodyBytes > 0);
+}
