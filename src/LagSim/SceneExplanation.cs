@@ -249,6 +249,9 @@ public sealed class SceneExplanation
                 scene.SensorArray.Length > 0
                     ? $"{Count(scene.SensorArray.Length, "sensor")}: each is asked for every piece of path, and changes none."
                     : "There is none."),
+            new FeatureExplanation(
+                "rules", scene.Rules is not null,
+                scene.Rules is SceneRules rules ? $"'{rules}', written in C#: they are called for the events that they hear of." : "The scene has none."),
         };
     }
 

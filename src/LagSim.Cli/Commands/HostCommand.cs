@@ -67,7 +67,7 @@ internal static class HostCommand
             SessionRequest request = shared.Read(parsed);
             foreach (ScriptedAction action in request.Actions)
             {
-                action.ActionIn(loaded);
+                action.ActionIn(loaded, self: 0);
             }
 
             using HostIdentity? self = Identity(parsed.GetValue(unprotected), parsed.GetValue(identity), parsed.GetValue(tokens));

@@ -3,6 +3,7 @@ using System.CommandLine;
 using System.IO;
 using System.Net;
 using LagSim.Cli.Output;
+using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
@@ -44,7 +45,7 @@ internal static class JoinCommand
         command.SetAction(parsed =>
         {
             SessionRequest request = shared.Read(parsed);
-            ClientOptions options = ClientOptions.From(request.Options);
+            ClientOptions options = ClientOptions.From(request.Options) with { Rules = BuiltInRules.All };
             string? passFile = parsed.GetValue(pass);
             if (passFile is not null)
             {

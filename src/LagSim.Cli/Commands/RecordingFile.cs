@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using LagSim.Cli.Output;
+using LagSim.Harness.SceneFiles;
 using LagSim.Net.Recordings;
 
 namespace LagSim.Cli.Commands;
@@ -13,7 +14,7 @@ internal static class RecordingFile
     {
         try
         {
-            return Recording.Read(name);
+            return Recording.Read(name, rules: BuiltInRules.All);
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or ArgumentException)
         {

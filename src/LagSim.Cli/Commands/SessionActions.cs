@@ -7,6 +7,7 @@ using LagSim.Events;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
+using LagSim.Time;
 
 namespace LagSim.Cli.Commands;
 
@@ -55,7 +56,7 @@ internal sealed class SessionActions
     /// <exception cref="UsageException">An action names a body that the scene does not have.</exception>
     internal void Begin(Scene scene, double passed)
     {
-        inScene = script.Select(action => action.ActionIn(scene)).ToArray();
+        inScene = script.Select(action => action.ActionIn(scene, session.Peer)).ToArray();
         while (NextSeconds < passed)
         {
             done++;
@@ -84,7 +85,7 @@ internal sealed class SessionActions
         {
             if (attempt.IsFaulted)
             {
-                Fail($"--do {action.Text} was not done. {attempt.Exception!.InnerException!.Message}");
+                Fail($"--do {action.Text} was not done. {Sentence.Of(attempt.Exception!.InnerException!)}");
             }
         }
 
@@ -108,7 +109,8 @@ internal sealed class SessionActions
 
     private void Do(PeerThread thread, ScriptedAction action, PlayerAction what) => attempts.Add((action, thread.Ask(peer =>
     {
-        ExternalEvent external = peer.Do(what);
+        ExternalEvent external = peer.Do(
+            what, action.At is double at ? peer.World!.Simulation.Start + SimDuration.FromSeconds(at) : null);
         if (peer is ClientSession) // a host's own actions need no verdict
         {
             unconfirmed[external.Sequence] = action;

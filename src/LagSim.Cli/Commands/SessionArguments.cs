@@ -102,7 +102,7 @@ internal sealed class SessionArguments
         double? seconds = parsed.GetValue(length);
         string[] texts = parsed.GetValue(actions) ?? [];
         ScriptedAction[] ordered = texts.Select(ScriptedAction.Parse).OrderBy(action => action.Seconds).ToArray();
-        if (ordered.FirstOrDefault(action => action.Seconds >= seconds) is ScriptedAction late)
+        if (ordered.FirstOrDefault(action => (action.At ?? action.Seconds) >= seconds) is ScriptedAction late)
         {
             throw new UsageException(string.Create(CultureInfo.InvariantCulture, $"--do is '{late.Text}', which is not before the end, --for-s {seconds}."));
         }

@@ -139,7 +139,8 @@ internal sealed class SessionWatch
         SimDuration sinceStart = state.Time - session.World!.Simulation.Start;
         if (!(sinceStart > request.Length))
         {
-            queue.Tell(() => printer.State(state, sinceStart, clock));
+            CommittedWorld world = new(session.World!.Simulation, state.Time);
+            queue.Tell(() => printer.State(state, sinceStart, clock, world));
         }
     }
 }

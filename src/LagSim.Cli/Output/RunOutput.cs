@@ -48,6 +48,7 @@ internal static class RunOutput
             }
 
             json.WriteEndArray();
+            CommittedWorld.Write(json, scene, new CommittedWorld(run.End, run.Until));
         });
 
     internal static void WriteTable(ToolConsole console, Scene scene, RunSummary run, ulong seed)
@@ -79,6 +80,10 @@ internal static class RunOutput
         }
 
         console.Write(table);
+        if (new CommittedWorld(run.End, run.Until).RulesLine is string rules)
+        {
+            console.Rich.WriteLine(rules);
+        }
     }
 
     /// <summary>Whether any body of the scene can turn: by its initial spin, or by friction.</summary>

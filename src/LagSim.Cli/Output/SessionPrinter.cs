@@ -25,6 +25,7 @@ internal sealed class SessionPrinter
     private readonly List<(double Seconds, CommittedState State)> states = [];
     private ClockReading? clock;
     private string here = "";
+    private CommittedWorld? committed;
 
     /// <param name="console">The console to print to.</param>
     /// <param name="json">Whether the summary is JSON.</param>
@@ -70,7 +71,7 @@ internal sealed class SessionPrinter
         }
     }
 
-    internal void State(in CommittedState state, SimDuration sinceStart, ClockReading? reading)
+    internal void State(in CommittedState state, SimDuration sinceStart, ClockReading? reading, CommittedWorld world)
     {
         double seconds = sinceStart.ToSeconds();
         states.Add((seconds, state));
@@ -82,6 +83,12 @@ internal sealed class SessionPrinter
                 CultureInfo.InvariantCulture,
                 $"clock offset {now.Offset.ToMilliseconds():0.0000} ms bound {now.Bound.ToMilliseconds():0.0000} ms delay"
                     + $" {now.Delay.ToMilliseconds():0.0000} ms"));
+        }
+
+        committed = world;
+        if (world.RulesLine is string line)
+        {
+            Line(line);
         }
     }
 
@@ -227,6 +234,7 @@ internal sealed class SessionPrinter
         }
 
         document.WriteEndArray();
+        CommittedWorld.Write(document, session.Scene!, committed);
         document.WriteNumber("states_agreed", counters.StatesAgreed);
         document.WriteNumber("states_differed", counters.StatesDiffered);
         document.WriteString("divergence", (session as ClientSession)?.Divergence?.ToString());

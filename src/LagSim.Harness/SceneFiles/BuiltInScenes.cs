@@ -16,7 +16,7 @@ public static class BuiltInScenes
     /// <summary>The most balls a crowd can have: 100,000.</summary>
     public const int MaxCrowd = CrowdScene.MaxBodies;
 
-    private static readonly string[] AllNames = ["drop", "pair", CradleScene.Name, BilliardsScene.Name, CrowdScene.Name];
+    private static readonly string[] AllNames = ["drop", "pair", CradleScene.Name, BilliardsScene.Name, CrowdScene.Name, GoalsScene.Name];
 
     /// <summary>The names of all scenes, except <c>crowd-N</c>, a crowd of any number.</summary>
     public static IReadOnlyList<string> Names => AllNames;
@@ -34,6 +34,7 @@ public static class BuiltInScenes
             "pair" => Pair(),
             CradleScene.Name => Cradle(),
             BilliardsScene.Name => Billiards(),
+            GoalsScene.Name => Goals(),
             _ => CrowdScene.TryParse(name, out int bodies) ? CrowdScene.Build(name, bodies) : null,
         };
         return scene is not null;
@@ -48,6 +49,7 @@ public static class BuiltInScenes
         CradleScene.Name => "Newton's cradle without strings: a ball runs into four that touch, for ever, between two walls",
         BilliardsScene.Name => "the break at pool: a cue ball runs into a rack of fifteen, on a table with four cushions and without friction",
         CrowdScene.Name => $"{DefaultCrowd} elastic balls of all sizes fly about in a box; crowd-N has N, 1 to {MaxCrowd}",
+        GoalsScene.Name => "three balls, two goals, and rules: a count-down, a score, power-ups at random places, commands of players",
         _ => CrowdScene.TryParse(name, out int bodies)
             ? $"elastic balls of all sizes fly about in a box, {bodies} of them"
             : throw new ArgumentException($"There is no built-in scene '{name}'; there are {KnownNames}.", nameof(name)),
@@ -104,6 +106,9 @@ public static class BuiltInScenes
     public static Scene Billiards(double ballRestitution = 0.95, double cushionRestitution = 0.8) =>
         BilliardsScene.Build(ballRestitution, cushionRestitution);
 
+    /// <summary>Three balls on a floor with two goals, and <see cref="GoalsRules"/>, which kick them off after a second.</summary>
+    public static Scene Goals() => GoalsScene.Build();
+
     /// <summary>Elastic balls of 0.15 m to 0.3 m in a cubic box without gravity, at most one to a cubic metre, at some 1.7 m/s.</summary>
     /// <remarks>The same for the same number, always. Cost: O(n log n).</remarks>
     /// <param name="bodies">The number of balls, 1 to <see cref="MaxCrowd"/>.</param>
@@ -151,15 +156,33 @@ public static class BuiltInScenes
             .WithContactTolerance(scene.ContactTolerance)
             .WithSmallestRadius(scene.SmallestRadius)
             .WithSpawners(scene.Spawners)
-            .WithPeriodicBox(scene.Box.Size);
+            .WithPeriodicBox(scene.Box.Size)
+            .WithSeed(scene.Seed);
+        if (scene.Rules is SceneRules rules)
+        {
+            builder.WithRules(rules);
+        }
+
         foreach (StaticPlane plane in scene.Planes)
         {
-            builder.AddPlane(plane.Name, plane.Normal, plane.Offset, plane.Restitution, plane.Friction);
+            builder.AddPlane(plane.Name, plane.Normal, plane.Offset, plane.Restitution, plane.Friction, plane.Filter);
         }
 
         foreach (StaticSphere sphere in scene.StaticSpheres)
         {
-            builder.AddStaticSphere(sphere.Name, sphere.Centre, sphere.Radius, sphere.Restitution, sphere.Friction);
+            builder.AddStaticSphere(sphere.Name, sphere.Centre, sphere.Radius, sphere.Restitution, sphere.Friction, sphere.Filter);
+        }
+
+        foreach (Sensor sensor in scene.Sensors)
+        {
+            if (sensor.Shape == SensorShape.Plane)
+            {
+                builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage);
+            }
+            else
+            {
+                builder.AddSensorSphere(sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage);
+            }
         }
 
         foreach (Force force in scene.Forces)

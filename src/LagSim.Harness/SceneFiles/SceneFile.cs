@@ -94,9 +94,9 @@ public static class SceneFile
                 file, "", 0, $"the scene supplies accelerations written in C#, the first is '{first}'; a JSON file cannot hold code");
         }
 
-        if (scene.Rules is SceneRules rules)
+        if (scene.Rules is SceneRules rules && BuiltInRules.Named(rules.Name)?.Version != rules.Version)
         {
-            throw new SceneFileException(file, "", 0, $"the scene has the rules '{rules}', written in C#; a JSON file cannot hold code");
+            throw new SceneFileException(file, "", 0, $"the scene has the rules '{rules}', written in C#; a JSON file can name built-in rules only ({BuiltInRules.KnownNames})");
         }
 
         ArrayBufferWriter<byte> buffer = new();

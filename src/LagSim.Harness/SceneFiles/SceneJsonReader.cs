@@ -10,7 +10,7 @@ namespace LagSim.Harness.SceneFiles;
 internal ref struct SceneJsonReader
 {
     private static readonly JsonKeys SceneKeys =
-        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies", "sensors", "seed"]);
+        new(["format", "name"], ["gravity_m_per_s2", "resolution_m", "contact_tolerance_m", "smallest_radius_m", "spawners", "periodic_box_m", "forces", "planes", "static_spheres", "bodies", "sensors", "rules", "seed"]);
 
     private readonly string? locate;
     private readonly List<Action<SceneBuilder>> parts = new(); // parts to build once the name is known
@@ -64,6 +64,12 @@ internal ref struct SceneJsonReader
                 case "seed":
                     ulong seed = cursor.Whole(ulong.MaxValue);
                     Add(b => b.WithSeed(seed));
+                    break;
+                case "rules":
+                    string named = cursor.String();
+                    SceneRules rules = BuiltInRules.Named(named)
+                        ?? throw cursor.Fail($"there are no built-in rules {JsonFault.Quote(named)}; there are {BuiltInRules.KnownNames}");
+                    Add(b => b.WithRules(rules));
                     break;
                 case "smallest_radius_m":
                     double smallest = cursor.Number();

@@ -37,6 +37,11 @@ internal static class SceneJsonWriter
             json.WriteNumber("smallest_radius_m", scene.SmallestRadius);
         }
 
+        if (scene.Rules is SceneRules rules)
+        {
+            json.WriteString("rules", rules.Name);
+        }
+
         if (scene.Seed != 0)
         {
             json.WriteNumber("seed", scene.Seed);

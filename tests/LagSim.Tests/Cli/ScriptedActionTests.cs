@@ -3,6 +3,7 @@ using System.Linq;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Events;
+using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -31,10 +32,57 @@ public sealed class ScriptedActionTests
         Assert.Equal(ExternalEvent.Spawn(At(1), 2, 3, Ball(0.25, 3), V(0, 9)), Stamped("spawn@1:a:b:0,9,0", 1));
     }
 
+    [Fact]
+    public void Parse_Placing_SaysWhatIfOccupiedAndWhose()
+    {
+        Assert.Equal(ExternalEvent.Teleport(At(1), 2, 3, First, V(0, 15), whenOccupied: WhenOccupied.Skip), Stamped("teleport@3:0,15,0/skip", 3));
+        Assert.Equal(
+            ExternalEvent.Spawn(At(1), 2, 3, Ball(), V(0, 9), players: PeerSet.Of(0, 2), whenOccupied: WhenOccupied.Beside),
+            Stamped("spawn@1:0,9,0/players=0+me/beside", 1));
+        Assert.NotEqual(ExternalEvent.Spawn(At(1), 2, 3, Ball(), V(0, 9), players: PeerSet.Of(0, 2)), Stamped("spawn@1:0,9,0/players=0+1", 1)); // the control
+    }
+
+    [Theory]
+    [InlineData("command@2:7", 7, new byte[0])]
+    [InlineData("command@2:65535,0x01ff", 65535, new byte[] { 1, 255 })]
+    [InlineData("command@2:1,0x", 1, new byte[0])]
+    [InlineData("command@2:1,a:b,c", 1, new byte[] { 97, 58, 98, 44, 99 })]
+    public void Parse_Command_HasItsNumberAndBytes(string text, int number, byte[] data)
+    {
+        Scene ruled = BuiltInScenes.Goals();
+        Assert.Equal(PlayerAction.Command(new GameCommand(number, data)).Stamp(At(1), 2, 3), ScriptedAction.Parse(text).ActionIn(ruled, 2).Stamp(At(1), 2, 3));
+        Assert.Contains("scene 'two' has no rules", Assert.Throws<UsageException>(() => ScriptedAction.Parse(text).ActionIn(Two, 2)).Message);
+    }
+
+    [Fact]
+    public void Parse_Ahead_HasBothTimes()
+    {
+        ScriptedAction ahead = ScriptedAction.Parse("impulse@2.5..2.75:ball:0,4,0");
+        Assert.Equal((2.5, 2.75), (ahead.Seconds, ahead.At));
+        Assert.Null(ScriptedAction.Parse("impulse@2.5:ball:0,4,0").At);
+    }
+
     [Theory]
     [InlineData("teleport", "it must be KIND@SECONDS:X,Y,Z")]
     [InlineData("", "it must be KIND@SECONDS:X,Y,Z")]
-    [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, grab, keyframe, release, remove")]
+    [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, grab, keyframe, release, remove, command")]
+    [InlineData("teleport@3..:0,1,2", "its time is '', it must be a number of seconds between 0 and 1000000")]
+    [InlineData("teleport@3..2:0,1,2", "it is to be done at 3 s for 2 s, which must be later")]
+    [InlineData("teleport@3..3:0,1,2", "it is to be done at 3 s for 3 s, which must be later")]
+    [InlineData("teleport@3..4..5:0,1,2", "its time is '4..5'")]
+    [InlineData("command@3", "its number is '', it must be a whole number from 0 to 65535, such as command@3:1")]
+    [InlineData("command@3:65536", "its number is '65536'")]
+    [InlineData("command@3:-1,x", "its number is '-1'")]
+    [InlineData("command@3:1,0x1", "its data is '0x1'; after 0x come hexadecimal digits, two for each byte")]
+    [InlineData("command@3:1,0xgg", "its data is '0xgg'")]
+    [InlineData("spawn@1:0,9,0/fly", "'/fly' must be one of /skip, /beside, /players=NUMBERS")]
+    [InlineData("spawn@1:0,9,0/", "'/' must be one of")]
+    [InlineData("impulse@1:0,9,0/skip", "'/skip' is not for impulse, but for spawn and teleport")]
+    [InlineData("teleport@1:0,9,0/players=1", "'/players=1' is not for teleport, but for spawn")]
+    [InlineData("spawn@1:0,9,0/skip/beside", "'/beside' comes after another of its kind; one is allowed")]
+    [InlineData("spawn@1:0,9,0/players=1/players=2", "'/players=2' comes after another of its kind")]
+    [InlineData("spawn@1:0,9,0/players=17", "'17' in /players=17 must be me, or a player's number from 0 to 16")]
+    [InlineData("spawn@1:0,9,0/players=1+", "'' in /players=1+ must be me")]
     [InlineData("Teleport@3:0,1,2", "'Teleport' must be one of")]
     [InlineData("teleport@:0,1,2", "its time is ''")]
     [InlineData("teleport@x:0,1,2", "its time is 'x', it must be a number of seconds between 0 and 1000000")]
@@ -62,6 +110,8 @@ public sealed class ScriptedActionTests
     [Fact]
     public void ActionIn_BodyThatIsNotThere_IsRefusedWithThoseThatAre()
     {
+        string long129 = $"command@1:1,{new string('x', 129)}";
+        Assert.Contains("it carries 129 bytes; at most 128 are allowed", Assert.Throws<UsageException>(() => ScriptedAction.Parse(long129)).Message);
         Refused("remove@1:bell", Two, "scene 'two' has no body 'bell'; it has ball, a:b.");
         Refused("remove@1:1.0.0", Two, "has no body '1.0.0'");
         Refused("remove@1:1.2.3", Two, "has no body '1.2.3'");
@@ -72,13 +122,13 @@ public sealed class ScriptedActionTests
         Refused("remove@1:x", many.Build(), "it has b0, b1, b2, b3, b4, b5, b6, b7, b8, b9, ....");
 
         static void Refused(string text, Scene scene, string says) =>
-            Assert.Contains(says, Assert.Throws<UsageException>(() => ScriptedAction.Parse(text).ActionIn(scene)).Message, StringComparison.Ordinal);
+            Assert.Contains(says, Assert.Throws<UsageException>(() => ScriptedAction.Parse(text).ActionIn(scene, 2)).Message, StringComparison.Ordinal);
     }
 
     private static ExternalEvent Stamped(string text, double seconds)
     {
         ScriptedAction action = ScriptedAction.Parse(text);
         Assert.Equal((text, seconds), (action.Text, action.Seconds));
-        return action.ActionIn(Two).Stamp(At(1), 2, 3);
+        return action.ActionIn(Two, 2).Stamp(At(1), 2, 3);
     }
 }

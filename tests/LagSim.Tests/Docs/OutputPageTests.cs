@@ -13,6 +13,7 @@ public sealed class OutputPageTests
     [Theory]
     [InlineData("drop --time virtual --motion ballistic --case teleport")]
     [InlineData("run pair --until-s 1")]
+    [InlineData("run goals --until-s 2")]
     [InlineData("scenes")]
     [InlineData("explain pair")]
     [InlineData("check --sessions 1")]

@@ -15,7 +15,7 @@ public sealed class BuiltInScenesTests
     [Fact]
     public void TryGet_EveryName_IsDescribedAndReadsBackTheSame()
     {
-        Assert.Equal(["drop", "pair", "cradle", "billiards", "crowd"], BuiltInScenes.Names);
+        Assert.Equal(["drop", "pair", "cradle", "billiards", "crowd", "goals"], BuiltInScenes.Names);
         foreach (string name in BuiltInScenes.Names)
         {
             Assert.True(BuiltInScenes.TryGet(name, out Scene? scene));
@@ -121,7 +121,7 @@ public sealed class BuiltInScenesTests
     {
         SceneFileException refusal = Assert.Throws<SceneFileException>(() => SceneSource.Load("dorp"));
 
-        Assert.Equal("dorp: this is neither a built-in scene (drop, pair, cradle, billiards, crowd, crowd-N for N from 1 to 100000) nor a file that exists", refusal.Message);
+        Assert.Equal("dorp: this is neither a built-in scene (drop, pair, cradle, billiards, crowd, goals, crowd-N for N from 1 to 100000) nor a file that exists", refusal.Message);
         Assert.Throws<SceneFileException>(() => SceneSource.Load(""));
         Assert.Contains("this is a folder", Assert.Throws<SceneFileException>(() => SceneSource.Load(Path.GetTempPath())).Message);
     }

@@ -171,7 +171,7 @@ public sealed class ExplainTests
     public void ToString_OfAScene_HasALineForEachBodyAndFeature()
     {
         string[] lines = Forced().Explain().ToString().Split('\n');
-        Assert.Equal(13, lines.Length);
+        Assert.Equal(14, lines.Length);
         Assert.Matches("^oily: ClosedForm, [0-9.]+ pieces/s, [0-9.]+ force calls/s. Gravity, oil \\(LinearDrag\\): linear in position and velocity", lines[0]);
         Assert.Equal("free: Ballistic. Only uniform gravity acts on it: a parabola is exact.", lines[2]);
         Assert.Equal("integrator: yes. 1 body of 3 in steps.", lines[4]);

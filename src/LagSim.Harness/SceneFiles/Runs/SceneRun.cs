@@ -165,7 +165,7 @@ public sealed class SceneRun
         {
             bool isOfBodies = happened.Kind == Impact && happened.Other.Length == 0;
             BodyId? other = isOfBodies ? ImpactPartner.Body(happened, inOrder, scene) : null;
-            OnEvent(other is BodyId partner ? happened with { Other = scene.Bodies[partner.Index].Name } : happened);
+            OnEvent(other is BodyId partner ? happened with { Other = partner.Sequence == 0 ? scene.Bodies[partner.Index].Name : partner.ToString() } : happened);
         }
     }
 

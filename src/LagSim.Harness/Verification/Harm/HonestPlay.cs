@@ -59,7 +59,7 @@ public static class HonestPlay
                 peer == 0
                     ? new HostSession(built, port, clock, options, seed)
                     : new ClientSession(
-                        null, port, clock, ClientOptions.From(options), PeerAddress.Virtual(0), (seed * 16) + (ulong)peer),
+                        null, port, clock, ClientOptions.From(options) with { Rules = BuiltInRules.All }, PeerAddress.Virtual(0), (seed * 16) + (ulong)peer),
                 port);
         }
 
