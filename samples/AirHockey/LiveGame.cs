@@ -74,22 +74,24 @@ public sealed class LiveGame
         me.Refused += (_, _) => { }; // a hand that comes too late: the next keyframe makes up for it
         Hand hand = new(player, players);
         Bot bot = new(player, players, seed: Environment.TickCount & 0xFFFF);
+        OwnMallet mallet = new(session, Table.MalletOf(player));
         target = hand.At;
         using (Screen screen = new())
         {
             while (me.State == SessionState.Running && !isLeaving)
             {
-                Frame(session, screen, hand, bot);
+                Frame(session, screen, hand, bot, mallet);
                 Thread.Sleep(1000 / FramesPerSecond);
             }
         }
 
         Console.WriteLine(picture.ToText(withColours: !Console.IsOutputRedirected));
+        Console.WriteLine(mallet);
         Console.WriteLine(session.EndReason ?? "goodbye");
         return 0;
     }
 
-    private void Frame(Session session, Screen screen, Hand hand, Bot bot)
+    private void Frame(Session session, Screen screen, Hand hand, Bot bot, OwnMallet mallet)
     {
         ReadKeys();
         SimTime now = session.DisplayTime;
@@ -106,9 +108,10 @@ public sealed class LiveGame
 
         (Vector3D place, double speed) = isBot ? bot.Think(snapshot, now, hand.At) : (target, Pace);
         hand.Move(snapshot, session.SharedTime.Now, place, speed, action => _ = me.Do(action));
+        mallet.Update(snapshot, now, hand.At);
         string keys = isBot ? "a bot plays: B takes over" : "arrows move, B bot, T chat";
         string status = line is not null ? $"say: {line}_" : $"you are player {session.Peer}   {keys}, R again, Q quit";
-        picture.Draw(snapshot, now, match, elapsed, match.Phase == Phase.Over ? Screen.Winner(match) : screen.BannerAt(elapsed), status);
+        picture.Draw(snapshot, now, match, elapsed, match.Phase == Phase.Over ? Screen.Winner(match) : screen.BannerAt(elapsed), status, mallet.Drawn);
         screen.Show(picture);
 
         overSince = match.Phase == Phase.Over ? Math.Min(overSince, elapsed) : double.PositiveInfinity;

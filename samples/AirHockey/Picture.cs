@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Text;
 using LagSim;
 using LagSim.Hosting;
+using LagSim.Net.Display;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -45,7 +46,9 @@ public sealed class Picture
     /// <param name="elapsed">Seconds since the world began.</param>
     /// <param name="banner">A word in the middle; null for none.</param>
     /// <param name="status">The lowest line.</param>
-    public void Draw(RenderSnapshot snapshot, SimTime now, in Match match, double elapsed, string? banner, string status)
+    /// <param name="drawn">Where bodies are drawn, smoothly and in one's own hand; null for where they are.</param>
+    public void Draw(
+        RenderSnapshot snapshot, SimTime now, in Match match, double elapsed, string? banner, string status, DisplayOffsets? drawn = null)
     {
         Clear();
         DrawTable(match);
@@ -54,7 +57,8 @@ public sealed class Picture
             BodyId body = snapshot.BodyAt(n);
             if (snapshot.TryRead(body, now, out BodyState state))
             {
-                DrawBody(body, snapshot.TagOf(body), state);
+                Vector3D place = drawn is not null && drawn.TryRead(body, out DrawnBody seen) ? seen.Position : state.Position;
+                DrawBody(body, snapshot.TagOf(body), state, place);
             }
         }
 
@@ -181,9 +185,9 @@ public sealed class Picture
         }
     }
 
-    private void DrawBody(BodyId body, ulong tag, in BodyState state)
+    private void DrawBody(BodyId body, ulong tag, in BodyState state, Vector3D place)
     {
-        (double x, double z) = (state.Position.X, state.Position.Z);
+        (double x, double z) = (place.X, place.Z);
         if (tag == Table.MalletTag)
         {
             int player = Table.PlayerOf(body);

@@ -90,8 +90,7 @@ internal sealed class Engine
         {
             Crossings = new CrossingLog(scene.SensorArray.Length, Bodies, Timelines, Progress);
             Reader.Crossings = Crossings;
-            Rewinder.Crossings = Crossings;
-            Rewinder.Carried = CarriedSensors.Of(scene, Bodies, Crossings);
+            Rewinder.Sensors = new SensorDependencies(scene, Bodies, Crossings);
             predictor.Crossings = parts.CrossingPredictor(scene, start, Bodies, Timelines, view, Crossings);
             Reconvergence.Keep(parts.CutCrossings(Crossings));
             Reconvergence.CrossingObserver = options.CrossingObserver;

@@ -33,7 +33,6 @@ internal class Rewinder : ISegmentOpenedObserver
     private readonly HealingMode mode;
     private readonly Stack<(int Slot, EventKey Key)> cuts = new();
     private readonly List<int> cut = new(); // the bodies cut since the last prediction
-    private readonly List<(int Slot, EventKey Key)> dependents = new(); // bodies that cross what a body carries whose path has changed
     private HealReport report; // what the current rollback began with
 
     internal Rewinder(
@@ -59,10 +58,7 @@ internal class Rewinder : ISegmentOpenedObserver
     internal event Action<HealReport>? Healed;
 
     /// <summary>The crossings of sensors, which are cut with the paths; null in a scene without.</summary>
-    internal CrossingLog? Crossings { get; set; }
-
-    /// <summary>The sensors that bodies carry; null in a scene without.</summary>
-    internal CarriedSensors? Carried { get; set; }
+    internal SensorDependencies? Sensors { get; set; }
 
     /// <summary>
     /// With so few bodies or less a rollback never rewinds all that it has not touched; an eighth of all for each late event is the limit
@@ -87,22 +83,19 @@ internal class Rewinder : ISegmentOpenedObserver
         if (key.Time <= rollback.Horizon && key.Kind != EventKind.None) // not a body that is not known yet
         {
             Touch(slot); // also a body with nothing to cut, because what strikes it now comes after all its segments
-            if (Crossings is CrossingLog crossings)
+            if (Sensors is not null)
             {
-                CutCrossings(crossings, slot, key); // what it crossed later on the segment that ends here
+                CutCrossings(Sensors.Log, slot, key); // what it crossed later on the segment that ends here
+                NoteDependents(Sensors, slot, key);
             }
-
-            AddDependents(slot, key);
         }
     }
 
     /// <summary>An event is done: bodies that crossed later what is carried on paths that have ended with it are rewound.</summary>
     internal void RewindCarried()
     {
-        while (dependents.Count > 0)
+        while (Sensors is not null && Sensors.TryTakeDependent(out int slot, out EventKey key))
         {
-            (int slot, EventKey key) = dependents[dependents.Count - 1];
-            dependents.RemoveAt(dependents.Count - 1);
             Rewind(slot, key);
         }
     }
@@ -288,21 +281,19 @@ internal class Rewinder : ISegmentOpenedObserver
                 any = true;
             }
 
-            if (Crossings is CrossingLog crossings)
+            if (Sensors is not null)
             {
-                bool crosses = crossings.Last(body) is int newest && newest != CrossingLog.None && EventKey.Compare(crossings.Key(newest), from) >= 0;
-                if (crosses && body != slot)
+                if (body != slot && Sensors.HasFrom(body, from))
                 {
                     Touch(body);
                     any = true; // it crosses what the other carries
                 }
 
-                CutCrossings(crossings, body, from);
-                int known = dependents.Count;
-                AddDependents(body, from);
-                for (; dependents.Count > known; dependents.RemoveAt(dependents.Count - 1))
+                CutCrossings(Sensors.Log, body, from);
+                NoteDependents(Sensors, body, from);
+                while (Sensors.TryTakeDependent(out int dependent, out EventKey crossing))
                 {
-                    cuts.Push(dependents[dependents.Count - 1]);
+                    cuts.Push((dependent, crossing));
                 }
             }
 
@@ -317,8 +308,8 @@ internal class Rewinder : ISegmentOpenedObserver
         }
     }
 
-    /// <summary>Adds the bodies that from a key on cross what a body carries.</summary>
-    private protected virtual void AddDependents(int slot, in EventKey from) => Carried?.AddDependents(slot, from, dependents);
+    /// <summary>Notes the bodies that from a key on cross what a body carries.</summary>
+    private protected virtual void NoteDependents(SensorDependencies sensors, int slot, in EventKey from) => sensors.NoteDependents(slot, from);
 
     /// <summary>From which key on a body is cut that is rewound to a key: from that very key.</summary>
     private protected virtual EventKey CutsFrom(in EventKey key) => key;
@@ -353,9 +344,9 @@ internal class Rewinder : ISegmentOpenedObserver
         for (int slot = 0; slot < bodies.SlotCount; slot++)
         {
             rollback.SegmentsCut += timelines.CutFrom(slot, bodies.Id(slot), from);
-            if (Crossings is CrossingLog crossings)
+            if (Sensors is not null)
             {
-                CutCrossings(crossings, slot, from);
+                CutCrossings(Sensors.Log, slot, from);
             }
 
             log.SetDueFrom(slot, key);

@@ -41,6 +41,24 @@ public sealed class RosterProcessTests
         Assert.Contains("--as is 'referee'; it must be one of player, spectator, bot.", unknown.Error.ToString(), StringComparison.Ordinal);
     }
 
+    /// <summary>What is said at 3.5 s of an action given too far ahead comes after what was final at 2 s, or before, with a history of 4 s.</summary>
+    [Theory]
+    [InlineData(" --confirm-early", true)]
+    [InlineData("", false)]
+    public void Processes_WithALongHistory_CommitEarlyIfTheyMay(string early, bool isEarly)
+    {
+        using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 1 --history-s 4 --do impulse@3.5..9:0,1,0{early}");
+        using ToolProcess client = ToolProcess.Start($"join {host.Address} --do impulse@3.5..9:0,1,0");
+        Assert.All(new[] { host, client }, one =>
+        {
+            Assert.NotNull(one.Error.WaitFor(line => line.Contains("impulse@3.5..9:0,1,0 was not done", StringComparison.Ordinal), LiveTool.Deadline));
+            bool isFinal = one.Output.Lines.Any(line => line.StartsWith("T 2 s ", StringComparison.Ordinal));
+            Assert.True(isFinal == isEarly || (one == client && !isEarly), $"{one}"); // a client that comes in late says it late
+            one.Says("T 4 s ");
+        });
+        Assert.Single(new[] { host, client }.Select(one => one.Output.Lines.First(line => line.StartsWith("T 4 s ", StringComparison.Ordinal))).Distinct());
+    }
+
     [Fact]
     public void SixteenPlayersAndASpectator_AsProcesses_Agree()
     {

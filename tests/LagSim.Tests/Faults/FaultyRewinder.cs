@@ -67,11 +67,11 @@ internal sealed class FaultyRewinder(
         }
     }
 
-    private protected override void AddDependents(int slot, in EventKey from)
+    private protected override void NoteDependents(SensorDependencies sensors, int slot, in EventKey from)
     {
         if (!faults.Has(HealingFault.LeavesCarried))
         {
-            base.AddDependents(slot, from);
+            base.NoteDependents(sensors, slot, from);
         }
     }
 }

@@ -44,7 +44,7 @@ internal sealed class CrossingCase : IHardCase
         yield return Line(context, 1 + 1e-9) with { Note = "a radius 1e-9 too large" };
         yield return Drag(context, HardFlight.Closed(1e-9), K * (1 + 1e-6)) with { Note = "a drag 1e-6 too strong" };
         yield return Orbit(context, 1 + 1e-6) with { Note = "a radius 1e-6 too large" };
-        yield return Carried(context, 1 + 1e-9) with { Note = "a radius 1e-9 too large" };
+        yield return Carried(context, 1 + 1e-7) with { Note = "a radius 1e-7 too large" };
         yield return Graze(context, off => off - 1e-9) with { Note = "a region a nanometre too near" };
     }
 
@@ -97,7 +97,7 @@ internal sealed class CrossingCase : IHardCase
             "Kepler's equation; the roots by bisection");
     }
 
-    /// <summary>Two that fall under the same drag: what is between them slows down as if there were no gravity.</summary>
+    /// <summary>Two that fall under the same drag: what is between them slows down as if there were no gravity. They pass 3 m beside each other.</summary>
     private HardRow Carried(HardContext context, double radius)
     {
         const double apart = 6;
@@ -105,7 +105,7 @@ internal sealed class CrossingCase : IHardCase
         BodySpec ball = HardFlight.Closed(1e-9).Ball();
         Simulation world = context.Run(
             new SceneBuilder("reach").AddForce(Force.LinearDrag("air", K)).AddBody("carrier", ball, V(1), V(-1, 12))
-                .AddBody("ball", ball, V(1 - apart), V(closing - 1, 12)).AddSensorSphere("reach", V(0, 2), radius: Math.Sqrt(4 + (radius * radius)), carrier: "carrier").Build(), 4);
+                .AddBody("ball", ball, V(1 - apart, 0, 3), V(closing - 1, 12)).AddSensorSphere("reach", V(0, 2, 3), radius: Math.Sqrt(4 + (radius * radius)), carrier: "carrier").Build(), 4);
         double[] expected = [.. new[] { apart - 1, apart + 1 }.Select(way => -Math.Log(1 - (K * way / closing)) / K)];
         double slowest = closing * Math.Exp(-K * expected[1]) / Math.Sqrt(5); // the way in is oblique: one beside two
         double bound = Tick + (2 * HardFlight.Closed(1e-9).ErrorOf(Math.Max(world.Timeline(First).Count, world.Timeline(BodyId.OfScene(1)).Count), 24) * (1 + expected[1]) / slowest);
