@@ -169,8 +169,8 @@ internal class CrossingPredictor(
     }
 
     /// <summary>
-    /// Whether a segment begins on the other side: the body or the sensor was put there, or is seen from now on, or was moved by more than
-    /// rounding when the segment was opened.
+    /// Whether a segment begins on the other side: the body or the sensor was put there, or it is off by more than rounding, as where it was
+    /// moved when the segment was opened, or is seen only from now on.
     /// </summary>
     private bool IsOnTheOtherSide(int slot, int own, int carrier, int sensor, bool isInside, in EventKey opened)
     {
@@ -183,7 +183,7 @@ internal class CrossingPredictor(
             return false;
         }
 
-        if (opened.Kind is EventKind.Start or EventKind.Spawn or EventKind.Teleport or EventKind.SetFilter)
+        if (opened.Kind is EventKind.Start or EventKind.Spawn or EventKind.Teleport)
         {
             return true;
         }

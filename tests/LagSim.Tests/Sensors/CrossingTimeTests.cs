@@ -5,6 +5,7 @@ using LagSim.Events;
 using LagSim.Harness.Verification.References;
 using LagSim.Motion;
 using LagSim.Scenes;
+using LagSim.Tests.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -241,6 +242,33 @@ public sealed class CrossingTimeTests
             ExternalEvent.SetFilter(At(1), 1, 1, Second, pucks), ExternalEvent.SetFilter(At(3), 1, 2, First, default), ExternalEvent.SetFilter(At(4), 1, 3, First, pucks),
         ]);
         Assert.Equal([(First, At(2), true), (Second, At(2), true), (First, At(3), false), (First, At(4), true)], All(changed).Select(c => (c.Body, c.Time, c.Entered)));
+    }
+
+    /// <summary>Rules change a body's filter where it crosses, which opens its path again there: as long as it is seen, that is no crossing
+    /// more.</summary>
+    [Fact]
+    public void Filter_ThatRulesChangeAtACrossing_DoesNotFlicker()
+    {
+        Random from = new(20261128);
+        int crossings = 0;
+        for (int n = 0; n < 300; n++)
+        {
+            Vector3D normal = V(from.NextDouble() - 0.5, from.NextDouble() - 0.5, from.NextDouble() - 0.5);
+            Scene scene = new SceneBuilder("flicker").WithGravity(n % 2 == 0 ? Floating : V(0, -9.81))
+                .AddBody("puck", Ball(0.25), V(0.1, 0.2, 0.3), V(3 * from.NextDouble(), 1, 2)).AddBody("carrier", Ball(0.25), V(3, 3, 3), V(-1))
+                .AddSensorPlane("line", normal, from.NextDouble()).AddSensorSphere("ring", V(1, 0.5, 1), 0.6 + from.NextDouble())
+                .AddSensorSphere("reach", V(0), 2, carrier: "carrier").Build();
+            GivenRules rules = new()
+            {
+                HearsSensor = (body, _) => body == First,
+                Crossed = (w, crossing) => w.SetFilter(First, new CollisionFilter(++w.State<GivenState>().Count % 2 == 0 ? 1u : 3u)),
+            };
+            (int, bool)[] expected = [.. All(Run(scene, 3)).Where(c => c.Body == First).Select(c => (c.Sensor, c.Entered))];
+            Assert.Equal(expected, All(Run(scene.With(rules, 1), 3)).Where(c => c.Body == First).Select(c => (c.Sensor, c.Entered)));
+            crossings += expected.Length;
+        }
+
+        Assert.True(crossings > 600, $"{crossings} crossings");
     }
 
     /// <summary>A sensor thinner than the way of a tick is entered and left in one, and nothing hangs.</summary>
