@@ -1,7 +1,6 @@
 using System.Linq;
 using LagSim.Events;
 using LagSim.Tests.Faults;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -52,14 +51,7 @@ public sealed class PlacingInvariantTests
         {
             RandomWorld world = new(seed, placings: true);
             Simulation expected = world.OnTime();
-            SimTime cut = At(0.625);
-            Simulation continued = new(world.Scene, expected.Snapshot(cut), KeepAll);
-            foreach (ExternalEvent e in world.Events.Where(e => e.Time >= cut))
-            {
-                continued.Submit(e);
-            }
-
-            continued.AdvanceTo(At(RandomWorld.End));
+            Simulation continued = world.GoOnFrom(expected, At(0.625));
             string? difference = RandomWorld.Difference(expected, continued);
             Assert.True(difference is null, $"seed {seed}: {difference}");
         }

@@ -95,6 +95,19 @@ internal sealed class RandomWorld
         return simulation;
     }
 
+    /// <summary>The world that goes on from a snapshot of another that had everything.</summary>
+    internal Simulation GoOnFrom(Simulation whole, SimTime cut)
+    {
+        Simulation rest = new(Scene, whole.Snapshot(cut), KeepAll);
+        foreach (ExternalEvent external in Events.Where(e => e.Time >= cut))
+        {
+            rest.Submit(external);
+        }
+
+        rest.AdvanceTo(At(End));
+        return rest;
+    }
+
     /// <summary>
     /// A world that hears of everything in some order, at any moment of its progress, some of it twice, and of some things that are retracted
     /// again. With a history, never later than that allows. In pieces, it goes on by a few events at a time, and more events may come before what

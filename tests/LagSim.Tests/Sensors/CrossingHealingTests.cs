@@ -128,11 +128,8 @@ public sealed class CrossingHealingTests
             Simulation whole = world.OnTime();
             foreach (SimTime time in All(whole).Select(c => c.Time).Where((t, i) => t > At(0.01) && i % 7 == 0).SelectMany(t => new[] { t, t + SimDuration.OneTick }))
             {
-                WorldSnapshot snapshot = whole.Snapshot(time);
-                onSegments += snapshot.Bodies.Sum(body => body.Crossings.Length);
-                Simulation rest = new(world.Scene, snapshot, KeepAll);
-                world.Events.Where(e => e.Time >= time).ToList().ForEach(e => rest.Submit(e));
-                rest.AdvanceTo(At(RandomWorld.End));
+                onSegments += whole.Snapshot(time).Bodies.Sum(body => body.Crossings.Length);
+                Simulation rest = world.GoOnFrom(whole, time);
                 Assert.Equal(All(whole).Where(c => c.Time >= time), All(rest));
                 Assert.Null(RandomWorld.Difference(whole, rest));
                 after += All(rest).Count;
