@@ -177,11 +177,13 @@ public static class BuiltInScenes
         {
             if (sensor.Shape == SensorShape.Plane)
             {
-                builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage);
+                builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, sensor.Filter);
             }
             else
             {
-                builder.AddSensorSphere(sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage);
+                builder.AddSensorSphere(
+                    sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage, sensor.Filter,
+                    sensor.Carrier is BodyId carrier ? scene.Bodies[carrier.Index].Name : null);
             }
         }
 

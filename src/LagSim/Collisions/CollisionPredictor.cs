@@ -110,6 +110,10 @@ internal sealed class CollisionPredictor(
             from, segment.End, out contact);
     }
 
+    /// <summary>Whether another body can be met on its newest segment alone: it is not ahead of the heal, be it by a round of the same
+    /// tick.</summary>
+    internal bool MeetsNewest(int slot, int other) => timelines.IsKnown(other) && view.SegmentFrom(slot, other) == timelines.Last(other);
+
     /// <summary>
     /// The next contact of a body's newest segment with another body's path: with its newest segment or, where that body is ahead of the
     /// heal, with the first segment until then that is touched before it ended.

@@ -65,7 +65,8 @@ internal class CollisionSearch(
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (!(isOfStep && stepMarks.Has(other)) && !flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end))))
+            if (!(isOfStep && stepMarks.Has(other))
+                && !(predictor.MeetsNewest(slot, other) && flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end)))))
             {
                 ConsiderMeeting(slot, other, until, ref next);
             }

@@ -41,17 +41,34 @@ internal sealed class RenderRules
             return; // a call that changed nothing
         }
 
-        if (count == entries.Count)
-        {
-            entries.Add(new Entry());
-        }
-
-        Entry entry = entries[count++];
+        Entry entry = Take(state.Serial);
         entry.From = from;
         if (entry.State.Serial != state.Serial)
         {
             entry.State.Set(state.Bytes, state.Serial);
         }
+    }
+
+    /// <summary>The next entry: the one that has this state already, if any has, since the states move on as the window does.</summary>
+    private Entry Take(long serial)
+    {
+        if (count == entries.Count)
+        {
+            entries.Add(new Entry());
+        }
+
+        int at = count;
+        while (at < entries.Count && entries[at].State.Serial != serial)
+        {
+            at++;
+        }
+
+        if (at < entries.Count)
+        {
+            (entries[at], entries[count]) = (entries[count], entries[at]);
+        }
+
+        return entries[count++];
     }
 
     private sealed class Entry

@@ -90,9 +90,8 @@ internal class ImpactGraphBuilder(
         bool isHealing = rollback.MayBeKnownBeyond(rollback.Cursor);
         foreach (int other in broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, isHealing))
         {
-            int piece = other == slot || !timelines.IsKnown(other) || flights.AreApart(slot, other, key.Time, key.Time)
-                ? TimelineStore.None : view.SegmentAt(other, key);
-            if (piece == TimelineStore.None)
+            int piece = other == slot || !timelines.IsKnown(other) ? TimelineStore.None : view.SegmentAt(other, key);
+            if (piece == TimelineStore.None || (piece == timelines.Last(other) && flights.AreApart(slot, other, key.Time, key.Time)))
             {
                 continue;
             }

@@ -16,6 +16,10 @@ namespace LagSim.Rules;
 /// </remarks>
 internal class RuleLog : IRuleTriggers
 {
+    /// <summary>How many calls may lie within the history: 262,144. Each takes some 400 bytes, so all take 100 MB. What chains in one tick,
+    /// or in ticks that follow each other, comes to an end there.</summary>
+    internal const int MaxCalls = 1 << 18;
+
     private readonly RuleHearing hearing;
     private readonly SimTime start;
     private readonly List<RuleCall> calls = new();
@@ -361,8 +365,16 @@ internal class RuleLog : IRuleTriggers
         return hash.Value;
     }
 
+    /// <exception cref="InstantException">There are too many.</exception>
     private void Insert(int at, in EventKey key, in RuleTrigger trigger)
     {
+        if (calls.Count == MaxCalls)
+        {
+            throw new InstantException(
+                $"The rules '{hearing.Rules}' failed at {key.Time.ToShortString()} before their call for {key}: {MaxCalls} of their calls lie within the"
+                    + " history, and that is the most that may.", key.Time);
+        }
+
         RuleCall call = free.Count > 0 ? free.Pop() : new RuleCall();
         call.Key = key;
         call.Trigger = trigger;

@@ -253,13 +253,18 @@ public sealed class RuleWorld
     /// <summary>A new body appears; see <see cref="PlayerAction.Spawn"/>.</summary>
     /// <returns>Its identity.</returns>
     /// <exception cref="SceneException">A value may not enter the world.</exception>
-    /// <exception cref="RuleException">The call has made too many acts.</exception>
+    /// <exception cref="RuleException">The call has made too many acts, or the rules have spawned 4,294,967,295 bodies.</exception>
     public BodyId Spawn(
         BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default, PeerSet players = default,
         WhenOccupied whenOccupied = WhenOccupied.Overlap)
     {
         CheckCalled();
-        uint number = checked((uint)++memory.Spawned);
+        if (memory.Spawned == uint.MaxValue)
+        {
+            throw new RuleException($"The rules have spawned {uint.MaxValue} bodies; no more may be.");
+        }
+
+        uint number = (uint)++memory.Spawned;
         BodyId body = new(SceneRules.Peer, number, 0);
         Act(ExternalEvent.Spawn(key.Time, SceneRules.Peer, number, spec, position, velocity, spin, players, whenOccupied));
         return body;

@@ -52,6 +52,94 @@ public sealed class RuleLimitTests
         Assert.Throws<InvalidOperationException>(() => world.AdvanceTo(At(3)));
     }
 
+    /// <summary>What goes on for ever without a chain in one tick: a timer of a tick that sets itself again, and bodies that each bring two more.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void Calls_WithoutEnd_EndTheWorldWithTheSentence(bool spawns)
+    {
+        GivenRules rules = spawns
+            ? new() { HearsAll = true, Start = SpawnTwo, Spawned = (w, _) => SpawnTwo(w) }
+            : new() { Start = w => w.SetTimer(1, SimDuration.OneTick), Timer = (w, _) => w.SetTimer(1, SimDuration.OneTick) };
+        Simulation world = new(new SceneBuilder("endless").WithGravity(Vector3D.Zero).WithSmallestRadius(0.5).WithRules(rules).Build(), KeepAll);
+        SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(1)));
+        Assert.Contains("of their calls lie within the history, and that is the most that may", failure.Message, StringComparison.Ordinal);
+        Assert.StartsWith("The rules 'given 1' failed at ", failure.Message, StringComparison.Ordinal);
+
+        static void SpawnTwo(RuleWorld world)
+        {
+            for (int n = 0; n < 2; n++)
+            {
+                world.Spawn(Ball(0.5).With(CollisionFilter.None), V(0));
+            }
+        }
+    }
+
+    /// <summary>A history that moves on makes room: rules may be called as often as they like in the long run.</summary>
+    [Fact]
+    public void Calls_MoreThanTheLimitInAll_GoOnWhereTheHistoryMovesOn()
+    {
+        GivenRules rules = new()
+        {
+            Start = w => w.SetTimer(1, SimDuration.FromMilliseconds(1)),
+            Timer = (w, _) =>
+            {
+                w.State<GivenState>().Count++;
+                w.SetTimer(1, SimDuration.FromMilliseconds(1));
+            },
+        };
+        Simulation world = new(new SceneBuilder("long").WithRules(rules).Build(), new SimulationOptions(history: SimDuration.FromSeconds(1)));
+        world.AdvanceTo(At(300));
+        Assert.True(world.TryReadRules(At(300), out GivenState state) && state.Count > RuleLog.MaxCalls, $"{state.Count} calls");
+    }
+
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Hearing_ThatThrows_NamesTheRulesTheMethodAndTheEvent(bool ofContact)
+    {
+        GivenRules rules = ofContact
+            ? new() { Hears = (_, _, _) => throw new InvalidOperationException("broken") }
+            : new() { HearsSensor = (_, _) => throw new InvalidOperationException("broken") };
+        Scene scene = new SceneBuilder("hears").AddPlane("floor", Vector3D.Up, V(0)).AddBody("ball", Ball(0.5), V(0, 1)).AddSensorPlane("low", Vector3D.Up, 0.75).WithRules(rules).Build();
+        SimulationException failure = Assert.Throws<SimulationException>(() => new Simulation(scene, KeepAll).AdvanceTo(At(2)));
+        Assert.StartsWith("The rules 'given 1' failed at 0.", failure.Message, StringComparison.Ordinal);
+        Assert.EndsWith(": broken", failure.Message, StringComparison.Ordinal);
+        Assert.Contains(ofContact ? " in HearsContact for " : " in HearsCrossing for ", failure.Message, StringComparison.Ordinal);
+    }
+
+    [Theory]
+    [InlineData("timer", -5, 0, 1, "has timer -5; numbers are at least 0")]
+    [InlineData("round", 1, 7, 1, "has timer 1 due 1 ticks and 7 rounds after it")]
+    [InlineData("late", 1, 0, long.MaxValue >> 1, "ticks are allowed|and no round are allowed")]
+    [InlineData("twice", 1, 0, 1, "has timer 1 twice")]
+    [InlineData("spawned", 1, 0, 1, "has rules that have spawned 18446744073709551615 bodies")]
+    public void Snapshot_WithAStateThatRulesCannotHave_IsRefused(string what, int number, int round, long after, string sentence)
+    {
+        GivenRules rules = new();
+        byte[] state = new byte[StateLayout.HeadBytes + (2 * StateLayout.TimerBytes) + rules.WorldBytes];
+        long ticks = SimDuration.FromSeconds(1).Ticks;
+        BitConverter.TryWriteBytes(state.AsSpan(0), what == "spawned" ? ulong.MaxValue : 3ul);
+        BitConverter.TryWriteBytes(state.AsSpan(8), 2);
+        WriteTimer(state.AsSpan(StateLayout.HeadBytes), ticks, 0, what == "twice" ? 1 : 0);
+        WriteTimer(state.AsSpan(StateLayout.HeadBytes + StateLayout.TimerBytes), ticks + after, round, number);
+        string message = Assert.Throws<SceneException>(() => StateLayout.Check(state, rules, ticks)).Message;
+        Assert.Contains(sentence.Split('|')[^1], message, StringComparison.Ordinal);
+
+        // The control: the same with nothing wrong.
+        BitConverter.TryWriteBytes(state.AsSpan(0), 3ul);
+        WriteTimer(state.AsSpan(StateLayout.HeadBytes), ticks, 0, 0);
+        WriteTimer(state.AsSpan(StateLayout.HeadBytes + StateLayout.TimerBytes), ticks + 1, 0, 1);
+        StateLayout.Check(state, rules, ticks);
+
+        static void WriteTimer(Span<byte> to, long at, int round, int number)
+        {
+            BitConverter.TryWriteBytes(to, at);
+            BitConverter.TryWriteBytes(to[8..], round);
+            BitConverter.TryWriteBytes(to[12..], number);
+        }
+    }
+
     [Theory]
     [InlineData(0, 0.5)]
     [InlineData(int.MaxValue, 1 << 20)]

@@ -44,6 +44,36 @@ public sealed class RuleTests
         Assert.Equal(3, Count(world, 4));
     }
 
+    /// <summary>Rules teleport a ball in round 2 of a tick; a spawn that comes late at that tick strikes it in round 1, while the ball is known
+    /// beyond it by a round of the same tick.</summary>
+    [Fact]
+    public void LateSpawn_AtTheTickOfATeleportByRules_StrikesInTheRoundBefore()
+    {
+        GivenRules rules = new()
+        {
+            Start = w => w.SetTimer(1, SimDuration.FromSeconds(1)),
+            Timer = (w, timer) =>
+            {
+                if (timer == 1)
+                {
+                    w.SetTimer(2, SimDuration.Zero);
+                }
+                else
+                {
+                    w.Teleport(First, V(5));
+                }
+            },
+        };
+        Scene scene = new SceneBuilder("small").WithGravity(Floating).AddBody("ball", Ball(0.5), V(0)).WithRules(rules).Build();
+        ExternalEvent spawn = PlayerAction.Spawn(Ball(0.5), V(0.8), V(-1)).Stamp(At(1), 1, 1);
+        Simulation onTime = Run(scene, 2, [spawn]);
+        Simulation late = Run(scene, 2);
+        late.Submit(spawn);
+        late.AdvanceTo(At(2));
+        Assert.Equal(onTime.StateHash(At(2)), late.StateHash(At(2)));
+        Assert.NotEqual(Read(Run(scene, 2, [PlayerAction.Spawn(Ball(0.5), V(1.8), V(-1)).Stamp(At(1), 1, 1)]), spawn.Body, 2).Velocity, Read(late, spawn.Body, 2).Velocity); // it was struck
+    }
+
     [Fact]
     public void CancelTimer_IsNotCalled()
     {

@@ -89,7 +89,7 @@ public sealed class GoalsSceneTests
         Scene now = BuiltInScenes.WithMotion(Goals, MotionLaw.RungeKutta4, BodySpec.DefaultStep);
         Assert.Equal((Goals.Rules, Goals.Seed, 2), (now.Rules, now.Seed, now.Sensors.Count));
         Assert.NotEqual(Goals.Hash, now.Hash);
-        Scene sphere = new SceneBuilder("sphere").AddSensorSphere("spot", V(1, 2, 3), 4, SensorCoverage.Part)
+        Scene sphere = new SceneBuilder("sphere").AddSensorSphere("spot", V(1, 2, 3), 4, SensorCoverage.Part, new CollisionFilter(6, 7), "ball").AddSensorPlane("edge", V(1), 2.0, filter: new CollisionFilter(8, 9))
             .AddPlane("floor", Vector3D.Up, Vector3D.Zero, filter: new CollisionFilter(2, 3))
             .AddStaticSphere("rock", V(0, 9), 1, filter: new CollisionFilter(4, 5)).AddBody("ball", Ball(), V(0, 5)).Build();
         Assert.Equal(sphere.Hash, BuiltInScenes.WithMotion(sphere, sphere.Bodies[0].Spec.Flight, sphere.Bodies[0].Spec.Step).Hash);
