@@ -158,11 +158,13 @@ internal class NeighbourLists : IBroadPhase
         ref Stay stay = ref stays[slot];
         if (stay.IsListed)
         {
-            if (from > stay.From && stay.Heal == 0)
+            // A body that is put elsewhere twice in a tick was at the first place for rounds of that tick, in which others may meet it.
+            bool wasThere = from > stay.From || (from == stay.From && stay.Shell.Leaves(path, dense, from, box) <= from);
+            if (wasThere && stay.Heal == 0)
             {
                 past.Add(stay.Cell, slot, stay.Shell, stay.From, from);
             }
-            else if (from > stay.From)
+            else if (wasThere)
             {
                 past.AddAgain(stay.Cell, slot, stay.Shell, stay.From, from);
             }
