@@ -61,9 +61,10 @@ public sealed class RuleLimitTests
         GivenRules rules = spawns
             ? new() { HearsAll = true, Start = SpawnTwo, Spawned = (w, _) => SpawnTwo(w) }
             : new() { Start = w => w.SetTimer(1, SimDuration.OneTick), Timer = (w, _) => w.SetTimer(1, SimDuration.OneTick) };
-        Simulation world = new(new SceneBuilder("endless").WithGravity(Vector3D.Zero).WithSmallestRadius(0.5).WithRules(rules).Build(), KeepAll);
-        SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(1)));
-        Assert.Contains("of their calls lie within the history, and that is the most that may", failure.Message, StringComparison.Ordinal);
+        Scene scene = new SceneBuilder("endless").WithGravity(Vector3D.Zero).WithSmallestRadius(0.5).WithRules(rules).Build();
+        SimulationException failure = Assert.Throws<SimulationException>(() => new Simulation(scene, KeepAll).AdvanceTo(At(1)));
+        string sentence = spawns ? "4096 of their calls are for that tick, and that is the most that may." : "262144 of their calls lie within the history, and that is the most that may.";
+        Assert.EndsWith(sentence, failure.Message, StringComparison.Ordinal);
         Assert.StartsWith("The rules 'given 1' failed at ", failure.Message, StringComparison.Ordinal);
 
         static void SpawnTwo(RuleWorld world)
