@@ -56,7 +56,7 @@ internal static class RuleComparison
     private static ulong Hash(RuleCall call)
     {
         Scenes.StableHash hash = default;
-        RuleLog.AddTo(ref hash, call.After!.Bytes);
+        StateLayout.AddTo(ref hash, call.After!.Bytes);
         return hash.Value;
     }
 }

@@ -74,7 +74,7 @@ internal sealed class StateReader(PeriodicBox box, BodyTable bodies, TimelineSto
 
         if (rules is not null)
         {
-            RuleLog.AddTo(ref hash, rules.StateAt(time).Bytes);
+            StateLayout.AddTo(ref hash, rules.StateAt(time).Bytes);
         }
 
         return hash.Value;

@@ -1,5 +1,4 @@
 using System;
-using System.Buffers.Binary;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
@@ -334,24 +333,6 @@ internal class RuleLog : IRuleTriggers
         return n;
     }
 
-    /// <summary>Adds an encoded state to a hash.</summary>
-    internal static void AddTo(ref StableHash hash, ReadOnlySpan<byte> state)
-    {
-        hash.Add((ulong)state.Length);
-        Span<byte> rest = stackalloc byte[sizeof(ulong)];
-        for (; state.Length >= sizeof(ulong); state = state.Slice(sizeof(ulong)))
-        {
-            hash.Add(BinaryPrimitives.ReadUInt64LittleEndian(state));
-        }
-
-        if (state.Length > 0)
-        {
-            rest.Clear();
-            state.CopyTo(rest);
-            hash.Add(BinaryPrimitives.ReadUInt64LittleEndian(rest));
-        }
-    }
-
     private static EventKey KeyFor(SimTime time, uint round, int number) =>
         new(time, round, EventKind.Timer, default, default, 0, unchecked((uint)number));
 
@@ -365,7 +346,7 @@ internal class RuleLog : IRuleTriggers
         hash.Add(((ulong)call.Key.Round << 8) | (byte)call.Key.Kind);
         hash.Add(call.Key.Body.Packed);
         hash.Add(call.Key.Origin);
-        AddTo(ref hash, call.After!.Bytes);
+        StateLayout.AddTo(ref hash, call.After!.Bytes);
         return hash.Value;
     }
 

@@ -109,6 +109,24 @@ internal static class StateLayout
         }
     }
 
+    /// <summary>Adds an encoded state to a hash.</summary>
+    internal static void AddTo(ref StableHash hash, ReadOnlySpan<byte> state)
+    {
+        hash.Add((ulong)state.Length);
+        Span<byte> rest = stackalloc byte[sizeof(ulong)];
+        for (; state.Length >= sizeof(ulong); state = state.Slice(sizeof(ulong)))
+        {
+            hash.Add(BinaryPrimitives.ReadUInt64LittleEndian(state));
+        }
+
+        if (state.Length > 0)
+        {
+            rest.Clear();
+            state.CopyTo(rest);
+            hash.Add(BinaryPrimitives.ReadUInt64LittleEndian(rest));
+        }
+    }
+
     private static int BodyAt(ReadOnlySpan<byte> state, int n, SceneRules rules) =>
         HeadBytes + (Timers(state) * TimerBytes) + rules.WorldBytes + (n * (IdBytes + rules.BodyBytes));
 
