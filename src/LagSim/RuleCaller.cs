@@ -13,6 +13,14 @@ internal class RuleCaller
     /// <summary>How many rounds of one tick rules may cause: 64. What bounces between rules and itself needs a few.</summary>
     internal const int MaxRounds = 64;
 
+    /// <summary>How many acts rules may make in one tick: as many as calls for all timers that may be set can make, 16,384. Where each act
+    /// brings a call that acts twice, their number doubles in a round, and <see cref="MaxRounds"/> is never reached.</summary>
+    internal const int MaxActsATick = RuleWorld.MaxTimers * RuleWorld.MaxActs;
+
+    /// <summary>How many calls may lie within the history: 262,144, some 100 MB. What goes on for ever from tick to tick ends
+    /// there.</summary>
+    internal const int MaxCalls = 1 << 18;
+
     private readonly GameRules rules;
     private readonly RuleLog log;
     private readonly RuleMemory memory;
@@ -62,17 +70,27 @@ internal class RuleCaller
             return;
         }
 
-        uint first = FirstAct(call, out int rounds);
+        FindBefore(call, out uint first, out int acted, out int rounds);
         if (Stands(call, first))
         {
             log.Stand();
             return;
         }
 
+        if (log.Position >= MaxCalls)
+        {
+            throw Failed(call, $"it is one more than the {MaxCalls} that may lie within the history", null);
+        }
+
         Make(call, first);
         if (world.Chains && rounds >= MaxRounds)
         {
             throw Failed(call, $"caused more than {MaxRounds} rounds of events in one tick", null);
+        }
+
+        if (acted + world.Acts.Count > MaxActsATick)
+        {
+            throw Failed(call, $"did more than {MaxActsATick} things to bodies in one tick", null);
         }
 
         if (first + world.Acts.Count != call.FirstAct + call.Acts.Count)
@@ -134,21 +152,18 @@ internal class RuleCaller
         loaded = null; // until it is known what the call leaves
         Made++;
         running?.Begin(rules, MethodFor(call.Key.Kind), call.Key);
-        Exception? failure = null;
         try
         {
             Dispatch(call);
         }
-        catch (Exception thrown)
-        {
-            failure = thrown;
-        }
-
-        world.End();
-        running?.End(); // throws if the call was given up, whatever came of it
-        if (failure is not null)
+        catch (Exception failure)
         {
             throw Failed(call, failure.Message, failure);
+        }
+        finally
+        {
+            world.End();
+            running?.End(); // throws if the call was given up, whatever came of it
         }
     }
 
@@ -204,24 +219,28 @@ internal class RuleCaller
         }
     }
 
-    /// <summary>The number of the first act of the next call, and how many rounds rules have caused at its tick.</summary>
-    private uint FirstAct(RuleCall call, out int rounds)
+    /// <summary>What calls before the next one have done at its tick.</summary>
+    /// <param name="call">The next call.</param>
+    /// <param name="first">The number of its first act: how many acts there are of its tick and round.</param>
+    /// <param name="acted">How many acts there are of its tick.</param>
+    /// <param name="rounds">How many rounds rules have caused at it.</param>
+    private void FindBefore(RuleCall call, out uint first, out int acted, out int rounds)
     {
-        uint first = 0;
+        first = 0;
+        acted = 0;
         rounds = 0;
         uint round = uint.MaxValue;
         for (int n = log.Position - 1; n >= 0 && log[n].Key.Time == call.Key.Time; n--)
         {
             RuleCall before = log[n];
             first += before.Key.Round == call.Key.Round ? (uint)before.Acts.Count : 0;
+            acted += before.Acts.Count;
             if (before.Chains && before.Key.Round != round)
             {
                 round = before.Key.Round;
                 rounds++;
             }
         }
-
-        return first;
     }
 
     private InstantException Failed(RuleCall call, string why, Exception? cause) => new(

@@ -175,16 +175,7 @@ public static class BuiltInScenes
 
         foreach (Sensor sensor in scene.Sensors)
         {
-            if (sensor.Shape == SensorShape.Plane)
-            {
-                builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, sensor.Filter);
-            }
-            else
-            {
-                builder.AddSensorSphere(
-                    sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage, sensor.Filter,
-                    sensor.Carrier is BodyId carrier ? scene.Bodies[carrier.Index].Name : null);
-            }
+            builder.AddSensor(sensor, scene);
         }
 
         foreach (Force force in scene.Forces)

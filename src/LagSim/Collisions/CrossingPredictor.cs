@@ -30,7 +30,7 @@ internal class CrossingPredictor(
         {
             if (sensors[sensor].Carrier is not BodyId carrier)
             {
-                if (TryFind(slot, last, TimelineStore.None, sensor, out SimTime tick, out uint round))
+                if (TryFind(slot, last, SensorPath.Fixed(timelines), sensor, out SimTime tick, out uint round))
                 {
                     next.Consider(KeyOf(slot, sensor, tick, round));
                 }
@@ -48,7 +48,8 @@ internal class CrossingPredictor(
 
     /// <summary>Whether a sensor sees a body on a segment: whether their filters match.</summary>
     private protected virtual bool Sees(int sensor, int segment) =>
-        (sensors[sensor].Filter.IsDefault && !timelines.Extras.HaveFilters) || sensors[sensor].Filter.CollidesWith(timelines.Extras.Filter(segment));
+        (sensors[sensor].Filter.IsDefault && !timelines.Extras.HaveFilters)
+        || sensors[sensor].Filter.CollidesWith(timelines.Extras.Filter(segment));
 
     /// <summary>From when on the next crossing is searched for after the last one on the segment.</summary>
     private protected virtual SimTime SearchedFrom(int crossing, in EventKey opened)
@@ -76,7 +77,7 @@ internal class CrossingPredictor(
     /// </summary>
     private void ConsiderMeeting(int slot, int last, int other, int sensor, bool isCarried, ref NextEvent next)
     {
-        if (!timelines.IsKnown(other) || timelines.Last(other) == TimelineStore.None)
+        if (!timelines.IsKnown(other))
         {
             return;
         }
@@ -86,7 +87,8 @@ internal class CrossingPredictor(
         for (int piece = view.SegmentFrom(slot, other); piece != TimelineStore.None; piece = timelines.Next(piece))
         {
             int after = timelines.Next(piece);
-            if (TryFind(body, isCarried ? piece : last, isCarried ? last : piece, sensor, out SimTime tick, out uint round))
+            SensorPath path = SensorPath.On(timelines, isCarried ? last : piece);
+            if (TryFind(body, isCarried ? piece : last, path, sensor, out SimTime tick, out uint round))
             {
                 EventKey key = KeyOf(body, sensor, tick, round);
                 if (after == TimelineStore.None || EventKey.Compare(timelines.Key(after), key) > 0)
@@ -111,73 +113,70 @@ internal class CrossingPredictor(
     private EventKey KeyOf(int slot, int sensor, SimTime tick, uint round) =>
         new(tick, round, EventKind.Crossing, bodies.Id(slot), bodies.Id(slot), 0, (uint)sensor);
 
-    /// <summary>The next crossing of a body on a segment of its path, and on one of the carrier's; of a sensor that stands still on none.</summary>
-    private bool TryFind(int slot, int own, int carrier, int sensor, out SimTime tick, out uint round)
+    /// <summary>The next crossing of a body on a segment of its path, by a sensor that moves so.</summary>
+    private bool TryFind(int slot, int segment, in SensorPath path, int sensor, out SimTime tick, out uint round)
     {
         bool isInside = log.IsInside(slot, sensor);
-        int later = carrier != TimelineStore.None && EventKey.Compare(timelines.Key(carrier), timelines.Key(own)) > 0 ? carrier : own;
-        ref readonly EventKey opened = ref timelines.Key(later);
+        EventKey opened = path.OpenedWith(segment);
         tick = opened.Time;
         round = opened.Round + 1;
-        bool isThere = timelines.Segment(own).IsPresent && (carrier == TimelineStore.None || timelines.Segment(carrier).IsPresent);
         int before = log.LastSince(slot, sensor, opened);
-        if (!isThere || !Sees(sensor, own))
+        if (!timelines.Segment(segment).IsPresent || !path.IsPresent || !Sees(sensor, segment))
         {
             return isInside && before == CrossingLog.None; // what is gone has left, and so has what is seen no more
         }
 
-        if (before == CrossingLog.None && IsOnTheOtherSide(slot, own, carrier, sensor, isInside, opened))
+        if (before == CrossingLog.None && IsOnTheOtherSide(slot, segment, path, sensor, isInside, opened))
         {
             return true;
         }
 
         SimTime from = before == CrossingLog.None ? tick : SearchedFrom(before, opened);
-        SimTime until = carrier == TimelineStore.None
-            ? timelines.Segment(own).End : SimTime.Min(timelines.Segment(own).End, timelines.Segment(carrier).End);
-        if (from > until || !TryCross(slot, own, carrier, sensor, isInside, from, until, out ContactTime contact))
+        SimTime until = SimTime.Min(timelines.Segment(segment).End, path.End);
+        if (from > until || !TryCross(slot, segment, path, sensor, isInside, from, until, out ContactTime contact))
         {
             return false;
         }
 
         tick = contact.Tick;
-        round = Math.Max(paths.RoundAfter(own, tick), carrier == TimelineStore.None ? 0 : paths.RoundAfter(carrier, tick));
+        round = Math.Max(paths.RoundAfter(segment, tick), path.RoundAfter(tick));
         round = before != CrossingLog.None && log.Key(before).Time == tick ? Math.Max(round, log.Key(before).Round + 1) : round;
         return true;
     }
 
-    private bool TryCross(int slot, int own, int carrier, int sensor, bool isInside, SimTime from, SimTime until, out ContactTime contact)
+    private bool TryCross(
+        int slot, int segment, in SensorPath path, int sensor, bool isInside, SimTime from, SimTime until, out ContactTime contact)
     {
-        ref readonly MotionSegment segment = ref timelines.Segment(own);
+        ref readonly MotionSegment motion = ref timelines.Segment(segment);
+        DenseOutput dense = timelines.Dense(segment);
         ref readonly Sensor region = ref sensors[sensor];
         double grown = region.Growth(bodies.Spec(slot).Radius);
         if (region.Shape == SensorShape.Plane)
         {
             return isInside
-                ? TimeOfImpact.WithPlane(segment, timelines.Dense(own), -grown, region.Behind, from, until, out contact)
-                : TimeOfImpact.WithPlane(segment, timelines.Dense(own), grown, region.Front, from, until, out contact);
+                ? TimeOfImpact.WithPlane(motion, dense, -grown, region.Behind, from, until, out contact)
+                : TimeOfImpact.WithPlane(motion, dense, grown, region.Front, from, until, out contact);
         }
 
         double reach = region.Radius + grown;
         contact = default;
-        MotionSegment centre = carrier == TimelineStore.None
-            ? MotionSegment.AtRest(start, region.Centre)
-            : timelines.Segment(carrier).At(timelines.Segment(carrier).Position + region.Centre);
-        DenseOutput dense = carrier == TimelineStore.None ? default : timelines.Dense(carrier);
+        MotionSegment centre = path.CentreOf(region, start, out DenseOutput denseCentre);
         return reach > 0 && (isInside
-            ? TimeOfImpact.OutOfSphere(segment, timelines.Dense(own), centre, dense, reach, from, until, out contact)
-            : TimeOfImpact.WithSphere(segment, timelines.Dense(own), centre, dense, reach, from, until, out contact));
+            ? TimeOfImpact.OutOfSphere(motion, dense, centre, denseCentre, reach, from, until, out contact)
+            : TimeOfImpact.WithSphere(motion, dense, centre, denseCentre, reach, from, until, out contact));
     }
 
     /// <summary>
-    /// Whether a segment begins on the other side: the body or the sensor was put there, or it is off by more than rounding, as where it was
-    /// moved when the segment was opened, or is seen only from now on.
+    /// Whether a segment begins on the other side: the body or the sensor was put there, or it is off by more than rounding, as where it
+    /// was moved when the segment was opened, or is seen only from now on.
     /// </summary>
-    private bool IsOnTheOtherSide(int slot, int own, int carrier, int sensor, bool isInside, in EventKey opened)
+    private bool IsOnTheOtherSide(int slot, int segment, in SensorPath path, int sensor, bool isInside, in EventKey opened)
     {
         ContactTime now = ContactTime.At(opened.Time);
-        Vector3D position = paths.PositionAt(own, now);
-        Vector3D centre = carrier == TimelineStore.None ? Vector3D.Zero : paths.PositionAt(carrier, now);
-        double gap = sensors[sensor].Gap(carrier == TimelineStore.None ? position : position - centre, bodies.Spec(slot).Radius);
+        Vector3D position = paths.PositionAt(segment, now);
+        Vector3D origin = path.OriginAt(now);
+        double radius = bodies.Spec(slot).Radius;
+        double gap = sensors[sensor].Gap(position - origin, radius);
         if (isInside ? gap <= 0 : gap >= 0)
         {
             return false;
@@ -188,8 +187,8 @@ internal class CrossingPredictor(
             return true;
         }
 
-        double speed = paths.VelocityAt(own, now).Length + (carrier == TimelineStore.None ? 0 : paths.VelocityAt(carrier, now).Length);
-        double size = SizeOf(position) + SizeOf(centre) + sensors[sensor].Size + bodies.Spec(slot).Radius;
+        double speed = paths.VelocityAt(segment, now).Length + path.SpeedAt(now);
+        double size = SizeOf(position) + SizeOf(origin) + sensors[sensor].Size + radius;
         return Math.Abs(gap) > (Rounding * size) + (2 * speed * TickConversion.SecondsPerTick);
     }
 

@@ -46,15 +46,15 @@ public sealed class LiveWorld
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
     /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
-    /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see cref="RuleWatchdog.Start"/>
-    /// it before, since making a world calls <c>OnStart</c>.</param>
+    /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see
+    /// cref="RuleWatchdog.Start"/> it before, since making a world calls <c>OnStart</c>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null,
         CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null)
         : this(
-            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead, renderedPast, contacts,
-            crossings, notices)
+            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead,
+            renderedPast, contacts, crossings, notices)
     {
     }
 
@@ -67,8 +67,8 @@ public sealed class LiveWorld
     /// <param name="contacts">Receives the contacts of this world alone; null, the default, for none.</param>
     /// <param name="crossings">Receives the crossings of sensors of this world alone; null, the default, for none.</param>
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
-    /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see cref="RuleWatchdog.Start"/>
-    /// it before, since making a world calls <c>OnStart</c>.</param>
+    /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see
+    /// cref="RuleWatchdog.Start"/> it before, since making a world calls <c>OnStart</c>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
@@ -76,8 +76,8 @@ public sealed class LiveWorld
         Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
         ContactNotices? contacts = null, CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null)
         : this(
-            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead, renderedPast, contacts,
-            crossings, notices)
+            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead,
+            renderedPast, contacts, crossings, notices)
     {
     }
 

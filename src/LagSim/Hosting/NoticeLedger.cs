@@ -7,8 +7,8 @@ using LagSim.Time;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Keeps account of what is predicted of a world, such as contacts, crossings and what rules tell: each is reported as predicted, and then confirmed when
-/// nothing can change it any more, or retracted after a late event.
+/// Keeps account of what is predicted of a world, such as contacts, crossings and what rules tell: each is reported as predicted, and then
+/// confirmed when nothing can change it any more, or retracted after a late event.
 /// </summary>
 /// <remarks>For the simulation's thread, apart from <see cref="TryRead"/> and <see cref="Lost"/>.</remarks>
 internal sealed class NoticeLedger<T>

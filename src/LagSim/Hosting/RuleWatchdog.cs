@@ -6,7 +6,8 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>Ends a world whose rules never return from a call: it looks at times which call runs, from outside of the world's thread.</summary>
+/// <summary>Ends a world whose rules never return from a call: it looks at times which call runs, from outside of the world's
+/// thread.</summary>
 /// <remarks>
 /// <para>Sessions and <see cref="SimulationHost"/> have one. It is for who keeps a <see cref="LiveWorld"/> himself.</para>
 /// <para>It counts looks and reads no clock: the same call in <see cref="LooksToGiveUp"/> looks after the first has run for the limit. So a
@@ -67,8 +68,8 @@ public sealed class RuleWatchdog : IDisposable
         set => Volatile.Write(ref abandoned, value);
     }
 
-    /// <summary>Has it look by itself from now on, <see cref="LooksToGiveUp"/> times in the limit, on a thread of the pool. Calling it again
-    /// has no effect.</summary>
+    /// <summary>Has it look by itself from now on, <see cref="LooksToGiveUp"/> times in the limit, on a thread of the pool. Calling it
+    /// again has no effect.</summary>
     public void Start()
     {
         lock (looking)
@@ -94,7 +95,8 @@ public sealed class RuleWatchdog : IDisposable
         }
         else if (IsAbandonedNow(out Action<SimulationException>? handler))
         {
-            handler!(new SimulationException($"{Running.Sentence()} Its thread could not be ended, and is left to itself until the process ends."));
+            handler!(new SimulationException(
+                $"{Running.Sentence()} Its thread could not be ended, and is left to itself until the process ends."));
         }
     }
 

@@ -48,7 +48,8 @@ public sealed class SimulationHost : IDisposable
     /// time; default 10 s. If the call goes on for half as long again, the thread is given up.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
-    /// <exception cref="SimulationException">The world cannot be simulated from the start; <c>OnStart</c> of rules is called here.</exception>
+    /// <exception cref="SimulationException">The world cannot be simulated from the start; <c>OnStart</c> of rules is called
+    /// here.</exception>
     public SimulationHost(
         Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, CrossingNotices? crossings = null,
         RuleNotices? notices = null, SimDuration? ruleTimeout = null)
@@ -151,8 +152,8 @@ public sealed class SimulationHost : IDisposable
     }
 
     /// <summary>
-    /// Stops the thread, in the middle of its work if it is at some, and waits for it; if rules do not return from a call, until it is given
-    /// up. The last render snapshot stays readable; nothing more can be done to the world.
+    /// Stops the thread, in the middle of its work if it is at some, and waits for it; if rules do not return from a call, until it is
+    /// given up. The last render snapshot stays readable; nothing more can be done to the world.
     /// </summary>
     public void Dispose()
     {

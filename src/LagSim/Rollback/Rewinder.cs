@@ -309,7 +309,8 @@ internal class Rewinder : ISegmentOpenedObserver
     }
 
     /// <summary>Notes the bodies that from a key on cross what a body carries.</summary>
-    private protected virtual void NoteDependents(SensorDependencies sensors, int slot, in EventKey from) => sensors.NoteDependents(slot, from);
+    private protected virtual void NoteDependents(SensorDependencies sensors, int slot, in EventKey from) =>
+        sensors.NoteDependents(slot, from);
 
     /// <summary>From which key on a body is cut that is rewound to a key: from that very key.</summary>
     private protected virtual EventKey CutsFrom(in EventKey key) => key;

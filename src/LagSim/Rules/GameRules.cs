@@ -17,8 +17,8 @@ namespace LagSim.Rules;
 /// <para>Calls are made on the simulation's thread; one object serves many worlds, so it must be immutable. They cost what they do, a copy
 /// of the whole state where they change it, and the same again whenever a late event has them made again.</para>
 /// <para>An exception out of a call ends the world with a <see cref="SimulationException"/> that names the rules, the call and the instant;
-/// in a session it first waits for a late event that removes the cause, as long as one may come. A call that does not return is given up after
-/// a time by a <see cref="Hosting.RuleWatchdog"/>, if the world has one, as that of a session does.</para>
+/// in a session it first waits for a late event that removes the cause, as long as one may come. A call that does not return is given up
+/// after a time by a <see cref="Hosting.RuleWatchdog"/>, if the world has one, as that of a session does.</para>
 /// </remarks>
 /// <example>
 /// A score that counts how often a ball hits a plane, and a countdown:

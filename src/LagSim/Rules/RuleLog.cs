@@ -15,14 +15,6 @@ namespace LagSim.Rules;
 /// </remarks>
 internal class RuleLog : IRuleTriggers
 {
-    /// <summary>How many calls may lie within the history: 262,144. Each takes some 400 bytes, so all take 100 MB. What chains in one tick,
-    /// or in ticks that follow each other, comes to an end there.</summary>
-    internal const int MaxCalls = 1 << 18;
-
-    /// <summary>How many calls may be for one tick: 4,096. Where each call brings more than one, as bodies that each spawn two, their number
-    /// doubles in a round, and 64 rounds would never be reached.</summary>
-    internal const int MaxCallsATick = 1 << 12;
-
     private readonly RuleHearing hearing;
     private readonly SimTime start;
     private readonly List<RuleCall> calls = new();
@@ -350,23 +342,8 @@ internal class RuleLog : IRuleTriggers
         return hash.Value;
     }
 
-    /// <exception cref="InstantException">There are too many.</exception>
     private void Insert(int at, in EventKey key, in RuleTrigger trigger)
     {
-        if (at >= MaxCallsATick && calls[at - MaxCallsATick].Key.Time == key.Time)
-        {
-            throw new InstantException(
-                $"The rules '{hearing.Rules}' failed at {key.Time.ToShortString()} before their call for {key}: {MaxCallsATick} of their calls are for"
-                    + " that tick, and that is the most that may.", key.Time);
-        }
-
-        if (calls.Count == MaxCalls)
-        {
-            throw new InstantException(
-                $"The rules '{hearing.Rules}' failed at {key.Time.ToShortString()} before their call for {key}: {MaxCalls} of their calls lie within the"
-                    + " history, and that is the most that may.", key.Time);
-        }
-
         RuleCall call = free.Count > 0 ? free.Pop() : new RuleCall();
         call.Key = key;
         call.Trigger = trigger;

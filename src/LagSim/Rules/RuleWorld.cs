@@ -39,6 +39,7 @@ public sealed class RuleWorld
     private readonly RuleMemory memory;
     private readonly RuleView view;
     private readonly SimTime start;
+    private readonly RunningRuleCall? running;
     private readonly List<RuleAct> acts = new();
     private readonly List<RuleNotice> notices = new();
     private readonly List<RuleRead> reads = new();
@@ -46,7 +47,6 @@ public sealed class RuleWorld
     private uint firstAct;
     private ImpactContact contact; // of an impact, which of its contacts the call is for
     private ulong draws;
-    private readonly RunningRuleCall? running;
     private bool isCalled;
 
     internal RuleWorld(Scene scene, GameRules rules, RuleMemory memory, RuleView view, SimTime start, RunningRuleCall? running)

@@ -4,7 +4,8 @@ using LagSim.Time;
 
 namespace LagSim.Rules;
 
-/// <summary>The call of rules that a world is in, if it is in one: published by the thread that makes it, and looked at by a watchdog.</summary>
+/// <summary>The call of rules that a world is in, if it is in one: published by the thread that makes it, and looked at by a
+/// watchdog.</summary>
 /// <remarks>
 /// <para>Nothing here asks a clock, and no bit of a world depends on it: a call that is given up ends the world on this peer, and never
 /// goes on with another result.</para>
@@ -12,7 +13,7 @@ namespace LagSim.Rules;
 /// the world throws, and so does its end. No thread can be made to leave code that never asks. Such a thread is abandoned: should it come
 /// back after all, it sleeps for ever, so that it can touch nothing that others have taken over.</para>
 /// </remarks>
-/// <param name="limit">How long a call may take, as whoever looks has it; for the sentence alone.</param>
+/// <param name="limit">How long a call may take. It is only said in the sentence: the watchdog that looks keeps the time.</param>
 internal sealed class RunningRuleCall(SimDuration limit)
 {
     private const long GivenUp = -1; // in a call that is given up

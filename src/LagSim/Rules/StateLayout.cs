@@ -82,7 +82,9 @@ internal static class StateLayout
         Require(state.Length >= HeadBytes, $"takes {state.Length} bytes; at least {HeadBytes} are needed");
         int timers = Timers(state);
         int bodies = Bodies(state);
-        Require(Spawned(state) <= uint.MaxValue, $"has rules that have spawned {Spawned(state)} bodies; at most {uint.MaxValue} are allowed");
+        Require(
+            Spawned(state) <= uint.MaxValue,
+            $"has rules that have spawned {Spawned(state)} bodies; at most {uint.MaxValue} are allowed");
         Require(timers is >= 0 and <= MaxTimers, $"has {timers} timers; at most {MaxTimers} are allowed");
         Require(bodies is >= 0 and <= MaxBodies && (bodies == 0 || rules.BodyBytes > 0), $"has states of {bodies} bodies; at most {MaxBodies} are allowed,"
             + " and none where rules declare none");
@@ -94,8 +96,8 @@ internal static class StateLayout
             Require(timer.Number >= 0, $"has timer {timer.Number}; numbers are at least 0");
             Require(
                 timer.At >= ticks && timer.At - ticks <= RuleWorld.MaxDelay.Ticks && timer.Round == 0,
-                $"has timer {timer.Number} due {timer.At - ticks} ticks and {timer.Round} rounds after it; 0 to {RuleWorld.MaxDelay.Ticks} ticks and"
-                    + " no round are allowed");
+                $"has timer {timer.Number} due {timer.At - ticks} ticks and {timer.Round} rounds after it; 0 to {RuleWorld.MaxDelay.Ticks}"
+                    + " ticks and no round are allowed");
             Require(n == 0 || timer.CompareTo(Timer(state, n - 1)) > 0, $"has timer {timer.Number} at place {n} out of order");
             for (int before = 0; before < n; before++)
             {

@@ -13,12 +13,14 @@ internal static class PeriodicBoxCheck
         {
             throw new SceneException(
                 $"Scene '{scene}' has a periodic box, gravity {gravity} m/s^2, {Limits.Count(planes, "plane")},"
-                + $" {Limits.Count(spheres, "static sphere")} and {Limits.Count(forces, "other force")}; a periodic box goes with none of those.");
+                + $" {Limits.Count(spheres, "static sphere")} and {Limits.Count(forces, "other force")}; a periodic box goes with none of"
+                + " those.");
         }
 
         if (sensors > 0)
         {
-            throw new SceneException($"Scene '{scene}' has a periodic box and {Limits.Count(sensors, "sensor")}; a periodic box goes with none.");
+            throw new SceneException(
+                $"Scene '{scene}' has a periodic box and {Limits.Count(sensors, "sensor")}; a periodic box goes with none.");
         }
 
         foreach (SceneBody body in bodies)

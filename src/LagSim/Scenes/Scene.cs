@@ -264,7 +264,8 @@ public sealed class Scene
 
         foreach (Sensor sensor in SensorArray)
         {
-            hash.Add((ulong)sensor.Shape | ((ulong)sensor.Coverage << 8) | (sensor.Filter.IsDefault ? 0 : 1UL << 16) | (sensor.Carrier is null ? 0 : 1UL << 17));
+            ulong has = (sensor.Filter.IsDefault ? 0 : 1UL << 16) | (sensor.Carrier is null ? 0 : 1UL << 17);
+            hash.Add((ulong)sensor.Shape | ((ulong)sensor.Coverage << 8) | has);
             hash.Add(sensor.Vector);
             hash.Add(sensor.Measure);
             if (!sensor.Filter.IsDefault)

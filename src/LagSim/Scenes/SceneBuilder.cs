@@ -205,7 +205,8 @@ public sealed class SceneBuilder
     /// <param name="filter">Which bodies it sees: those that would collide with this; default all.</param>
     /// <exception cref="SceneException">The point is not finite, or the normal has no length.</exception>
     public SceneBuilder AddSensorPlane(
-        string sensorName, Vector3D normal, Vector3D point, SensorCoverage coverage = SensorCoverage.Centre, CollisionFilter filter = default)
+        string sensorName, Vector3D normal, Vector3D point, SensorCoverage coverage = SensorCoverage.Centre,
+        CollisionFilter filter = default)
     {
         if (!point.IsFinite)
         {
@@ -223,14 +224,15 @@ public sealed class SceneBuilder
     /// <param name="filter">Which bodies it sees: those that would collide with this; default all.</param>
     /// <exception cref="SceneException">The normal is not finite, or has no length.</exception>
     public SceneBuilder AddSensorPlane(
-        string sensorName, Vector3D normal, double offset, SensorCoverage coverage = SensorCoverage.Centre, CollisionFilter filter = default)
+        string sensorName, Vector3D normal, double offset, SensorCoverage coverage = SensorCoverage.Centre,
+        CollisionFilter filter = default)
     {
-        sensors.Add(new Sensor(sensorName, SensorShape.Plane, UnitNormal.Of("sensor", sensorName, normal), offset + 0.0, coverage, filter));
-        carriers.Add(null);
-        return this;
+        Vector3D unit = UnitNormal.Of("sensor", sensorName, normal);
+        return Add(new Sensor(sensorName, SensorShape.Plane, unit, offset + 0.0, coverage, filter), null);
     }
 
-    /// <summary>Adds a sensor in a sphere, which touches nothing. It never moves, or goes with a body: a player's reach, a magnet's.</summary>
+    /// <summary>Adds a sensor in a sphere, which touches nothing. It never moves, or goes with a body: a player's reach, a
+    /// magnet's.</summary>
     /// <param name="sensorName">1 to 64 characters, no control characters among them, and no other part's.</param>
     /// <param name="centre">In metres, each component within 1e12; from the centre of the carrier, without turning, if there is
     /// one.</param>
@@ -240,12 +242,10 @@ public sealed class SceneBuilder
     /// <param name="carrier">The name of the body of the scene that carries it, and that it does not see; default none. Where the
     /// carrier is removed, nothing is inside.</param>
     public SceneBuilder AddSensorSphere(
-        string sensorName, Vector3D centre, double radius, SensorCoverage coverage = SensorCoverage.Centre, CollisionFilter filter = default,
-        string? carrier = null)
+        string sensorName, Vector3D centre, double radius, SensorCoverage coverage = SensorCoverage.Centre,
+        CollisionFilter filter = default, string? carrier = null)
     {
-        sensors.Add(new Sensor(sensorName, SensorShape.Sphere, centre.WithoutNegativeZero(), radius, coverage, filter));
-        carriers.Add(carrier);
-        return this;
+        return Add(new Sensor(sensorName, SensorShape.Sphere, centre.WithoutNegativeZero(), radius, coverage, filter), carrier);
     }
 
     /// <summary>Adds a force; it acts on the bodies that name it.</summary>
@@ -299,7 +299,7 @@ public sealed class SceneBuilder
                 bodyArray[i] = bodyArray[i].With(FlightLaws.Chosen(bodyArray[i].Spec, gravity, forceArray));
             }
         });
-        double smallest = Smallest();
+        double smallest = SmallestRadius.Of(bodies, smallestSpawn);
         if (box.Exists)
         {
             Limits.CheckBox(box, smallestSpawn ?? 0, $"scene '{name}'");
@@ -332,24 +332,18 @@ public sealed class SceneBuilder
         }
     }
 
-    internal static BodyText Whose(in SceneBody body) => new(body.Name);
+    /// <summary>Adds a sensor as another scene has it; if a body carries it, one of the same name.</summary>
+    internal SceneBuilder AddSensor(in Sensor sensor, Scene of) =>
+        Add(sensor, sensor.Carrier is BodyId carrier ? of.Bodies[carrier.Index].Name : null);
 
-    private double Smallest()
+    private SceneBuilder Add(in Sensor sensor, string? carrier)
     {
-        double smallest = double.MaxValue;
-        foreach (SceneBody body in bodies)
-        {
-            if (body.Spec.Radius < smallestSpawn)
-            {
-                throw new SceneException($"The radius of {Whose(body)} is {Limits.Text(body.Spec.Radius)} m; the smallest radius of the"
-                    + $" scene is {Limits.Text(smallestSpawn.Value)} m, and must be at most that of every body.");
-            }
-
-            smallest = Math.Min(smallest, body.Spec.Radius);
-        }
-
-        return smallestSpawn ?? (smallest == double.MaxValue ? Limits.MaxRadius : smallest);
+        sensors.Add(sensor);
+        carriers.Add(carrier);
+        return this;
     }
+
+    internal static BodyText Whose(in SceneBody body) => new(body.Name);
 
     private void CheckWhole()
     {

@@ -5,8 +5,8 @@ namespace LagSim.Scenes;
 /// <summary>A sensor: a region that tells which bodies are inside of it, and touches none. It stands still, or a body carries it.</summary>
 /// <remarks>
 /// A body is inside where the distance of its centre to the region, grown or shrunk by <see cref="Coverage"/>, is below zero; it enters and
-/// leaves where that distance changes its sign, and a touch from one side is no crossing. Only bodies whose collision filter matches its own
-/// can be inside. Immutable, safe on any thread. A scene checks it.
+/// leaves where that distance changes its sign, and a touch from one side is no crossing. Only bodies whose collision filter matches its
+/// own can be inside. Immutable, safe on any thread. A scene checks it.
 /// </remarks>
 public readonly struct Sensor : IEquatable<Sensor>
 {
@@ -67,7 +67,11 @@ public readonly struct Sensor : IEquatable<Sensor>
 
     /// <summary>Whether every part but the name is the same.</summary>
     internal bool IsSameRegionAs(in Sensor other) =>
-        (Shape, Coverage, Measure, Filter, Carrier) == (other.Shape, other.Coverage, other.Measure, other.Filter, other.Carrier) && Vector == other.Vector;
+        (Shape, Coverage, Measure, Filter, Carrier) == (other.Shape, other.Coverage, other.Measure, other.Filter, other.Carrier)
+        && Vector == other.Vector;
+
+    /// <summary>The same sensor, which sees others.</summary>
+    internal Sensor With(CollisionFilter filter) => new(Name, Shape, Vector, Measure, Coverage, filter, Carrier);
 
     /// <summary>The same sensor, carried by a body.</summary>
     internal Sensor CarriedBy(BodyId body) => new(Name, Shape, Vector, Measure, Coverage, Filter, body);

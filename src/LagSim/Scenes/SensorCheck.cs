@@ -29,7 +29,8 @@ internal static class SensorCheck
                 int index = bodies.FindIndex(body => string.Equals(body.Name, carrier, StringComparison.Ordinal));
                 all[i] = index >= 0
                     ? all[i].CarriedBy(BodyId.OfScene(index))
-                    : throw new SceneException($"The carrier of sensor '{all[i].Name}' is '{PartName.Shown(carrier)}'; it must be the name of a body of the scene.");
+                    : throw new SceneException(
+                        $"The carrier of sensor '{all[i].Name}' is '{PartName.Shown(carrier)}'; it must be the name of a body of the scene.");
             }
         }
 

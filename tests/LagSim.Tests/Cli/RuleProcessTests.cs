@@ -9,7 +9,7 @@ using Xunit;
 
 namespace LagSim.Tests.Cli;
 
-/// <summary>Real processes play the built-in scene with rules: all have one state of them, whoever did what and whenever it came.</summary>
+/// <summary>Real processes play the built-in scene with rules: the state of the rules is the same in all of them.</summary>
 [Collection(RealTime.Name)]
 [Trait("Time", "real")]
 public sealed class RuleProcessTests

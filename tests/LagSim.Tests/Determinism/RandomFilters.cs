@@ -37,11 +37,7 @@ internal static class RandomFilters
 
         foreach (Sensor sensor in scene.Sensors)
         {
-            _ = sensor.Shape == SensorShape.Plane
-                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, from.Next(2) == 0 ? Draw(from) : default)
-                : builder.AddSensorSphere(
-                    sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage, from.Next(2) == 0 ? Draw(from) : default,
-                    sensor.Carrier is BodyId carrier ? scene.Bodies[carrier.Index].Name : null);
+            builder.AddSensor(from.Next(2) == 0 ? sensor.With(Draw(from)) : sensor, scene);
         }
 
         return builder.Build();

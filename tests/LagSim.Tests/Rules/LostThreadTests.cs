@@ -185,13 +185,7 @@ public sealed class LostThreadTests
         }
     }
 
-    private static bool Within(Func<bool> isSo) => SpinWait.SpinUntil(
-        () =>
-        {
-            Thread.Sleep(1);
-            return isSo();
-        },
-        Deadline);
+    private static bool Within(Func<bool> isSo) => SpinWait.SpinUntil(isSo, Deadline);
 
     private static Scene Floor(GameRules rules) => new SceneBuilder("floor").AddPlane("floor", Vector3D.Up, V(0), 0.9).AddBody("ball", Ball(e: 0.9), V(0, 2)).WithRules(rules).Build();
 }

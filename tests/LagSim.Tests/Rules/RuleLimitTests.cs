@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -63,7 +64,8 @@ public sealed class RuleLimitTests
             : new() { Start = w => w.SetTimer(1, SimDuration.OneTick), Timer = (w, _) => w.SetTimer(1, SimDuration.OneTick) };
         Scene scene = new SceneBuilder("endless").WithGravity(Vector3D.Zero).WithSmallestRadius(0.5).WithRules(rules).Build();
         SimulationException failure = Assert.Throws<SimulationException>(() => new Simulation(scene, KeepAll).AdvanceTo(At(1)));
-        string sentence = spawns ? "4096 of their calls are for that tick, and that is the most that may." : "262144 of their calls lie within the history, and that is the most that may.";
+        string sentence = spawns
+            ? ": did more than 16384 things to bodies in one tick" : ": it is one more than the 262144 that may lie within the history";
         Assert.EndsWith(sentence, failure.Message, StringComparison.Ordinal);
         Assert.StartsWith("The rules 'given 1' failed at ", failure.Message, StringComparison.Ordinal);
 
@@ -71,9 +73,35 @@ public sealed class RuleLimitTests
         {
             for (int n = 0; n < 2; n++)
             {
-                world.Spawn(Ball(0.5).With(CollisionFilter.None), V(0));
+                world.Spawn(Ball(0.5), V(2 * world.State<GivenState>().Count++)); // each at a place of its own
             }
         }
+    }
+
+    /// <summary>As many timers as may be set, due at one tick, each with as many acts as a call may do, are all that a tick may have.</summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(1)]
+    public void Acts_OfOneTick_AreAllDoneUpToTheLimit(int more)
+    {
+        GivenRules rules = new()
+        {
+            Start = w =>
+            {
+                for (int timer = 0; timer < RuleWorld.MaxTimers; timer++)
+                {
+                    w.SetTimer(timer, Soon);
+                }
+            },
+            Timer = (w, _) => Push(w, RuleWorld.MaxActs),
+            Command = (w, _, _) => Push(w, more),
+        };
+        Scene scene = new SceneBuilder("acts").WithGravity(Vector3D.Zero).AddBody("ball", Ball(0.5), V(0)).WithRules(rules).Build();
+        Simulation world = new(scene, KeepAll);
+        world.Submit(PlayerAction.Command(new GameCommand(1)).Stamp(At(0.25), 1, 1));
+        Exception? failure = Record.Exception(() => world.AdvanceTo(At(1)));
+        Assert.Equal(more == 0, failure is null);
+        Assert.True(failure is null || failure.Message.EndsWith(": did more than 16384 things to bodies in one tick", StringComparison.Ordinal));
     }
 
     /// <summary>A history that moves on makes room: rules may be called as often as they like in the long run.</summary>
@@ -91,7 +119,7 @@ public sealed class RuleLimitTests
         };
         Simulation world = new(new SceneBuilder("long").WithRules(rules).Build(), new SimulationOptions(history: SimDuration.FromSeconds(1)));
         world.AdvanceTo(At(300));
-        Assert.True(world.TryReadRules(At(300), out GivenState state) && state.Count > RuleLog.MaxCalls, $"{state.Count} calls");
+        Assert.True(world.TryReadRules(At(300), out GivenState state) && state.Count > RuleCaller.MaxCalls, $"{state.Count} calls");
     }
 
     [Theory]

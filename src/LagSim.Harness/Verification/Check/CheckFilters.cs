@@ -73,11 +73,7 @@ internal sealed class CheckFilters
 
         foreach (Sensor sensor in scene.Sensors)
         {
-            _ = sensor.Shape == SensorShape.Plane
-                ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, sensor.Filter)
-                : builder.AddSensorSphere(
-                    sensor.Name, sensor.Centre, sensor.Radius, sensor.Coverage, sensor.Filter,
-                    sensor.Carrier is BodyId carrier ? scene.Bodies[carrier.Index].Name : null);
+            builder.AddSensor(sensor, scene);
         }
 
         return builder.Build();

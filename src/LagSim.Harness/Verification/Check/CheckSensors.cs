@@ -15,6 +15,7 @@ internal sealed class CheckSensors
     private readonly Sensor[] sensors;
     private readonly int[] carriers; // by sensor: the number of the body that carries it, -1 for none
     private readonly CollisionFilter[] filters; // by sensor
+    private readonly double[] offsets; // by sensor: what part of its place it is off its carrier
 
     /// <param name="random">The stream to draw from.</param>
     /// <param name="bodies">How many bodies the scene has.</param>
@@ -40,9 +41,11 @@ internal sealed class CheckSensors
 
         sensors = [.. drawn.Build().Sensors];
         SeededRandom later = random.Fork(LaterStream);
-        carriers = Array.ConvertAll(sensors, sensor => sensor.Shape == SensorShape.Sphere && later.IsLucky(50) ? later.NextInt(bodies) : -1);
-        filters = Array.ConvertAll(sensors, _ => later.IsLucky(25)
-            ? later.Pick(new CollisionFilter(2), new CollisionFilter(1, 1), new CollisionFilter(2, 1), new CollisionFilter(3, 2)) : default);
+        carriers = Array.ConvertAll(
+            sensors, sensor => sensor.Shape == SensorShape.Sphere && later.IsLucky(50) ? later.NextInt(bodies) : -1);
+        CollisionFilter[] some = [new CollisionFilter(2), new CollisionFilter(1, 1), new CollisionFilter(2, 1), new CollisionFilter(3, 2)];
+        filters = Array.ConvertAll(sensors, _ => later.IsLucky(25) ? later.Pick(some) : default);
+        offsets = Array.ConvertAll(sensors, _ => later.IsLucky(50) ? 0 : later.NextDouble() * 0.5);
     }
 
     /// <summary>Adds the sensors to a scene; those whose carrier is not in it stand still.</summary>
@@ -58,7 +61,7 @@ internal sealed class CheckSensors
             _ = sensor.Shape == SensorShape.Plane
                 ? builder.AddSensorPlane(sensor.Name, sensor.Normal, sensor.Offset, sensor.Coverage, filters[i])
                 : builder.AddSensorSphere(
-                    sensor.Name, isCarried ? Vector3D.Zero : sensor.Centre, sensor.Radius, sensor.Coverage, filters[i],
+                    sensor.Name, isCarried ? sensor.Centre * offsets[i] : sensor.Centre, sensor.Radius, sensor.Coverage, filters[i],
                     isCarried ? nameOf(carriers[i]) : null);
         }
     }

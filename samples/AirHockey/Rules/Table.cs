@@ -50,6 +50,8 @@ public static class Table
     public static readonly BodySpec PuckSpec = new(PuckRadius, mass: 0.1, restitution: 1, filter: PuckOnTable, tag: PuckTag);
     public static readonly BodyId Puck = BodyId.OfScene(0);
 
+    private static readonly (int Degrees, double Cos, double Sin)[] Corners = [(30, Math.Sqrt(0.75), 0.5), (60, 0.5, Math.Sqrt(0.75))];
+
     private static readonly BodySpec MalletSpec = new(MalletRadius, mass: 0.4, restitution: 0.4, filter: MalletAtHome, tag: MalletTag);
 
     public static BodyId MalletOf(int player) => BodyId.OfScene(1 + player);
@@ -110,10 +112,9 @@ public static class Table
             Wall(z < 0 ? "far side" : "near side", new Vector3D(0, 0, z), new Vector3D(0, 0, z * HalfWidth));
             foreach (int x in (int[])[-1, 1])
             {
-                foreach (double angle in (double[])[30, 60])
+                foreach ((int angle, double cos, double sin) in Corners)
                 {
                     // Touches the circle of the corner, as the other walls do.
-                    (double sin, double cos) = Math.SinCos(angle * Math.PI / 180);
                     Vector3D outwards = new(x * cos, 0, z * sin);
                     Vector3D middle = new(x * (HalfLength - CornerRadius), 0, z * (HalfWidth - CornerRadius));
                     Wall($"corner {x} {z} {angle}", outwards, middle + (outwards * CornerRadius));
