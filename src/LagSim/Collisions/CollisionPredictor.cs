@@ -80,6 +80,7 @@ internal sealed class CollisionPredictor(
             bool isElastic = Math.Min(bodies.Spec(slot).Restitution, surfaces.Restitution(surface)) >= 1;
             SimDuration wait = WaitFor(closing, segment.IsOfIsland && members.Holds(last, surface), isElastic);
             if (wait < ContactTime.Soon
+                && !HasWaited(opened)
                 && !MayWait(closing, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.On(last, surface, opened) : 0, round))
             {
                 return true;
@@ -220,6 +221,7 @@ internal sealed class CollisionPredictor(
             SimDuration wait = WaitFor(
                 closing, members.HoldTogether(a, lastA, b, lastB), Math.Min(bodies.Spec(a).Restitution, bodies.Spec(b).Restitution) >= 1);
             if (wait < ContactTime.Soon
+                && !HasWaited(opened)
                 && !MayWait(closing, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.Between(lastA, lastB, opened) : 0, round))
             {
                 return true;
@@ -295,6 +297,13 @@ internal sealed class CollisionPredictor(
     /// </summary>
     private static bool MayWait(in Closing closing, int strikes, uint round) =>
         closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
+
+    /// <summary>
+    /// Whether two whose paths were opened at an instant waited in it, because it lies before the edge of the history: if they had not,
+    /// they would have been struck then, and would be on other paths. How often they were struck in it may be forgotten, and a world that
+    /// goes on from a snapshot never knew it.
+    /// </summary>
+    private bool HasWaited(SimTime opened) => opened < timelines.Edge;
 
     /// <summary>
     /// Whether a body closes on a surface that is no further off than places are rounded. No path can resolve the instant, so it is this

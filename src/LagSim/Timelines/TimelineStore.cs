@@ -29,7 +29,6 @@ internal sealed class TimelineStore
     private int free = None;
     private int used;
     private TimelineEnds[] ends; // by body
-    private SimTime edge = SimTime.MinValue; // what lies before is dropped when room is needed
 
     /// <summary>No timelines yet.</summary>
     /// <param name="origin">From when hashes count time.</param>
@@ -66,6 +65,9 @@ internal sealed class TimelineStore
 
     /// <summary>Notified of segments that are opened; null for none.</summary>
     internal ISegmentOpenedObserver? Openings { get; set; }
+
+    /// <summary>The earliest instant that is still asked for; the segments that only earlier ones need may be gone.</summary>
+    internal SimTime Edge { get; private set; } = SimTime.MinValue;
 
     /// <summary>How many segments may be kept.</summary>
     internal int MaxSegments { get; }
@@ -293,7 +295,7 @@ internal sealed class TimelineStore
     internal int Room => segments.Length;
 
     /// <summary>Instants before this are asked for no more; what only they need is dropped when room is needed.</summary>
-    internal void ForgetBefore(SimTime time) => edge = SimTime.Max(edge, time);
+    internal void ForgetBefore(SimTime time) => Edge = SimTime.Max(Edge, time);
 
     /// <summary>
     /// Drops of one body what is no longer needed for instants from <paramref name="time"/> on; the last segment opened before it stays.
@@ -343,13 +345,13 @@ internal sealed class TimelineStore
     private void DropAll(SimTime now)
     {
         int recent = 0;
-        SimTime late = TimelineGrowthPolicy.RecentStart(now, edge);
+        SimTime late = TimelineGrowthPolicy.RecentStart(now, Edge);
 
         // From the end, so that what is freed is given out from the beginning: segments are opened in one direction through memory.
         for (int at = used - 1; at >= 0; at--)
         {
             SimTime closed = links[at].Closed;
-            if (closed < edge)
+            if (closed < Edge)
             {
                 Drop(at);
             }
@@ -399,7 +401,7 @@ internal sealed class TimelineStore
 
     private void Grow(SimTime now, int recent)
     {
-        int room = growth.Next(segments.Length, ends.Length, now, edge, recent);
+        int room = growth.Next(segments.Length, ends.Length, now, Edge, recent);
         Array.Resize(ref segments, room);
         Array.Resize(ref links, room);
         Extras.Grow(room);

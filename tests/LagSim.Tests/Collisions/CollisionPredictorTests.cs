@@ -129,6 +129,22 @@ public sealed class CollisionPredictorTests
         Assert.Equal(!isCarried, predictor.TryTouchSurface(0, 0, out _, out _));
     }
 
+    /// <summary>
+    /// What is as deep as it may get is struck in the instant in which its path was opened. If that lies before the edge of the history it
+    /// was not struck then, or it would be on another path: how often it was struck before, nobody knows any more.
+    /// </summary>
+    [Theory]
+    [InlineData(0, true)]
+    [InlineData(1, false)]
+    public void TryTouchSurface_OpenedBeforeTheEdgeOfTheHistory_IsNotStruckInThatInstant(long later, bool isStruck)
+    {
+        EventKey opened = Key(1, EventKind.Impact, round: CollisionPredictor.CollapseRound + 1);
+        AddBody(bodies, timelines, Ball(), opened, Flight(1, V(0, 0.5 - (2e-3 * Floor.RestitutionThreshold)), V(0, -1e-7)));
+        timelines.ForgetBefore(At(1) + SimDuration.FromTicks(later));
+        bool touches = predictor.TryTouchSurface(0, 0, out ContactTime contact, out _);
+        Assert.Equal(isStruck, touches && contact.Tick == At(1));
+    }
+
     private static double Seconds(in ContactTime contact) => contact.Tick.ToSeconds() + contact.Residual;
 
     private void Add(MotionSegment segment) => AddBody(bodies, timelines, Ball(), Key(0, EventKind.Start, bodies.Count), segment);

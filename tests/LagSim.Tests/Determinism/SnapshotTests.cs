@@ -41,6 +41,32 @@ public sealed class SnapshotTests
         Assert.True(bodies > 400 && inPersistentContact > 10 && held > 10 && stepping > 10 && turning > 10, $"{bodies} {inPersistentContact} {held} {stepping} {turning}"); // else nothing was shown
     }
 
+    /// <summary>
+    /// A contact that was struck in an instant waits before it is struck again, and a snapshot after it does not say how often it was.
+    /// </summary>
+    [Fact]
+    public void Snapshot_TakenRightAfterALaterRoundOfImpacts_GoesOnTheSame()
+    {
+        int tried = 0;
+        foreach (int seed in Enumerable.Range(30_000, 400))
+        {
+            RandomWorld world = new(seed, hands: seed % 2 == 0, forced: seed % 3 == 0);
+            Simulation expected = world.OnTime();
+            foreach (SimTime at in LaterRounds(expected).Take(20))
+            {
+                foreach (long ticks in new[] { 1, 2, ContactTime.SoonTicks, 4 * ContactTime.SoonTicks })
+                {
+                    Simulation actual = GoOn(world, expected.Snapshot(at + SimDuration.FromTicks(ticks)), seed);
+                    string? difference = RandomWorld.Difference(expected, actual);
+                    Assert.True(difference is null, $"seed {seed}, {ticks} ticks after {at}: {difference}");
+                    tried++;
+                }
+            }
+        }
+
+        Assert.True(tried > 1_000, $"{tried}");
+    }
+
     /// <summary>Who joins after one of an island was removed knows nothing of it, though the others carry its contact to their next tick: no hash may count that it is looked at.</summary>
     [Fact]
     public void Snapshot_TakenRightAfterAMemberWasRemoved_GoesOnToTheSameHashes()
@@ -174,6 +200,10 @@ public sealed class SnapshotTests
         Assert.InRange(most, 200, 1_000);
         Assert.True(world.TryRead(First, world.SimulatedTo, out _));
     }
+
+    private static IEnumerable<SimTime> LaterRounds(Simulation world) => Bodies(world).SelectMany(world.Timeline)
+        .Where(e => e.Key.Kind == EventKind.Impact && e.Key.Round > 0 && e.Key.Time > At(0.01) && e.Key.Time < At(RandomWorld.End - 0.01))
+        .Select(e => e.Key.Time).Distinct();
 
     private static IEnumerable<SimTime> Instants(Simulation world, int seed)
     {
