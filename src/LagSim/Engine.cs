@@ -47,7 +47,7 @@ internal sealed class Engine
         Timelines = new TimelineStore(start, options.MaxSegments, flights, expected, parts.TimelineGrowthPolicy(start, options.History));
         Timelines.ForgetBefore(from);
         RuleMemory? ruleMemory = scene.Rules is null ? null : new RuleMemory(scene.Rules);
-        Rules = ruleMemory is null ? null : parts.RuleLog((GameRules)scene.Rules!, start, ruleState ?? ruleMemory.Begin());
+        Rules = ruleMemory is null ? null : parts.RuleLog(scene, start, ruleState ?? ruleMemory.Begin());
         if (Rules is not null)
         {
             Rules.Running = options.RunningRuleCall;
@@ -140,7 +140,7 @@ internal sealed class Engine
         BroadPhaseGrowth growth = new(Bodies, Progress, rollback, BroadPhase, predictor);
         if (Rules is not null)
         {
-            RuleView ruleView = new(scene, Bodies, Timelines);
+            RuleView ruleView = new(scene, Bodies, Timelines, Crossings);
             RuleWorld ruleWorld = new(scene, (GameRules)scene.Rules!, ruleMemory!, ruleView, start, options.RunningRuleCall);
             RuleActs acts = new(Roster, Bodies, log, growth, predictor, Rewinder);
             Caller = parts.RuleCaller((GameRules)scene.Rules!, Rules, ruleMemory!, ruleWorld, ruleView, acts, options.Healing);

@@ -84,7 +84,7 @@ internal class EngineParts
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
         new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph);
 
-    internal virtual RuleLog RuleLog(GameRules rules, SimTime start, ReadOnlySpan<byte> state) => new(rules, start, state);
+    internal virtual RuleLog RuleLog(Scene scene, SimTime start, ReadOnlySpan<byte> state) => new(scene, start, state);
 
     internal virtual RuleCaller RuleCaller(
         GameRules rules, RuleLog log, RuleMemory memory, RuleWorld world, RuleView view, RuleActs acts, HealingMode mode) =>

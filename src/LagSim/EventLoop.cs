@@ -57,7 +57,7 @@ internal sealed class EventLoop(
     {
         if (Blocked is InstantException endless && endless.At <= time)
         {
-            throw new SimulationException(endless.Message, endless.InnerException!);
+            throw endless.AsEnd();
         }
     }
 
@@ -222,7 +222,7 @@ internal sealed class EventLoop(
     /// <summary>With what a failure ends the simulation: in the one way that callers know.</summary>
     private SimulationException Ending(Exception failure, SimTime reached) => failure switch
     {
-        InstantException instant => new SimulationException(instant.Message, instant.InnerException!),
+        InstantException instant => instant.AsEnd(),
         TimelinesFullException full => new TimelinesFullException($"{full.Message}{failures.OfFullTimelines(progress.History)}", full),
         _ => new SimulationException($"The simulation failed at or after {reached.ToShortString()}: {failure.Message}", failure),
     };

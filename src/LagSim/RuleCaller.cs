@@ -151,7 +151,7 @@ internal class RuleCaller
         world.Begin(call, first);
         loaded = null; // until it is known what the call leaves
         Made++;
-        running?.Begin(rules, MethodFor(call.Key.Kind), call.Key);
+        running?.Begin(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger);
         try
         {
             Dispatch(call);
@@ -166,17 +166,6 @@ internal class RuleCaller
             running?.End(); // throws if the call was given up, whatever came of it
         }
     }
-
-    private static string MethodFor(EventKind kind) => kind switch
-    {
-        EventKind.Start => nameof(GameRules.OnStart),
-        EventKind.Command => nameof(GameRules.OnCommand),
-        EventKind.Timer => nameof(GameRules.OnTimer),
-        EventKind.Impact => nameof(GameRules.OnContact),
-        EventKind.Crossing => nameof(GameRules.OnCrossing),
-        EventKind.Spawn => nameof(GameRules.OnSpawned),
-        _ => nameof(GameRules.OnRemoved),
-    };
 
     private void Dispatch(RuleCall call)
     {
@@ -243,6 +232,6 @@ internal class RuleCaller
         }
     }
 
-    private InstantException Failed(RuleCall call, string why, Exception? cause) => new(
-        $"The rules '{rules}' failed at {call.Key.Time.ToShortString()} in their call for {call.Key}: {why}", call.Key.Time, cause);
+    private InstantException Failed(RuleCall call, string why, Exception? cause) =>
+        new($"{RuleCallText.Failed(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger)}: {why}", call.Key.Time, cause);
 }

@@ -172,6 +172,13 @@ public abstract class Session
     /// <summary>The cause of the session's end. From any thread, as <see cref="EndReason"/>.</summary>
     public SessionEnd EndedBy => parts.Status.EndedBy;
 
+    /// <summary>
+    /// The exception that ended the world, and with it the session; null if the session goes on, or ended for another reason. From any
+    /// thread, as <see cref="EndReason"/>. What a game's own code threw (its rules, its accelerations) is an inner exception of it, with
+    /// the stack.
+    /// </summary>
+    public Exception? Failure => parts.Status.Failure;
+
     /// <summary>As what this peer takes part: <see cref="SessionOptions.Role"/>. From any thread.</summary>
     public PeerRole Role => parts.Options.Role;
 

@@ -187,8 +187,8 @@ public sealed class LiveWorld
     /// <summary>The instant that blocks the world, if it <see cref="WaitsForLateEvents"/>; the latest time there is if none does.</summary>
     public SimTime BlockedAt => Simulation.Engine.Loop.BlockedAt;
 
-    /// <summary>Why an instant blocks the world, in a sentence; empty if none does.</summary>
-    public string BlockedBecause => Simulation.Engine.Loop.Blocked?.Message ?? "";
+    /// <summary>Why an instant blocks the world: with what it ends once nothing can remove the cause any more. Null if none does.</summary>
+    public SimulationException? BlockedBy => Simulation.Engine.Loop.Blocked?.AsEnd();
 
     /// <summary>Notifies <see cref="Work"/>, if there is one, which peer's event is submitted next.</summary>
     /// <param name="player">The player's number.</param>

@@ -6,22 +6,24 @@ using LagSim.Timelines;
 namespace LagSim.Rules;
 
 /// <summary>What rules hear of: asks them, for each event that they can hear.</summary>
-internal sealed class RuleHearing(GameRules rules)
+internal sealed class RuleHearing(Scene scene)
 {
+    private readonly GameRules rules = (GameRules)scene.Rules!;
+
     /// <summary>Knows which method of the rules is called; null if nobody looks.</summary>
     internal RunningRuleCall? Running { get; set; }
 
     /// <summary>Whether they hear a contact of an impact.</summary>
     internal bool Hears(in EventKey impact, in ImpactContact contact)
     {
-        Running?.Begin(rules, nameof(GameRules.HearsContact), impact);
+        Running?.Begin(scene, nameof(GameRules.HearsContact), impact, new RuleTrigger(contact));
         try
         {
             return rules.HearsContact(contact.First, contact.Second, contact.Surface);
         }
         catch (Exception failure)
         {
-            throw Failed(nameof(GameRules.HearsContact), impact, failure);
+            throw Failed(nameof(GameRules.HearsContact), impact, new RuleTrigger(contact), failure);
         }
         finally
         {
@@ -32,14 +34,14 @@ internal sealed class RuleHearing(GameRules rules)
     /// <summary>Whether they hear a crossing of a sensor.</summary>
     internal bool Hears(in Crossing crossing)
     {
-        Running?.Begin(rules, nameof(GameRules.HearsCrossing), crossing.Key);
+        Running?.Begin(scene, nameof(GameRules.HearsCrossing), crossing.Key, new RuleTrigger(crossing.Entered));
         try
         {
             return rules.HearsCrossing(crossing.Body, crossing.Sensor);
         }
         catch (Exception failure)
         {
-            throw Failed(nameof(GameRules.HearsCrossing), crossing.Key, failure);
+            throw Failed(nameof(GameRules.HearsCrossing), crossing.Key, new RuleTrigger(crossing.Entered), failure);
         }
         finally
         {
@@ -51,6 +53,6 @@ internal sealed class RuleHearing(GameRules rules)
     internal bool Hears(BodyId body, in EventKey key) =>
         key.Kind is EventKind.Spawn or EventKind.Remove && key.Body == body && (rules.HearsBodies || rules.BodyBytes > 0);
 
-    private InstantException Failed(string method, in EventKey key, Exception failure) =>
-        new($"The rules '{rules}' failed at {key.Time.ToShortString()} in {method} for {key}: {failure.Message}", key.Time, failure);
+    private InstantException Failed(string method, in EventKey key, in RuleTrigger trigger, Exception failure) =>
+        new($"{RuleCallText.Failed(scene, method, key, trigger)}: {failure.Message}", key.Time, failure);
 }

@@ -28,9 +28,9 @@ internal class RuleLog : IRuleTriggers
     private bool isListenedTo;
 
     /// <summary>Of a world that continues from an encoded state.</summary>
-    internal RuleLog(GameRules rules, SimTime start, ReadOnlySpan<byte> state)
+    internal RuleLog(Scene scene, SimTime start, ReadOnlySpan<byte> state)
     {
-        hearing = new RuleHearing(rules);
+        hearing = new RuleHearing(scene);
         this.start = start;
         first = versions.Add(state);
         versions.Replace(ref current, first);

@@ -2,11 +2,13 @@ using LagSim.Scenes;
 
 namespace LagSim.Rules;
 
-/// <summary>What a call of rules read of the world: a body, or which bodies are in a region. It is kept to tell later whether the call
-/// would read the same.</summary>
+/// <summary>What a call of rules read of the world. It is kept to tell later whether the call would read the same.</summary>
 internal struct RuleRead
 {
-    /// <summary>The body; of a region, the n-th that was found there.</summary>
+    /// <summary>What it is of.</summary>
+    internal RuleReadKind Kind;
+
+    /// <summary>The body; after a region, the n-th that was found there.</summary>
     internal BodyId Body;
 
     /// <summary>The body's state as it was read; absent for one that is not there.</summary>
@@ -18,7 +20,13 @@ internal struct RuleRead
     /// <summary>Its properties.</summary>
     internal BodySpec Spec;
 
-    /// <summary>Of a region, its radius in metres; negative for a body.</summary>
+    /// <summary>Of a sensor, its index in the scene.</summary>
+    internal int Sensor;
+
+    /// <summary>Of a sensor, whether the body is inside of it.</summary>
+    internal bool IsInside;
+
+    /// <summary>Of a region, its radius in metres.</summary>
     internal double Radius;
 
     /// <summary>Of a region, its centre.</summary>

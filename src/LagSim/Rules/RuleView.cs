@@ -9,14 +9,18 @@ namespace LagSim.Rules;
 /// <summary>The world as rules see it: after the event of their call, and before any that comes later in the canonical order.</summary>
 /// <remarks>Pure functions of the timelines. While a heal is under way some bodies are known beyond that event; what they do later is not
 /// seen.</remarks>
-internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore timelines)
+/// <param name="scene">The scene.</param>
+/// <param name="bodies">The bodies.</param>
+/// <param name="timelines">Their paths.</param>
+/// <param name="crossings">Which sensors they crossed; null in a scene without sensors.</param>
+internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore timelines, CrossingLog? crossings)
 {
     private readonly Paths paths = new(timelines);
 
     /// <summary>Reads a body, as it is right after an event.</summary>
     internal RuleRead ReadBody(BodyId body, in EventKey after)
     {
-        RuleRead read = new() { Body = body, Radius = -1 };
+        RuleRead read = new() { Kind = RuleReadKind.Body, Body = body };
         int slot = bodies.SlotOf(body);
         int at = slot < 0 ? TimelineStore.None : timelines.Before(slot, after.JustAfter);
         if (at != TimelineStore.None && timelines.Segment(at).IsPresent)
@@ -48,7 +52,15 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
             }
         }
 
-        reads[region] = new RuleRead { Radius = radius, Centre = centre, Count = reads.Count - region - 1 };
+        reads[region] = new RuleRead { Kind = RuleReadKind.Region, Radius = radius, Centre = centre, Count = reads.Count - region - 1 };
+    }
+
+    /// <summary>Reads whether a body is inside of a sensor, after all crossings up to an event, that included.</summary>
+    internal RuleRead ReadSensor(BodyId body, int sensor, in EventKey after)
+    {
+        int slot = bodies.SlotOf(body);
+        bool isInside = slot >= 0 && crossings is not null && crossings.IsInside(slot, sensor, after);
+        return new RuleRead { Kind = RuleReadKind.Sensor, Body = body, Sensor = sensor, IsInside = isInside };
     }
 
     /// <summary>Whether a call would read again what it read.</summary>
@@ -59,25 +71,12 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
     {
         for (int n = 0; n < reads.Count; n++)
         {
-            if (reads[n].Radius < 0)
+            bool isSame = reads[n].Kind switch
             {
-                RuleRead now = ReadBody(reads[n].Body, after);
-                if (!IsSame(reads[n], now))
-                {
-                    return false;
-                }
-
-                continue;
-            }
-
-            spare.Clear();
-            ReadRegion(reads[n].Centre, reads[n].Radius, after, spare);
-            bool isSame = spare[0].Count == reads[n].Count;
-            for (int found = 1; found <= reads[n].Count && isSame; found++)
-            {
-                isSame = spare[found].Body == reads[n + found].Body;
-            }
-
+                RuleReadKind.Body => IsSame(reads[n], ReadBody(reads[n].Body, after)),
+                RuleReadKind.Sensor => reads[n].IsInside == ReadSensor(reads[n].Body, reads[n].Sensor, after).IsInside,
+                _ => IsSameRegion(reads, n, after, spare),
+            };
             if (!isSame)
             {
                 return false;
@@ -87,6 +86,19 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
         }
 
         return true;
+    }
+
+    private bool IsSameRegion(List<RuleRead> reads, int region, in EventKey after, List<RuleRead> spare)
+    {
+        spare.Clear();
+        ReadRegion(reads[region].Centre, reads[region].Radius, after, spare);
+        bool isSame = spare[0].Count == reads[region].Count;
+        for (int found = 1; found <= reads[region].Count && isSame; found++)
+        {
+            isSame = spare[found].Body == reads[region + found].Body;
+        }
+
+        return isSame;
     }
 
     private static bool IsSame(in RuleRead a, in RuleRead b) =>

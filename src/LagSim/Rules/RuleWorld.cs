@@ -154,6 +154,27 @@ public sealed class RuleWorld
     /// <exception cref="RuleException">The call has read too often.</exception>
     public BodySpec SpecOf(BodyId body) => Read(body).Spec;
 
+    /// <summary>Whether a body is inside of a sensor, after all crossings up to this call.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="sensor">The sensor's index in <see cref="Scene.Sensors"/>, as <see cref="Scene.SensorNamed"/> gives it.</param>
+    /// <remarks>A body that is spawned or put inside of a sensor enters it in a crossing of its own, right after that, and one that is
+    /// removed leaves it in one. Cost: the crossings
+    /// of that body that are known after this call.</remarks>
+    /// <exception cref="RuleException">The scene has no such sensor, or the call has read too often.</exception>
+    public bool IsInside(BodyId body, int sensor)
+    {
+        CheckCalled();
+        if (sensor < 0 || sensor >= Scene.SensorArray.Length)
+        {
+            throw new RuleException($"Sensor {sensor} is asked for; the scene has {Limits.Count(Scene.SensorArray.Length, "sensor", "sensors")}, numbered from 0.");
+        }
+
+        RuleRead read = view.ReadSensor(body, sensor, key);
+        reads.Add(read);
+        CheckReads();
+        return read.IsInside;
+    }
+
     /// <summary>The bodies whose centres lie within a sphere, by identity.</summary>
     /// <param name="centre">Its centre, in metres.</param>
     /// <param name="radius">Its radius in metres, at least zero.</param>

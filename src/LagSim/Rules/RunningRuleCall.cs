@@ -1,5 +1,6 @@
 using System.Threading;
 using LagSim.Events;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Rules;
@@ -21,9 +22,10 @@ internal sealed class RunningRuleCall(SimDuration limit)
     private const long Abandoned = -3; // the thread has not, and may not come back
 
     private long state; // grows by one at each beginning and each end, so it is odd in a call; or one of the above
-    private string rules = "";
+    private Scene? scene;
     private string what = "";
     private EventKey key;
+    private RuleTrigger trigger;
 
     /// <summary>How long a call may take.</summary>
     internal SimDuration Limit => limit;
@@ -35,16 +37,18 @@ internal sealed class RunningRuleCall(SimDuration limit)
     internal long Number => Volatile.Read(ref state) is long now and > 0 && (now & 1) == 1 ? now : 0;
 
     /// <summary>A call begins. For the world's thread.</summary>
-    /// <param name="of">The rules.</param>
+    /// <param name="of">The scene, which has the rules.</param>
     /// <param name="method">The method that is called.</param>
     /// <param name="on">The event that it is for.</param>
+    /// <param name="more">More about that event.</param>
     /// <exception cref="SimulationException">A call was given up before.</exception>
-    internal void Begin(GameRules of, string method, in EventKey on)
+    internal void Begin(Scene of, string method, in EventKey on, in RuleTrigger more)
     {
         Touch();
-        rules = of.ToString();
+        scene = of;
         what = method;
         key = on;
+        trigger = more;
         Volatile.Write(ref state, state + 1);
     }
 
@@ -91,6 +95,5 @@ internal sealed class RunningRuleCall(SimDuration limit)
 
     /// <summary>Which call was given up, and why. For a call that is.</summary>
     internal string Sentence() =>
-        $"The rules '{rules}' failed at {key.Time.ToShortString()} in their call for {key}: {what} has not returned within"
-            + $" {limit.ToShortString()}, and was given up.";
+        $"{RuleCallText.Failed(scene!, what, key, trigger)}: it has not returned within {limit.ToShortString()}, and was given up.";
 }

@@ -100,6 +100,18 @@ internal sealed class CrossingLog
         return isInside;
     }
 
+    /// <summary>Whether a body is inside of a sensor after all crossings up to and including a key.</summary>
+    internal bool IsInside(int slot, int sensor, in EventKey key)
+    {
+        bool isInside = IsInside(slot, sensor);
+        for (int at = LastSince(slot, sensor, key.JustAfter); at != None; at = PreviousSince(at, key.JustAfter))
+        {
+            isInside = !isInside;
+        }
+
+        return isInside;
+    }
+
     /// <summary>The body's newest crossing, or <see cref="None"/>.</summary>
     internal int Last(int slot) => last[slot];
 

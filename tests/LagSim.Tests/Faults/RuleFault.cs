@@ -1,5 +1,6 @@
 using System;
 using LagSim.Rules;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Tests.Faults;
@@ -26,13 +27,13 @@ internal enum RuleFault
 /// <summary>Makes the parts of a world with faulty rules.</summary>
 internal sealed class FaultyRules(RuleFault fault) : EngineParts
 {
-    internal override RuleLog RuleLog(GameRules rules, SimTime start, ReadOnlySpan<byte> state) => new Log(rules, start, state, fault);
+    internal override RuleLog RuleLog(Scene scene, SimTime start, ReadOnlySpan<byte> state) => new Log(scene, start, state, fault);
 
     internal override RuleCaller RuleCaller(
         GameRules rules, RuleLog log, RuleMemory memory, RuleWorld world, RuleView view, RuleActs acts, HealingMode mode) =>
         new Caller(rules, log, memory, world, view, acts, mode, fault);
 
-    private sealed class Log(GameRules rules, SimTime start, ReadOnlySpan<byte> state, RuleFault fault) : RuleLog(rules, start, state)
+    private sealed class Log(Scene scene, SimTime start, ReadOnlySpan<byte> state, RuleFault fault) : RuleLog(scene, start, state)
     {
         internal override bool HaveReconverged() => fault.HasFlag(RuleFault.StopsTooEarly) || base.HaveReconverged();
     }

@@ -57,7 +57,7 @@ public sealed class LostThreadTests
         string sentence = Assert.IsType<SimulationException>(told.InnerException).Message;
         Assert.StartsWith("The rules 'given 1' failed at ", sentence, StringComparison.Ordinal);
         Assert.EndsWith(
-            "OnCommand has not returned within 600s, and was given up. Its thread could not be ended, and is left to itself until the process ends.", sentence,
+            ": it has not returned within 600s, and was given up. Its thread could not be ended, and is left to itself until the process ends.", sentence,
             StringComparison.Ordinal);
         Assert.Throws<InvalidOperationException>(() => host.Do(PlayerAction.Command(new GameCommand(1))));
         host.Dispose(); // would wait for ever
@@ -95,7 +95,7 @@ public sealed class LostThreadTests
         Look(host, 1);
         Assert.True(thread.Join(Deadline));
         InvalidOperationException told = Assert.Throws<InvalidOperationException>(() => host.RenderSnapshot);
-        Assert.EndsWith("OnCommand has not returned within 600s, and was given up.", told.InnerException!.Message, StringComparison.Ordinal);
+        Assert.EndsWith(": it has not returned within 600s, and was given up.", told.InnerException!.Message, StringComparison.Ordinal);
     }
 
     /// <summary>By its own timer, on the shortest limit: a client hangs, the host and another client go on and agree.</summary>
@@ -140,7 +140,7 @@ public sealed class LostThreadTests
         }));
         Assert.Equal((SessionEnd.Failed, 1), (session.EndedBy, ended));
         Assert.Matches(
-            "^The world cannot be simulated any further. The rules 'given 1' failed at .* in their call for .* Command .*: OnCommand has not returned within 0.1s, and"
+            "^The world cannot be simulated any further. The rules 'given 1' failed at .* in OnCommand for command .* of peer .*: it has not returned within 0.1s, and"
                 + " was given up. Its thread could not be ended, and is left to itself until the process ends.$",
             session.EndReason);
         Assert.False(lost.WaitUntilRunning(Deadline));

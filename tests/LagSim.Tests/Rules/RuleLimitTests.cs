@@ -49,7 +49,7 @@ public sealed class RuleLimitTests
         Simulation world = new(Scene(act, most + 1), KeepAll);
         SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(2)));
         int round = which == "rounds" ? most : 0;
-        Assert.Equal($"The rules 'given 1' failed at 0.25s in their call for 0.25s round {round} Timer 0.0.0/0.0.0 by 0.1: {sentence}", failure.Message);
+        Assert.Equal($"The rules 'given 1' failed at 0.25s, round {round}, in OnTimer for timer 1: {sentence}", failure.Message);
         Assert.Throws<InvalidOperationException>(() => world.AdvanceTo(At(3)));
     }
 

@@ -97,6 +97,12 @@ internal sealed class DrawnRules : GameRules
         }
 
         BodyId body = Any(world);
+        Note(world, world.TryReadHold(body, out Hold hold) ? Bits(hold.Offset.X) : 0);
+        if (world.Scene.Sensors.Count > 0)
+        {
+            Note(world, world.IsInside(body, world.Random(world.Scene.Sensors.Count)) ? 1UL : 0);
+        }
+
         if (world.TryRead(body, out BodyState state))
         {
             Note(world, Bits(state.Position.X));
@@ -155,7 +161,7 @@ internal sealed class DrawnRules : GameRules
     {
         Vector3D some = new((4 * world.RandomFraction()) - 2, (4 * world.RandomFraction()) - 2, (4 * world.RandomFraction()) - 2);
         ref Total total = ref world.State<Total>();
-        switch (world.Random(13))
+        switch (world.Random(14))
         {
             case 0:
             case 1:
@@ -186,7 +192,10 @@ internal sealed class DrawnRules : GameRules
             case 10 when world.Scene.StaticSpheres.Count == 0: // what passes through a sphere that pulls ends in its centre
                 world.SetFilter(body, world.Random(2) == 0 ? default : new CollisionFilter(2, 1));
                 break;
-            case 11:
+            case 11 when world.Random(4) == 0: // not often, so that something stays to be played with
+                world.Remove(body);
+                break;
+            case 12:
                 world.Tell(2, (long)(total.Digest >> 8));
                 break;
             default:

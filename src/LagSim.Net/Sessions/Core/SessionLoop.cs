@@ -58,7 +58,8 @@ internal sealed class SessionLoop
         parts.Status.End(
             isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
             isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}"
-                : $"The world cannot be simulated any further. {failure.Message}");
+                : $"The world cannot be simulated any further. {failure.Message}",
+            failure);
     }
 
     private SimDuration StepOnce()

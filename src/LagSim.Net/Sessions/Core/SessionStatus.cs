@@ -9,6 +9,7 @@ internal sealed class SessionStatus
     private volatile SessionState state;
     private volatile string? endReason;
     private volatile SessionEnd endedBy;
+    private volatile Exception? failure;
 
     internal SessionStatus(SessionState first) => state = first;
 
@@ -30,6 +31,9 @@ internal sealed class SessionStatus
 
     internal SessionEnd EndedBy => endedBy;
 
+    /// <summary>The exception that ended it; null if none did.</summary>
+    internal Exception? Failure => failure;
+
     /// <summary>Why this peer asks to be let in again, or did the last time.</summary>
     internal string RejoiningBecause { get; private set; } = "";
 
@@ -50,7 +54,10 @@ internal sealed class SessionStatus
     }
 
     /// <summary>Ends the session, once; later calls do nothing.</summary>
-    internal void End(SessionEnd by, string reason)
+    /// <param name="by">What ended it.</param>
+    /// <param name="reason">Why, as a sentence.</param>
+    /// <param name="cause">The exception that ended it, if one did.</param>
+    internal void End(SessionEnd by, string reason, Exception? cause = null)
     {
         if (HasEnded)
         {
@@ -58,6 +65,7 @@ internal sealed class SessionStatus
         }
 
         endedBy = by;
+        failure = cause;
         endReason = reason; // set first, so that a reader that sees the end sees the reason
         state = SessionState.Ended;
         Ended?.Invoke();

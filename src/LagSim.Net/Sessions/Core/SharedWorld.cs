@@ -195,9 +195,9 @@ internal sealed class SharedWorld
     {
         LiveWorld world = live!;
         SimTime due = world.Step(shared);
-        if (world.BlockedAt < SimTime.MaxValue && shared - world.BlockedAt > options.Window.History)
+        if (world.BlockedBy is SimulationException end && shared - world.BlockedAt > options.Window.History)
         {
-            throw new SimulationException(world.BlockedBecause); // the cause is older than the history by now, and cannot be removed
+            throw end; // the cause is older than the history by now, and cannot be removed
         }
 
         if (hasUnshown && !world.IsBehind)
