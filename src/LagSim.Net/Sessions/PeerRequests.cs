@@ -10,6 +10,7 @@ namespace LagSim.Net.Sessions;
 internal sealed class PeerRequests(Session session, Action wake)
 {
     private readonly ConcurrentQueue<IPeerRequest> waiting = new();
+    private volatile IPeerRequest? answering;
     private Exception? fault; // set before isOver is
     private volatile bool isOver;
 
@@ -45,7 +46,9 @@ internal sealed class PeerRequests(Session session, Action wake)
     {
         for (int count = waiting.Count; count > 0 && waiting.TryDequeue(out IPeerRequest? request); count--)
         {
+            answering = request;
             request.Answer(session);
+            answering = null;
         }
     }
 
@@ -57,6 +60,14 @@ internal sealed class PeerRequests(Session session, Action wake)
         isOver = true;
         Interlocked.MemoryBarrier();
         CancelAll();
+    }
+
+    /// <summary>The thread is given up, and will not come back from what it does: that is completed, too, if it answers a request.</summary>
+    /// <param name="why">What ended the session.</param>
+    internal void GiveUp(Exception why)
+    {
+        Close(why);
+        answering?.Cancel(why);
     }
 
     private void CancelAll()

@@ -402,6 +402,7 @@ public sealed class PeerThread : IDisposable
             owner.Enter();
             owner.Failures.Guard(() => Session.EndLostWorld(why));
             End(why);
+            requests.GiveUp(why);
         }
     }
 }

@@ -170,6 +170,37 @@ public sealed class LostThreadTests
         release.Set();
     }
 
+    /// <summary>The action whose own call never returns is answered, too: with what ended the session.</summary>
+    [Fact]
+    public async Task Do_WhoseOwnCallNeverReturns_IsAnsweredWithTheFailure()
+    {
+        using ManualResetEventSlim release = new();
+        GivenRules rules = new()
+        {
+            Command = (_, _, command) =>
+            {
+                if (command.Number == Hang)
+                {
+                    release.Wait();
+                }
+            },
+        };
+        HostOptions options = new() { ExpectedClients = 0, RuleTimeout = RuleWatchdog.MinLimit };
+        PeerThread host = PeerThread.Host(Floor(rules), options: options, bind: IPAddress.Loopback);
+        Assert.True(host.WaitUntilRunning(Deadline));
+        await host.Do(PlayerAction.Command(new GameCommand(1)));
+        Task<ExternalEvent> hung = host.Do(PlayerAction.Command(new GameCommand(Hang))).AsTask();
+        Assert.Same(hung, await Task.WhenAny(hung, Task.Delay(Deadline)));
+        Assert.True(Within(() => host.State == SessionState.Ended));
+        if (hung.Exception is AggregateException why)
+        {
+            Assert.StartsWith("The rules 'given 1' failed at ", why.InnerException!.Message, StringComparison.Ordinal);
+        }
+
+        host.Dispose();
+        release.Set();
+    }
+
     // A question that was answered before the call has its answer; none is left without an end.
     private static async Task<int> Answered(Task<int> question)
     {

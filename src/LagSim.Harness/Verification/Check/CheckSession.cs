@@ -27,7 +27,8 @@ internal static class CheckSession
         }
         catch (Exception thrown) when (thrown is not OperationCanceledException and not OutOfMemoryException)
         {
-            failure = $"{thrown.GetType().Name}: {thrown.Message}";
+            string? place = Array.Find((thrown.GetBaseException().StackTrace ?? "").Split('\n'), line => line.Contains(" LagSim.", StringComparison.Ordinal))?.Trim();
+            failure = $"{thrown.GetType().Name}: {thrown.Message} ({place})";
         }
 
         return outcome with { Failure = failure, Peers = play.Members.Count, TooLateEvents = play.Log.TooLate };

@@ -112,7 +112,8 @@ public static class InvariantCheck
             : $" --peers {options.FromPeers}-{options.ToPeers}";
         string profile = options.Profile is LinkProfile link ? $" --profile {link.Name}" : "";
         string strategy = options.Strategy == LateEventStrategies.Default ? "" : $" --strategy {options.Strategy}";
-        return $"lagsim check --seed {of.Seed} --sessions 1{peers}{profile}{strategy}{part}";
+        string rules = options.Rules switch { RulesOfSessions.All => " --rules all", RulesOfSessions.None => " --rules none", _ => "" };
+        return $"lagsim check --seed {of.Seed} --sessions 1{peers}{profile}{strategy}{rules}{part}";
     }
 
     private static string List(IReadOnlyList<int> indices) => indices.Count == 0 ? "none" : string.Join(',', indices);

@@ -140,7 +140,7 @@ public readonly record struct SceneFeatures
             {
                 Read(alone, SimTime.Max(external.Time - SimDuration.OneTick, alone.Start), there);
                 int at = there.FindIndex(b => b.Body == external.Body);
-                bool isOfIsland = at >= 0 && CountIsland(there, at, MotionLaw.Resting) >= 2;
+                bool isOfIsland = CountIsland(there, at, MotionLaw.Resting) >= 2;
                 met = met with
                 {
                     HandInIsland = met.HandInIsland || (isOfIsland && external.Kind == EventKind.Grab),
@@ -170,11 +170,11 @@ public readonly record struct SceneFeatures
 
     /// <summary>
     /// Returns the number of touching bodies that move in contact steps, or by the other given law, reachable from a body; none if that
-    /// body does not.
+    /// body does not, or is not there: something may have removed it at that very tick.
     /// </summary>
     private static int CountIsland(List<(BodyId Body, BodySpec Spec, BodyState State)> there, int from, MotionLaw other)
     {
-        if (!IsOf(there[from].State))
+        if (from < 0 || !IsOf(there[from].State))
         {
             return 0;
         }
