@@ -126,9 +126,9 @@ public sealed class SessionTest
     /// Called once per run for each player, with its number: 0 is the host. Returns <see cref="HostOptions"/> or
     /// <see cref="ClientOptions"/>; if a host gets a client's, or a client a host's, the shared settings apply. The test itself sets
     /// <see cref="HostOptions.ExpectedClients"/>, <see cref="SessionOptions.Cancellation"/>, and a <see cref="HostOptions.StartLead"/> in
-    /// which every client receives the start; a client without <see cref="ClientOptions.Accelerations"/> gets the scene's; and without
-    /// contact notices, timelines are kept for the whole run (<see cref="SessionOptions.ExtraHistory"/>), so that a difference can be named
-    /// to the event.
+    /// which every client receives the start; a client without <see cref="ClientOptions.Accelerations"/> or
+    /// <see cref="ClientOptions.Rules"/> gets the scene's; and without contact notices, timelines are kept for the whole run
+    /// (<see cref="SessionOptions.ExtraHistory"/>), so that a difference can be named to the event.
     /// </param>
     public SessionTest WithOptions(Func<int, SessionOptions> options)
     {

@@ -12,8 +12,8 @@ namespace LagSim.Testing;
 /// <remarks>For one thread, like reading a world.</remarks>
 public sealed class SessionTestResult
 {
-    private const string UsualCauses = "Usual causes: a force or a session option that is not the same for every player,"
-        + " or one that reads a clock, a random number or anything else outside the world.";
+    private const string UsualCauses = "Usual causes: a force, rules or a session option that are not the same for every player,"
+        + " or that read a clock, a random number or anything else outside the world.";
 
     private readonly Comparison comparison;
     private readonly string? promise;
@@ -100,13 +100,28 @@ public sealed class SessionTestResult
     /// <exception cref="ArgumentOutOfRangeException">The time is out of range.</exception>
     public BodyState StateOf(BodyId body, double seconds)
     {
-        if (!(seconds >= 0 && seconds <= Seconds))
-        {
-            throw new ArgumentOutOfRangeException(
-                nameof(seconds), seconds, FormattableString.Invariant($"The run lasted from 0 to {Seconds} s."));
-        }
-
+        CheckTime(seconds);
         return World.TryRead(body, At(seconds), out BodyState state) ? state : default;
+    }
+
+    /// <summary>The world's state of the rules at the end of the run.</summary>
+    /// <typeparam name="T">The type that the scene's rules declare.</typeparam>
+    /// <exception cref="InvalidOperationException">The scene has no rules, or they declare another type.</exception>
+    public T StateOfRules<T>()
+        where T : unmanaged => StateOfRules<T>(Seconds);
+
+    /// <summary>The world's state of the rules at a time of the run.</summary>
+    /// <typeparam name="T">The type that the scene's rules declare.</typeparam>
+    /// <param name="seconds">Seconds since the start of the world, 0 to <see cref="Seconds"/>.</param>
+    /// <exception cref="ArgumentOutOfRangeException">The time is out of range.</exception>
+    /// <exception cref="InvalidOperationException">The scene has no rules, or they declare another type.</exception>
+    public T StateOfRules<T>(double seconds)
+        where T : unmanaged
+    {
+        CheckTime(seconds);
+        return World.TryReadRules(At(seconds), out T state) ? state
+            : throw new InvalidOperationException(World.Scene.Rules is null ? $"The scene '{World.Scene.Name}' has no rules."
+                : $"The rules '{World.Scene.Rules}' do not declare {typeof(T)} as the state of the world.");
     }
 
     /// <summary>Throws if a state that a player committed, or what its world keeps at the end, differs from <see cref="World"/>.</summary>
@@ -147,6 +162,15 @@ public sealed class SessionTestResult
     {
         bool isOfScene = body.Peer == 0 && body.Sequence == 0 && body.Index < World.Scene.Bodies.Count;
         return isOfScene ? $"'{World.Scene.Bodies[body.Index].Name}'" : body.ToString();
+    }
+
+    private void CheckTime(double seconds)
+    {
+        if (!(seconds >= 0 && seconds <= Seconds))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(seconds), seconds, FormattableString.Invariant($"The run lasted from 0 to {Seconds} s."));
+        }
     }
 
     private SimTime At(double seconds) => World.Start + SimDuration.FromSeconds(seconds);

@@ -1,6 +1,8 @@
+using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Rules;
 using LagSim.Scenes;
+using LagSim.Testing;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -56,5 +58,16 @@ internal static class RuleSnippets
         }
 
         return goals;
+    }
+
+    internal static Score AfterAKick(Scene pitch)
+    {
+        BodyId ball = pitch.BodyNamed("ball");
+        Score score = new SessionTest(pitch)
+            .WithClients(2, "4g")
+            .At(1, player: 1, PlayerAction.SetVelocity(ball, new Vector3D(12, 4, 0)))
+            .Run(seconds: 4)
+            .StateOfRules<Score>();
+        return score;
     }
 }

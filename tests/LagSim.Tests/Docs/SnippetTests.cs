@@ -11,6 +11,7 @@ using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
+using LagSim.Testing;
 using LagSim.Testing.Links;
 using LagSim.Testing.Running;
 using LagSim.Time;
@@ -41,7 +42,7 @@ public sealed partial class SnippetTests
     [InlineData("docs/SECURITY.md", 2)]
     [InlineData("docs/FORCES.md", 7)]
     [InlineData("docs/SENSORS.md", 3)]
-    [InlineData("docs/RULES.md", 2)]
+    [InlineData("docs/RULES.md", 3)]
     public void Page_EachOfItsSnippets_IsCompiledAsItStands(string page, int count)
     {
         string[] snippets = [.. Fence().Matches(Read(page)).Select(match => match.Groups[1].Value)];
@@ -103,6 +104,20 @@ public sealed partial class SnippetTests
         SensorSnippets.Hear(scene, scene.SensorNamed("goal"));
         Simulation world = Run(scene, 1);
         Assert.Equal([(1, true), (0, true), (1, false)], world.Crossings(At(0), At(1)).Select(crossing => (crossing.Sensor, crossing.Entered)));
+    }
+
+    [Theory]
+    [InlineData(4, 1)]
+    [InlineData(400, 0)] // the control: too far away
+    public void Rules_TestOfThePage_RunsAndCountsTheGoal(double mouth, int goals)
+    {
+        Scene pitch = new SceneBuilder("pitch").AddPlane("floor", Vector3D.Up, V(0), 0.5).AddBody("ball", Ball(0.25), V(0, 0.5))
+            .AddSensorPlane("left", V(1), V(-mouth)).AddSensorPlane("right", V(-1), V(mouth)).WithRules(new Football()).Build();
+        Score score = RuleSnippets.AfterAKick(pitch);
+        Assert.Equal((goals, 0), (score.Left, score.Right));
+        Assert.Contains(
+            "'football 1' do not declare System.Int64",
+            Assert.Throws<InvalidOperationException>(() => new SessionTest(pitch).Run(seconds: 1).StateOfRules<long>()).Message, StringComparison.Ordinal);
     }
 
     [Fact]

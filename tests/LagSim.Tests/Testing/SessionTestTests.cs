@@ -306,6 +306,9 @@ public sealed class SessionTestTests
         Says(() => test.At(5, 0, PlayerAction.Remove(First)).Run(4, Cancellation), "Player 0 acts at 5 s; the run must last that long");
         Says(() => new SessionTest(Box()).WithLateClient(5, "lan").Run(4, Cancellation), "Player 1 asks to join at 5 s; the run must last");
         Says(() => new SessionTest(Box()).Run(1, Cancellation).StateOf(First, 1.5), "The run lasted from 0 to 1 s.");
+        Says(() => new SessionTest(Box()).Run(1, Cancellation).StateOfRules<long>(double.NaN), "The run lasted from 0 to 1 s.");
+        Assert.Contains(
+            "has no rules.", Assert.Throws<InvalidOperationException>(() => new SessionTest(Box()).Run(1, Cancellation).StateOfRules<long>()).Message);
         SessionTest longKey = new SessionTest(Box()).WithOptions(_ => new HostOptions { ConnectKey = new string('x', 300) });
         Says(() => longKey.Run(1, Cancellation), "A connect key has 0 to 256 characters.");
         SessionTest none = new SessionTest(Box()).WithOptions(_ => null!);
