@@ -37,6 +37,7 @@ internal static class Program
         new VersionOption(),
         CheckCommand.Create(console),
         DropCommand.Create(console),
+        PlayCommand.Create(console),
         CompareCommand.Create(console),
         SweepCommand.Create(console),
         StallsCommand.Create(console),

@@ -63,8 +63,13 @@ internal static class Layers
             "LagSim.Harness/Experiments/Compare", "LagSim.Harness/Experiments/Drop", "LagSim.Harness/Experiments/Hold",
         ],
 
+        // The page.
+        ["LagSim.Play"],
+        ["LagSim.Play.Browser"],
+
         // The tool.
         ["LagSim.Cli/Output"],
+        ["LagSim.Cli/Web"],
         ["LagSim.Cli/Commands"],
         ["LagSim.Cli"],
     ];

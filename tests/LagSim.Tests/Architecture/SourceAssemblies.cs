@@ -4,6 +4,7 @@ using LagSim.Harness.Reports;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Play;
 using LagSim.Testing;
 
 namespace LagSim.Tests.Architecture;
@@ -17,6 +18,7 @@ internal static class SourceAssemblies
         typeof(Session).Assembly,
         typeof(SessionTest).Assembly,
         typeof(NumberText).Assembly,
+        typeof(Playground).Assembly,
         typeof(ExitCode).Assembly,
         typeof(LiteNetLibPort).Assembly,
         typeof(SecureHost).Assembly,

@@ -117,7 +117,7 @@ public sealed partial class SnippetTests
         Assert.Equal((goals, 0), (score.Left, score.Right));
         Assert.Contains(
             "'football 1' do not declare System.Int64",
-            Assert.Throws<InvalidOperationException>(() => new SessionTest(pitch).Run(seconds: 1).StateOfRules<long>()).Message, StringComparison.Ordinal);
+            Assert.Throws<InvalidOperationException>(() => new SessionTest(pitch).Run(seconds: 1, TestContext.Current.CancellationToken).StateOfRules<long>()).Message, StringComparison.Ordinal);
     }
 
     [Fact]

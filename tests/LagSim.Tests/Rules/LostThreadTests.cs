@@ -190,7 +190,7 @@ public sealed class LostThreadTests
         Assert.True(host.WaitUntilRunning(Deadline));
         await host.Do(PlayerAction.Command(new GameCommand(1)));
         Task<ExternalEvent> hung = host.Do(PlayerAction.Command(new GameCommand(Hang))).AsTask();
-        Assert.Same(hung, await Task.WhenAny(hung, Task.Delay(Deadline)));
+        Assert.Same(hung, await Task.WhenAny(hung, Task.Delay(Deadline, TestContext.Current.CancellationToken)));
         Assert.True(Within(() => host.State == SessionState.Ended));
         if (hung.Exception is AggregateException why)
         {

@@ -1,6 +1,5 @@
 using System;
 using LagSim.Events;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using Xunit;

@@ -1,8 +1,6 @@
-using System;
 using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
 using LagSim.Time;

@@ -1,0 +1,151 @@
+using System;
+using System.IO;
+using System.Net;
+using System.Threading;
+using System.Threading.Tasks;
+using LagSim.Cli.Output;
+using Microsoft.AspNetCore.Builder;
+using Microsoft.AspNetCore.Hosting;
+using Microsoft.AspNetCore.Http;
+using Microsoft.AspNetCore.StaticFiles;
+using Microsoft.Extensions.DependencyInjection;
+using Microsoft.Extensions.FileProviders;
+using Microsoft.Extensions.Hosting;
+using Microsoft.Extensions.Logging;
+
+namespace LagSim.Cli.Web;
+
+/// <summary>Serves the files of the page over HTTP, and a page that says so while they are being built.</summary>
+/// <remarks>It gives away files of one folder, and takes nothing: every method but GET and HEAD is refused.</remarks>
+internal sealed class PageServer : IAsyncDisposable
+{
+    // WebAssembly is compiled in the page, which needs a word of its own; nothing else may come from anywhere but here.
+    private const string Policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src 'self' data:;"
+        + " frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+
+    private const string Waiting = """
+        <!doctype html><html lang="en"><meta charset="utf-8"><meta http-equiv="refresh" content="1"><meta name="color-scheme" content="light dark">
+        <title>LagSim</title><p style="font: 1rem system-ui; margin: 4rem; text-align: center">The page is being built. The first time it takes about a minute.</p></html>
+        """;
+
+    private readonly WebApplication application;
+    private volatile RequestDelegate? files;
+
+    private PageServer(WebApplication application) => this.application = application;
+
+    /// <summary>The address of the page.</summary>
+    internal string Address { get; private set; } = "";
+
+    /// <summary>Begins to serve.</summary>
+    /// <param name="local">Where to listen.</param>
+    /// <param name="stop">Gives up.</param>
+    /// <exception cref="InputException">It cannot listen there.</exception>
+    internal static async Task<PageServer> StartAsync(IPEndPoint local, CancellationToken stop)
+    {
+        WebApplicationBuilder builder = WebApplication.CreateSlimBuilder();
+        builder.Logging.ClearProviders();
+        builder.Services.AddSingleton<IHostLifetime, CallersLifetime>();
+        builder.WebHost.ConfigureKestrel(kestrel =>
+        {
+            kestrel.AddServerHeader = false;
+            kestrel.Limits.MaxRequestBodySize = 0;
+            kestrel.Listen(local);
+        });
+        WebApplication application = builder.Build();
+        PageServer server = new(application);
+        application.Run(server.Answer);
+        try
+        {
+            await application.StartAsync(stop);
+        }
+        catch (IOException failure)
+        {
+            await application.DisposeAsync();
+            throw new InputException($"Cannot listen on {local}: {Sentence.Of(failure)}", failure);
+        }
+
+        foreach (string url in application.Urls)
+        {
+            server.Address = $"{url}/";
+        }
+
+        return server;
+    }
+
+    /// <summary>From now on the files of a folder are served.</summary>
+    internal void Serve(string folder)
+    {
+        FileExtensionContentTypeProvider types = new();
+        types.Mappings[".mjs"] = "text/javascript";
+        ApplicationBuilder pipeline = new(application.Services);
+        pipeline.Use((context, next) => TakeCompressed(context, next, folder, types));
+        pipeline.UseStaticFiles(new StaticFileOptions { FileProvider = new PhysicalFileProvider(folder), ContentTypeProvider = types, ServeUnknownFileTypes = false });
+        pipeline.Run(context =>
+        {
+            context.Response.StatusCode = StatusCodes.Status404NotFound;
+            return Task.CompletedTask;
+        });
+        files = pipeline.Build();
+    }
+
+    public ValueTask DisposeAsync() => application.DisposeAsync();
+
+    private Task Answer(HttpContext context)
+    {
+        context.Response.Headers.ContentSecurityPolicy = Policy;
+        context.Response.Headers.XContentTypeOptions = "nosniff";
+        context.Response.Headers["Referrer-Policy"] = "no-referrer";
+        if (!HttpMethods.IsGet(context.Request.Method) && !HttpMethods.IsHead(context.Request.Method))
+        {
+            context.Response.StatusCode = StatusCodes.Status405MethodNotAllowed;
+            context.Response.Headers.Allow = "GET, HEAD";
+            return Task.CompletedTask;
+        }
+
+        if (context.Request.Path == "/")
+        {
+            context.Request.Path = "/index.html";
+        }
+
+        context.Response.Headers.CacheControl = "no-cache"; // a page that was built again is seen at once
+        if (files is RequestDelegate serve)
+        {
+            return serve(context);
+        }
+
+        context.Response.StatusCode = StatusCodes.Status503ServiceUnavailable;
+        context.Response.Headers.RetryAfter = "1";
+        context.Response.ContentType = "text/html; charset=utf-8";
+        return context.Response.WriteAsync(Waiting);
+    }
+
+    /// <summary>Files were compressed when the page was built: who takes them so gets them so.</summary>
+    private static Task TakeCompressed(HttpContext context, RequestDelegate next, string folder, FileExtensionContentTypeProvider types)
+    {
+        string path = context.Request.Path.Value ?? "";
+        bool isTaken = context.Request.Headers.AcceptEncoding.ToString().Contains("br", StringComparison.Ordinal);
+        if (isTaken && types.TryGetContentType(path, out string? type)
+            && new PhysicalFileProvider(folder).GetFileInfo(path + ".br").Exists)
+        {
+            types.Mappings[".br"] = "application/octet-stream"; // replaced below, by what is inside
+            context.Request.Path = path + ".br";
+            context.Response.OnStarting(() =>
+            {
+                context.Response.ContentType = type;
+                context.Response.Headers.ContentEncoding = "br";
+                context.Response.Headers.Vary = "Accept-Encoding";
+                return Task.CompletedTask;
+            });
+        }
+
+        return next(context);
+    }
+
+    /// <summary>Signals are the tool's own to handle.</summary>
+    private sealed class CallersLifetime : IHostLifetime
+    {
+        public Task WaitForStartAsync(CancellationToken cancellationToken) => Task.CompletedTask;
+
+        public Task StopAsync(CancellationToken cancellationToken) => Task.CompletedTask;
+    }
+}

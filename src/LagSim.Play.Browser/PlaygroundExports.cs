@@ -1,0 +1,188 @@
+using System;
+using System.Globalization;
+using System.Linq;
+using System.Runtime.InteropServices.JavaScript;
+using System.Runtime.Versioning;
+using System.Text.Json;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+
+namespace LagSim.Play.Browser;
+
+/// <summary>What the page calls: one playground, which is made again where a set-up cannot be changed while it runs.</summary>
+/// <remarks>Everything is on the page's one thread. Errors of a set-up come back as sentences; none is thrown across.</remarks>
+[SupportedOSPlatform("browser")]
+internal static partial class PlaygroundExports
+{
+    private const int NumbersPerBody = 7;
+    private const int NumbersPerPane = 6;
+
+    private static Playground? playground;
+    private static double[] numbers = [];
+
+    /// <summary>Begins a playground of a set-up.</summary>
+    /// <returns>A sentence on what cannot be; empty if it began.</returns>
+    [JSExport]
+    internal static string Begin(string query)
+    {
+        try
+        {
+            playground = new Playground(PlaySetup.Parse(query));
+            int bodies = playground.Scene.Scene.Bodies.Count;
+            numbers = new double[1 + (playground.Panes.Count * (NumbersPerPane + (bodies * NumbersPerBody)))];
+            return "";
+        }
+        catch (Exception refused) when (refused is FormatException or InvalidOperationException)
+        {
+            return refused.Message;
+        }
+    }
+
+    /// <summary>From now on the links are those of a set-up.</summary>
+    /// <returns>A sentence on what cannot be; empty if they are.</returns>
+    [JSExport]
+    internal static string SetLink(string query)
+    {
+        try
+        {
+            playground!.SetLink(PlaySetup.Parse(query).Link);
+            return "";
+        }
+        catch (FormatException refused)
+        {
+            return refused.Message;
+        }
+    }
+
+    /// <summary>What does not change while a playground runs, as JSON.</summary>
+    [JSExport]
+    internal static string Describe()
+    {
+        PlayScene view = playground!.Scene;
+        using System.IO.MemoryStream stream = new();
+        using (Utf8JsonWriter json = new(stream))
+        {
+            json.WriteStartObject();
+            json.WriteString("query", playground.Setup.ToQuery());
+            json.WriteString("scene", playground.Setup.Scene);
+            json.WriteNumber("left", view.Left);
+            json.WriteNumber("bottom", view.Bottom);
+            json.WriteNumber("right", view.Right);
+            json.WriteNumber("top", view.Top);
+            json.WriteStartArray("bodies");
+            foreach (SceneBody body in view.Scene.Bodies)
+            {
+                json.WriteStartObject();
+                json.WriteString("name", body.Name);
+                json.WriteNumber("radius", body.Spec.Radius);
+                json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("lines");
+            foreach (StaticPlane plane in view.Scene.Planes)
+            {
+                (double x, double y) = view.ToView(plane.Normal);
+                if ((x * x) + (y * y) > 0.5)
+                {
+                    WriteNumbers(json, x, y, plane.Offset);
+                }
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("discs");
+            foreach (StaticSphere sphere in view.Scene.StaticSpheres)
+            {
+                (double x, double y) = view.ToView(sphere.Centre);
+                WriteNumbers(json, x, y, sphere.Radius);
+            }
+
+            json.WriteEndArray();
+            WriteStrings(json, "panes", [.. playground.Panes.Select(p => PlaySetup.NameOf(p.Strategy))]);
+            WriteStrings(json, "scenes", [.. PlayScene.Names]);
+            WriteStrings(json, "strategies", [.. LateEventStrategies.Names.Reverse()]);
+            WriteStrings(json, "links", [LinkSettings.Custom, .. LinkProfiles.Names]);
+            json.WriteEndObject();
+        }
+
+        return System.Text.Encoding.UTF8.GetString(stream.ToArray());
+    }
+
+    /// <summary>Lets time pass, and gives the page the numbers of the frame.</summary>
+    [JSExport]
+    internal static void Advance(double virtualSeconds, double realSeconds)
+    {
+        playground!.Advance(virtualSeconds, realSeconds);
+        int at = 0;
+        numbers[at++] = playground.Seconds;
+        foreach (Pane pane in playground.Panes)
+        {
+            numbers[at++] = pane.Error;
+            numbers[at++] = pane.Heals;
+            numbers[at++] = pane.EventsRerun;
+            numbers[at++] = pane.BodiesRewound;
+            numbers[at++] = playground.BytesSent(pane.Number);
+            numbers[at++] = pane.IsHolding ? 1 : 0;
+            foreach (DrawnPlace place in pane.Places)
+            {
+                numbers[at++] = place.IsThere ? 1 : 0;
+                numbers[at++] = place.Drawn.X;
+                numbers[at++] = place.Drawn.Y;
+                numbers[at++] = place.Real.X;
+                numbers[at++] = place.Real.Y;
+                numbers[at++] = place.Glow;
+                numbers[at++] = place.IsInHand ? 1 : 0;
+            }
+        }
+
+        TakeFrame(numbers);
+    }
+
+    /// <summary>A person takes a body.</summary>
+    [JSExport]
+    internal static bool Grab(int pane, double x, double y, double reach) => playground!.Grab(pane, x, y, reach);
+
+    /// <summary>The hand moves.</summary>
+    [JSExport]
+    internal static void MoveHand(int pane, double x, double y, double velocityX, double velocityY) => playground!.MoveHand(pane, x, y, velocityX, velocityY);
+
+    /// <summary>The hand lets go.</summary>
+    [JSExport]
+    internal static void Release(int pane, double velocityX, double velocityY) => playground!.Release(pane, velocityX, velocityY);
+
+    /// <summary>The instant of the newest hashes, the hash of each pane, and that of the world without delay; empty where there is
+    /// none.</summary>
+    [JSExport]
+    internal static string[] Hashes()
+    {
+        ulong?[] hashes = new ulong?[playground!.Panes.Count + 1];
+        double at = playground.ReadHashes(hashes);
+        return [at.ToString("F2", CultureInfo.InvariantCulture), .. hashes.Select(hash => hash?.ToString("x16", CultureInfo.InvariantCulture) ?? "")];
+    }
+
+    [JSImport("takeFrame", "page")]
+    private static partial void TakeFrame([JSMarshalAs<JSType.MemoryView>] Span<double> frame);
+
+    private static void WriteNumbers(Utf8JsonWriter json, params ReadOnlySpan<double> values)
+    {
+        json.WriteStartArray();
+        foreach (double value in values)
+        {
+            json.WriteNumberValue(value);
+        }
+
+        json.WriteEndArray();
+    }
+
+    private static void WriteStrings(Utf8JsonWriter json, string name, string[] values)
+    {
+        json.WriteStartArray(name);
+        foreach (string value in values)
+        {
+            json.WriteStringValue(value);
+        }
+
+        json.WriteEndArray();
+    }
+}

@@ -1,0 +1,100 @@
+// The page: loads the worlds, lets time pass in them once a frame, and draws what each player sees.
+import { dotnet } from './_framework/dotnet.js'
+import { Controls } from './controls.mjs'
+import { Pane } from './panes.mjs'
+
+const LongestFrame = 0.1 // seconds: a tab that was hidden does not catch up
+const HashEvery = 0.25
+
+const found = id => document.getElementById(id)
+const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
+let engine, setup, panes = [], frame = new Float64Array(0), last = 0, lastHash = -1, colours = readColours()
+
+const controls = new Controls(found('controls'), {
+  begin,
+  link: query => say(engine.SetLink(query)),
+  step: () => advance(1 / 60, 1 / 60),
+})
+
+try {
+  const { getAssemblyExports, getConfig, setModuleImports, runMain } = await dotnet.create()
+  setModuleImports('page', {
+    takeFrame: view => {
+      if (frame.length !== view.length) {
+        frame = new Float64Array(view.length)
+      }
+      view.copyTo(frame)
+    },
+  })
+  const exports = await getAssemblyExports(getConfig().mainAssemblyName)
+  await runMain()
+  engine = { ...exports.LagSim.Play.Browser.PlaygroundExports, speed: () => controls.speed }
+  if (!begin(controls.query)) {
+    begin('') // the sentence says what was wrong; the page shows the usual set-up
+  }
+  found('loading').hidden = true
+  requestAnimationFrame(tick)
+} catch (failure) {
+  found('loading').hidden = true
+  say(`The worlds could not be loaded: ${failure.message ?? failure}`)
+  throw failure
+}
+
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = readColours() })
+new ResizeObserver(() => panes.forEach(pane => pane.resize())).observe(found('panes'))
+addEventListener('keydown', event => {
+  if (event.key.toLowerCase() === 'p' && !event.ctrlKey && !event.metaKey && !/^(INPUT|SELECT)$/.test(document.activeElement.tagName)) {
+    controls.pause()
+  }
+})
+
+// For scripts and tests: where a pane draws a ball on the screen, in CSS pixels.
+window.lagsim = { placeOnScreen: (pane, ball) => panes[pane].placeOnScreen(ball) }
+
+/** Begins a set-up; says what is wrong with it, and goes on with the one before, if it cannot be. */
+function begin(query) {
+  const wrong = engine.Begin(query)
+  if (wrong) {
+    say(wrong)
+    setup && controls.build(setup)
+    return false
+  }
+  query !== '' && say('')
+  setup = JSON.parse(engine.Describe())
+  panes = setup.panes.map((_, number) => new Pane(number, setup, engine, (pane, name) => controls.strategy(pane, name, setup.panes)))
+  found('panes').replaceChildren(...panes.map(pane => pane.element))
+  found('panes').hidden = found('controls').hidden = false
+  controls.build(setup)
+  panes.forEach(pane => pane.resize())
+  lastHash = -1
+  return true
+}
+
+function say(sentence) {
+  found('problem').textContent = sentence
+  found('problem').hidden = sentence === ''
+}
+
+function tick(now) {
+  const seconds = Math.min(LongestFrame, Math.max(0, (now - last) / 1000))
+  last = now
+  advance(controls.isPaused ? 0 : seconds * controls.speed, seconds)
+  requestAnimationFrame(tick)
+}
+
+function advance(virtual, real) {
+  panes.forEach(pane => pane.send())
+  engine.Advance(virtual, real)
+  panes.forEach(pane => pane.draw(frame, colours, isCalm.matches))
+  if (frame[0] < lastHash || frame[0] - lastHash >= HashEvery / 4) {
+    lastHash = frame[0]
+    const [at, ...hashes] = engine.Hashes()
+    panes.forEach(pane => pane.tell(hashes[pane.number], hashes[hashes.length - 1], at))
+  }
+}
+
+function readColours() {
+  const style = getComputedStyle(document.documentElement)
+  const read = name => style.getPropertyValue(`--${name}`).trim()
+  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), accent: read('accent') }
+}

@@ -1,0 +1,155 @@
+using System;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Display;
+using LagSim.Net.Sessions;
+using LagSim.Net.Strategies;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Play;
+
+/// <summary>One peer of a playground, as a person sees it: where its bodies are drawn, and what lag cost it.</summary>
+/// <remarks>Not thread-safe.</remarks>
+internal sealed class Pane
+{
+    /// <summary>How long a body glows whose path was rewritten: long enough that nothing flashes more than three times a second.</summary>
+    private const double GlowSeconds = 0.35;
+
+    private readonly PlayScene scene;
+    private readonly bool isSmooth;
+    private readonly HandOfPerson hand;
+    private readonly double[] litUntil; // by body, in seconds of a person who looks
+    private readonly DrawnPlace[] places;
+    private LiveWorld? watched;
+    private DisplayOffsets display;
+    private double shownSeconds;
+
+    internal Pane(int number, Session session, LateEventStrategy strategy, PlayScene scene, bool isSmooth, Action wake)
+    {
+        Number = number;
+        Session = session;
+        Strategy = strategy;
+        this.scene = scene;
+        this.isSmooth = isSmooth;
+        hand = new HandOfPerson(session, scene, wake);
+        litUntil = new double[scene.Scene.Bodies.Count];
+        places = new DrawnPlace[scene.Scene.Bodies.Count];
+        display = new DisplayOffsets(scene.Scene);
+    }
+
+    /// <summary>Its number: 0 is the host.</summary>
+    internal int Number { get; }
+
+    /// <summary>The peer.</summary>
+    internal Session Session { get; }
+
+    /// <summary>What it does with late events.</summary>
+    internal LateEventStrategy Strategy { get; }
+
+    /// <summary>How many heals there were.</summary>
+    internal long Heals { get; private set; }
+
+    /// <summary>How many events they simulated again.</summary>
+    internal long EventsRerun { get; private set; }
+
+    /// <summary>How many bodies they predicted again.</summary>
+    internal long BodiesRewound { get; private set; }
+
+    /// <summary>How far the body that is furthest off is drawn from where it is in truth, in metres. One in the hand of the person at this
+    /// pane is where the hand is: of the hand the world knows keyframes.</summary>
+    internal double Error { get; private set; }
+
+    /// <summary>Where the bodies of the scene are drawn, in their order.</summary>
+    internal ReadOnlySpan<DrawnPlace> Places => places;
+
+    /// <summary>Whether a person holds a body in this pane.</summary>
+    internal bool IsHolding => hand.IsHolding;
+
+    /// <summary>Finds what is drawn now.</summary>
+    /// <param name="truth">The world without delay.</param>
+    /// <param name="seconds">How much real time has passed since the last frame.</param>
+    internal void Draw(Truth truth, double seconds)
+    {
+        if (Session.World is not LiveWorld world)
+        {
+            return;
+        }
+
+        Watch(world);
+        SimTime now = Session.SharedTime.Now; // as well as this peer knows it
+        shownSeconds += seconds;
+        display.Update(world.RenderSnapshots.Latest(), Session.DisplayTime);
+        Error = 0;
+        for (int n = 0; n < places.Length; n++)
+        {
+            bool isThere = display.TryRead(BodyId.OfScene(n), out DrawnBody drawn);
+            truth.TryRead(BodyId.OfScene(n), now, out BodyState real);
+            Vector3D shown = isSmooth || drawn.IsInHand ? drawn.Position : drawn.State.Position;
+            if (drawn.Jump > 0)
+            {
+                litUntil[n] = shownSeconds + GlowSeconds;
+            }
+
+            double glow = Math.Clamp((litUntil[n] - shownSeconds) / GlowSeconds, 0, 1);
+            places[n] = new DrawnPlace(isThere, scene.ToView(shown), scene.ToView(real.Position), glow, drawn.IsInHand);
+            Error = Math.Max(Error, isThere && !drawn.IsInHand ? (shown - real.Position).Length : 0);
+        }
+    }
+
+    /// <summary>A person takes the body that is drawn at a point, or close by.</summary>
+    /// <returns>What was done; null if there is no body, or it could not be taken.</returns>
+    internal ExternalEvent? Grab(double x, double y, double reach)
+    {
+        int nearest = Nearest(x, y, reach);
+        return nearest < 0 || Session.World is null ? null : hand.Take(BodyId.OfScene(nearest));
+    }
+
+    /// <summary>The hand moves; see <see cref="HandOfPerson.Move"/>.</summary>
+    internal ExternalEvent? MoveHand(double x, double y, double velocityX, double velocityY) => hand.Move(display, x, y, velocityX, velocityY);
+
+    /// <summary>The hand lets go; see <see cref="HandOfPerson.Release"/>.</summary>
+    internal ExternalEvent? Release(double velocityX, double velocityY) => hand.Release(display, velocityX, velocityY);
+
+    /// <summary>The hash of its state at a time; null if it does not have that time.</summary>
+    internal ulong? HashAt(SimTime time)
+    {
+        Simulation? world = Session.World?.Simulation;
+        return world is not null && time >= world.HistoryEdge && time <= world.Horizon ? world.StateHash(time) : null;
+    }
+
+    private int Nearest(double x, double y, double reach)
+    {
+        int nearest = -1;
+        double least = double.PositiveInfinity;
+        for (int n = 0; n < places.Length; n++)
+        {
+            double dx = places[n].Drawn.X - x, dy = places[n].Drawn.Y - y;
+            double gap = Math.Sqrt((dx * dx) + (dy * dy)) - scene.Scene.Bodies[n].Spec.Radius;
+            if (places[n].IsThere && gap <= reach && gap < least)
+            {
+                (nearest, least) = (n, gap);
+            }
+        }
+
+        return nearest;
+    }
+
+    /// <summary>A peer that has got a fresh copy has another world.</summary>
+    private void Watch(LiveWorld world)
+    {
+        if (ReferenceEquals(watched, world))
+        {
+            return;
+        }
+
+        watched = world;
+        display = new DisplayOffsets(scene.Scene);
+        world.Simulation.Healed += heal =>
+        {
+            Heals++;
+            EventsRerun += heal.Events;
+            BodiesRewound += heal.Bodies;
+        };
+    }
+}

@@ -1,0 +1,179 @@
+using System;
+using System.Linq;
+using System.Threading.Tasks;
+using Microsoft.Playwright;
+using Xunit;
+
+namespace LagSim.Browser;
+
+/// <summary>The page as a person uses it: with mouse, keys and fingers, in both themes and on a phone.</summary>
+public sealed class PlayPageTests(ServedPage served)
+{
+    [Fact]
+    public async Task Ball_ThrownInOnePane_AllHashesAreEqualOnceTheEventIsThere()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing,full-rollback,healing&delay=200");
+        await page.AgreeAsync(4);
+        (string before, _) = await page.HashAsync(0);
+        await page.ThrowAsync(1, 5, 60, -90);
+        await page.Page.WaitForFunctionAsync("() => [...document.querySelectorAll('dd[data-is=heals]')].filter(heals => Number(heals.textContent) > 0).length >= 3");
+        await page.AgreeAsync(4);
+        Assert.NotEqual(before, (await page.HashAsync(0)).Hash);
+    }
+
+    /// <summary>The control: with a strategy that promises nothing the page says that its world differs.</summary>
+    [Fact]
+    public async Task Ball_ThrownWithAStrategyThatPromisesNothing_Differs()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=billiards&panes=healing,none&delay=300");
+        await page.Page.WaitForTimeoutAsync(600);
+        await page.ThrowAsync(0, 0, -60, 40);
+        await page.Page.WaitForTimeoutAsync(2500);
+        (string host, string agrees) = await page.HashAsync(0);
+        (string other, string differs) = await page.HashAsync(1);
+        Assert.NotEqual(host, other);
+        Assert.StartsWith("agrees", agrees, StringComparison.Ordinal);
+        Assert.StartsWith("differs", differs, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public async Task Ball_TakenAndThrownByKeysAlone_ComesToAll()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=100");
+        await page.Page.Keyboard.PressAsync("Tab"); // the strategy of the first pane
+        await page.Page.Keyboard.PressAsync("Tab"); // its world
+        Assert.Equal("World of player 1", await page.Page.EvaluateAsync<string>("() => document.activeElement.getAttribute('aria-label')"));
+        await page.Page.Keyboard.PressAsync("ArrowRight");
+        await page.Page.Keyboard.PressAsync("Enter");
+        for (int n = 0; n < 8; n++)
+        {
+            await page.Page.Keyboard.PressAsync("ArrowUp");
+            await page.Page.WaitForTimeoutAsync(20);
+        }
+
+        await page.Page.Keyboard.PressAsync("Enter");
+        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
+        await page.AgreeAsync(2);
+        await page.Page.Keyboard.PressAsync("p");
+        await page.Page.GetByRole(AriaRole.Button, new() { Name = "Go on" }).WaitForAsync();
+        (string paused, _) = await page.HashAsync(0);
+        await page.Page.WaitForTimeoutAsync(700);
+        Assert.Equal(paused, (await page.HashAsync(0)).Hash);
+    }
+
+    [Fact]
+    public async Task Ball_TakenWithAFingerOnAPhone_ComesToAll()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(
+            served, "panes=healing,healing&delay=100", new() { ViewportSize = new() { Width = 390, Height = 844 }, HasTouch = true, IsMobile = true, DeviceScaleFactor = 2 });
+        Assert.True(await page.Page.EvaluateAsync<bool>("() => document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the phone");
+        (float x, float y) = await page.BallAsync(0, 6);
+        ICDPSession devices = await page.Page.Context.NewCDPSessionAsync(page.Page);
+        for (int n = 0; n <= 10; n++)
+        {
+            object[] points = n == 10 ? [] : [new { x = x + (4 * n), y = y - (3 * n) }];
+            await devices.SendAsync(
+                "Input.dispatchTouchEvent", new() { ["type"] = n == 0 ? "touchStart" : n == 10 ? "touchEnd" : "touchMove", ["touchPoints"] = points });
+            await page.Page.WaitForTimeoutAsync(25);
+        }
+
+        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
+        await page.AgreeAsync(2);
+    }
+
+    [Theory]
+    [InlineData("scene", "billiards", "scene=billiards")]
+    [InlineData("count", "4", "panes=healing,healing,healing,healing")]
+    [InlineData("link", "4g", "link=4g")]
+    [InlineData("speed", "0.25", "speed=0.25")]
+    public async Task Choice_Made_IsInTheAddressAndComesBackFromIt(string name, string value, string part)
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "");
+        await page.Page.Locator($"select[name={name}]").SelectOptionAsync(value);
+        Assert.Contains(part, Uri.UnescapeDataString(page.Page.Url), StringComparison.Ordinal);
+        await page.Page.ReloadAsync();
+        await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+        Assert.Equal(value, await page.Page.Locator($"select[name={name}]").InputValueAsync());
+    }
+
+    [Theory]
+    [InlineData("delay", "250")]
+    [InlineData("jitter", "40")]
+    [InlineData("loss", "10")]
+    [InlineData("burst", "3")]
+    [InlineData("asymmetry", "50")]
+    [InlineData("clock", "500")]
+    [InlineData("ahead", "400")]
+    [InlineData("lag", "60")]
+    public async Task Slider_Moved_IsInTheAddressAndComesBackFromIt(string name, string value)
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "");
+        await page.Page.Locator($"input[name={name}]").FillAsync(value);
+        Assert.Contains($"{name}={value}", page.Page.Url, StringComparison.Ordinal);
+        await page.Page.ReloadAsync();
+        await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+        Assert.Equal(value, await page.Page.Locator($"input[name={name}]").InputValueAsync());
+        await page.AgreeAsync(2);
+    }
+
+    [Fact]
+    public async Task Strategy_ChosenInAPane_IsThatPanes()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "");
+        await page.Page.Locator(".pane").Nth(1).Locator("select").SelectOptionAsync("none");
+        Assert.Contains("panes=healing,none", Uri.UnescapeDataString(page.Page.Url), StringComparison.Ordinal);
+        Assert.Equal("healing", await page.Page.Locator(".pane").Nth(0).Locator("select").InputValueAsync());
+        Assert.Equal("none", await page.Page.Locator(".pane").Nth(1).Locator("select").InputValueAsync());
+    }
+
+    [Fact]
+    public async Task SetUp_ThatCannotBe_IsNamed()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=moon&delay=9");
+        Assert.Equal("'scene' is 'moon'; it must be one of room, drop, billiards, cradle, orbits.", await page.Page.Locator("#problem").InnerTextAsync());
+        await page.AgreeAsync(2); // and the usual set-up is shown
+    }
+
+    [Theory]
+    [InlineData(ColorScheme.Light)]
+    [InlineData(ColorScheme.Dark)]
+    public async Task Text_InBothThemes_HasEnoughContrast(ColorScheme theme)
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(
+            served, "panes=healing,none", new() { ViewportSize = new() { Width = 1200, Height = 900 }, ColorScheme = theme, ReducedMotion = ReducedMotion.Reduce });
+        string[] pale = await page.Page.EvaluateAsync<string[]>(
+            """
+            () => {
+              const light = colour => {
+                const canvas = new OffscreenCanvas(1, 1).getContext('2d')
+                canvas.fillStyle = colour
+                canvas.fillRect(0, 0, 1, 1)
+                const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+                return 0.2126 * r + 0.7152 * g + 0.0722 * b
+              }
+              const back = element => {
+                for (let at = element; at; at = at.parentElement) {
+                  const colour = getComputedStyle(at).backgroundColor
+                  if (colour !== 'rgba(0, 0, 0, 0)') return colour
+                }
+              }
+              return [...document.querySelectorAll('h1, h2, p, label, output, dt, dd, code, button, select, .agrees span')].filter(e => e.innerText?.trim()).filter(e => {
+                const [a, b] = [light(getComputedStyle(e).color), light(back(e))].sort((x, y) => y - x)
+                return (a + 0.05) / (b + 0.05) < 4.5
+              }).map(e => `${e.tagName} ${e.innerText.slice(0, 30)}`)
+            }
+            """);
+        Assert.True(pale.Length == 0, string.Join("; ", pale.Distinct()));
+    }
+
+    [Fact]
+    public async Task Folder_ServedByAnotherServer_PlaysAsWell()
+    {
+        string folder = System.IO.Path.Combine(ServedPage.Root, "src/LagSim.Play.Browser/bin/page/wwwroot");
+        await using OtherServer other = await OtherServer.StartAsync(folder);
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=50", address: other.Address);
+        await page.ThrowAsync(0, 5, 40, -60);
+        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
+        await page.AgreeAsync(2);
+    }
+}
