@@ -21,6 +21,10 @@ internal class RuleCaller
     /// there.</summary>
     internal const int MaxCalls = 1 << 18;
 
+    /// <summary>How many bytes the states after the calls within the history may take: 2^28. A state of three kilobytes, such as that of a
+    /// hundred bodies, may so change 80,000 times within it, and one of the largest size 240 times.</summary>
+    internal const long MaxStateBytes = 1L << 28;
+
     private readonly GameRules rules;
     private readonly RuleLog log;
     private readonly RuleMemory memory;
@@ -31,6 +35,7 @@ internal class RuleCaller
     private readonly List<RuleRead> spare = new();
     private readonly RunningRuleCall? running;
     private StateVersion? loaded; // what the memory holds
+    private SimTime edge = SimTime.MinValue; // what lies before can no longer change
 
     /// <summary>Calls these rules in one world.</summary>
     internal RuleCaller(
@@ -50,7 +55,11 @@ internal class RuleCaller
     internal long Made { get; private set; }
 
     /// <summary>Forgets calls before a time, which can no longer change.</summary>
-    internal void DropBefore(SimTime edge) => log.DropBefore(edge);
+    internal void DropBefore(SimTime time)
+    {
+        edge = time;
+        log.DropBefore(time);
+    }
 
     /// <summary>Deals with the call that is next. What follows from it is scheduled.</summary>
     /// <exception cref="InstantException">The rules failed.</exception>
@@ -77,10 +86,7 @@ internal class RuleCaller
             return;
         }
 
-        if (log.Position >= MaxCalls)
-        {
-            throw Failed(call, $"it is one more than the {MaxCalls} that may lie within the history", null);
-        }
+        ThrowIfTooMany(call);
 
         Make(call, first);
         if (world.Chains && rounds >= MaxRounds)
@@ -197,6 +203,29 @@ internal class RuleCaller
             default:
                 memory.Forget(call.Key.Body); // a body that is spawned begins without a state, and one that is removed has none
                 break;
+        }
+    }
+
+    /// <summary>Calls, and the states after them, are kept for the history; what goes on for ever ends here rather than with the
+    /// memory.</summary>
+    private void ThrowIfTooMany(RuleCall call)
+    {
+        if (log.Position < MaxCalls && log.StateBytes <= MaxStateBytes)
+        {
+            return;
+        }
+
+        log.DropAllBefore(edge);
+        if (log.Position >= MaxCalls)
+        {
+            throw Failed(call, $"it is one more than the {MaxCalls} that may lie within the history", null);
+        }
+
+        if (log.StateBytes > MaxStateBytes)
+        {
+            throw Failed(
+                call, $"the states after the {log.Position} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}: each that"
+                    + " changes something is kept as a copy of all", null);
         }
     }
 

@@ -50,6 +50,9 @@ internal class RuleLog : IRuleTriggers
     /// <summary>How many calls are kept, those that do not stand included.</summary>
     internal int Count => calls.Count;
 
+    /// <summary>How many bytes the states take that are kept.</summary>
+    internal long StateBytes => versions.Bytes;
+
     /// <summary>The state at the position, encoded.</summary>
     internal StateVersion Current => current!;
 
@@ -270,8 +273,17 @@ internal class RuleLog : IRuleTriggers
         }
     }
 
-    /// <summary>Forgets calls before a time, which can no longer change.</summary>
+    /// <summary>Forgets calls before a time, which can no longer change, once they are an eighth of all: what stays has to be moved.</summary>
     internal void DropBefore(SimTime edge)
+    {
+        if (Position > 0 && calls[Position / 8].Key.Time < edge)
+        {
+            DropAllBefore(edge);
+        }
+    }
+
+    /// <summary>Forgets all calls before a time, however few.</summary>
+    internal void DropAllBefore(SimTime edge)
     {
         int count = 0;
         while (count < Position && calls[count].Key.Time < edge && !(changed is EventKey from && EventKey.Compare(calls[count].Key, from) >= 0))
@@ -287,16 +299,8 @@ internal class RuleLog : IRuleTriggers
     }
 
     /// <summary>The place of the first call that stands after a time; <see cref="Position"/> if none does.</summary>
-    internal int FirstAfter(SimTime time)
-    {
-        int n = Position;
-        while (n > 0 && calls[n - 1].Key.Time > time)
-        {
-            n--;
-        }
-
-        return n;
-    }
+    internal int FirstAfter(SimTime time) =>
+        time == SimTime.MaxValue ? Position : Math.Min(Position, FirstFrom(EventKey.Before(time + SimDuration.OneTick)));
 
     /// <summary>The state after everything up to and including a time.</summary>
     internal StateVersion StateAt(SimTime time) => FirstAfter(time) is int n && n > 0 ? calls[n - 1].After! : first!;
@@ -316,13 +320,16 @@ internal class RuleLog : IRuleTriggers
     /// <summary>The first call keyed at or after a key, or their number.</summary>
     internal int FirstFrom(in EventKey key)
     {
-        int n = calls.Count;
-        while (n > 0 && EventKey.Compare(calls[n - 1].Key, key) >= 0)
+        int low = 0;
+        int high = calls.Count;
+        int middle = Math.Max(0, high - 1); // the newest first, since most look for what happened last
+        while (low < high)
         {
-            n--; // from the newest, since most look for what happened last
+            (low, high) = EventKey.Compare(calls[middle].Key, key) >= 0 ? (low, middle) : (middle + 1, high);
+            middle = (low + high) / 2;
         }
 
-        return n;
+        return low;
     }
 
     private static EventKey KeyFor(SimTime time, uint round, int number) =>

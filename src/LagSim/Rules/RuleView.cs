@@ -46,7 +46,7 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
         {
             int at = timelines.Before(slot, after.JustAfter);
             if (at != TimelineStore.None && timelines.Segment(at).IsPresent
-                && (scene.Box.Wrap(paths.PositionAt(at, after.Time)) - centre).LengthSquared <= radius * radius)
+                && scene.Box.Nearest(paths.PositionAt(at, after.Time) - centre).LengthSquared <= radius * radius)
             {
                 reads.Add(new RuleRead { Body = bodies.Id(slot) });
             }

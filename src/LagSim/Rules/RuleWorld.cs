@@ -102,8 +102,8 @@ public sealed class RuleWorld
         return ref memory.World<T>();
     }
 
-    /// <summary>The state of a body that is there, to read and to write; all zero at first. The reference is valid during the
-    /// call.</summary>
+    /// <summary>The state of a body that is there, or that this call hears to have been removed, to read and to write; all zero at first. The
+    /// reference is valid during the call.</summary>
     /// <typeparam name="T">The type that the rules declared by <see cref="GameRules.WithBodyState"/>.</typeparam>
     /// <exception cref="RuleException">They declared another or none, the body is not there, or too many bodies have a state.</exception>
     public ref T State<T>(BodyId body)
@@ -117,7 +117,7 @@ public sealed class RuleWorld
 
         if (!memory.Has(body))
         {
-            if (!TryRead(body, out _))
+            if (!TryRead(body, out _) && !(key.Kind == EventKind.Remove && key.Body == body))
             {
                 throw new RuleException($"{Scene.Describe(body)} is not there and so has no state.");
             }
@@ -175,7 +175,7 @@ public sealed class RuleWorld
         return read.IsInside;
     }
 
-    /// <summary>The bodies whose centres lie within a sphere, by identity.</summary>
+    /// <summary>The bodies whose centres lie within a sphere, by identity. In a periodic box the nearest image of each counts.</summary>
     /// <param name="centre">Its centre, in metres.</param>
     /// <param name="radius">Its radius in metres, at least zero.</param>
     /// <param name="found">Gets as many of them as there is room for.</param>
@@ -381,7 +381,7 @@ public sealed class RuleWorld
     {
         if (reads.Count > MaxReads)
         {
-            throw new RuleException($"A call read {MaxReads} bodies; it may read no more.");
+            throw new RuleException($"A call read {MaxReads} things of the world; it may read no more.");
         }
     }
 

@@ -10,12 +10,16 @@ internal sealed class StateVersions
     private readonly Stack<StateVersion> free = new();
     private long lastSerial;
 
+    /// <summary>How many bytes the versions have that somebody keeps.</summary>
+    internal long Bytes { get; private set; }
+
     /// <summary>A version of this state, kept once.</summary>
     internal StateVersion Add(ReadOnlySpan<byte> state)
     {
         StateVersion version = free.Count > 0 ? free.Pop() : new StateVersion();
         version.Set(state, ++lastSerial);
         version.Uses = 1;
+        Bytes += state.Length;
         return version;
     }
 
@@ -29,6 +33,7 @@ internal sealed class StateVersions
 
         if (kept is not null && --kept.Uses == 0)
         {
+            Bytes -= kept.Bytes.Length;
             free.Push(kept);
         }
 

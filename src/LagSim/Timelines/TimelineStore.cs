@@ -186,11 +186,12 @@ internal sealed class TimelineStore
     /// <summary>Ends it: from here on it counts in the hash.</summary>
     internal void EndMember(int segment, BodyId body) => hashes.Value += HashOf(segment, body);
 
-    /// <summary>Removes the body's segments keyed at or after <paramref name="key"/>; returns how many.</summary>
+    /// <summary>Removes the body's segments keyed at or after <paramref name="key"/>, but not the first, with which its timeline begins;
+    /// returns how many.</summary>
     internal int CutFrom(int slot, BodyId body, in EventKey key)
     {
         int cut = 0;
-        while (ends[slot].Last != None && EventKey.Compare(segments[ends[slot].Last].Key, key) >= 0)
+        while (ends[slot].Last != ends[slot].First && EventKey.Compare(segments[ends[slot].Last].Key, key) >= 0)
         {
             CutLast(slot, body);
             cut++;

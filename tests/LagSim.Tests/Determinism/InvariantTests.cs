@@ -117,6 +117,29 @@ public sealed class InvariantTests
         Assert.True(grown > 8, $"{grown} heals became full rollbacks");
     }
 
+    /// <summary>An event of the very first tick takes the world back to before it; one that comes next rewinds all bodies, and what they
+    /// began with stays.</summary>
+    [Fact]
+    public void State_AllRewoundBeforeTheFirstTickIsDoneAgain_IsTheSameToo()
+    {
+        ExternalEvent[] late =
+        [
+            PlayerAction.SetVelocity(First, V(1, 2)).Stamp(At(0), 1, 1), PlayerAction.SetVelocity(Second, V(-1, 3)).Stamp(At(0.5), 1, 2),
+            PlayerAction.Impulse(First, V(0, 1)).Stamp(At(0.25), 1, 3),
+        ];
+        Scene scene = new SceneBuilder("three").AddPlane("floor", Vector3D.Up, V(0)).AddBody("a", Ball(), V(0, 2)).AddBody("b", Ball(), V(3, 4))
+            .AddBody("c", Ball(), V(6, 1)).Build();
+        Simulation expected = Run(scene, 2, late);
+        Simulation actual = new(scene, KeepAll) { FewHealed = 1 };
+        int full = 0;
+        actual.Healed += report => full += report.Bodies == 3 ? 1 : 0;
+        actual.AdvanceTo(At(2));
+        Assert.All(late, one => Assert.NotEqual(SubmitResult.TooOld, actual.Submit(one)));
+        actual.AdvanceTo(At(2));
+        Assert.Equal(1, full);
+        Assert.Null(RandomWorld.Difference(expected, actual));
+    }
+
     [Theory]
     [MemberData(nameof(Blocks))]
     public void State_HistoryBarelyLongEnough_IsTheSameToo(int block)

@@ -24,8 +24,8 @@ public sealed class RuleLimitTests
         ["timers"] = (SetTimers, 256, 256, "256 timers are set; no more may be."),
         ["acts"] = (Push, 64, 0, "A call did 64 things to bodies; it may do no more."),
         ["notices"] = (Tell, 16, 0, "A call told 16 things; it may tell no more."),
-        ["reads"] = (ReadBodies, 4096, 4096, "A call read 4096 bodies; it may read no more."),
-        ["reads of regions"] = (ReadRegions, 2048, 2048, "A call read 4096 bodies; it may read no more."), // each is one, and the body in it
+        ["reads"] = (ReadBodies, 4096, 4096, "A call read 4096 things of the world; it may read no more."),
+        ["reads of regions"] = (ReadRegions, 2048, 2048, "A call read 4096 things of the world; it may read no more."), // each is one, and the body in it
         ["rounds"] = (Chain, 64, 65, "caused more than 64 rounds of events in one tick"),
     };
 
@@ -51,6 +51,31 @@ public sealed class RuleLimitTests
         int round = which == "rounds" ? most : 0;
         Assert.Equal($"The rules 'given 1' failed at 0.25s, round {round}, in OnTimer for timer 1: {sentence}", failure.Message);
         Assert.Throws<InvalidOperationException>(() => world.AdvanceTo(At(3)));
+    }
+
+    /// <summary>States are kept as copies within the history: more of them than the memory has would end the process.</summary>
+    [Fact]
+    public void States_OfMoreBytesThanMayBeKept_EndTheWorldWithTheSentence()
+    {
+        GivenRules rules = new(bodies: true)
+        {
+            Start = w => w.SetTimer(1, SimDuration.FromSeconds(0.01)),
+            Timer = (w, timer) =>
+            {
+                w.SetTimer(timer, timer == 1 && w.State<GivenState>().Count < 64 ? SimDuration.FromSeconds(0.01) : SimDuration.FromTicks(1 << 20));
+                w.State<GivenState>().Count++;
+                for (int n = 0; n < 64 && w.State<GivenState>().Count <= 64; n++)
+                {
+                    w.Spawn(Ball(0.125), V(100 + (4 * w.State<GivenState>().Count), 4 * n));
+                }
+            },
+            HearsAll = true,
+            Spawned = (w, body) => w.State<GivenState>(body).Count = 1,
+        };
+        Scene scene = new SceneBuilder("large").WithGravity(Floating).WithSmallestRadius(0.125).AddBody("ball", Ball(), V(0)).WithRules(rules).Build();
+        Simulation world = new(scene, KeepAll);
+        SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(2)));
+        Assert.Matches("the states after the [0-9]+ calls within the history take [0-9]+ bytes, more than 268435456: each that changes something is kept as a copy of all$", failure.Message);
     }
 
     /// <summary>What goes on for ever without a chain in one tick: a timer of a tick that sets itself again, and bodies that each bring two more.</summary>

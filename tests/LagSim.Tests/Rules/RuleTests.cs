@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Collections.Immutable;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Rules;
@@ -227,6 +228,27 @@ public sealed class RuleTests
         Assert.False(world.TryReadRules(At(1), out long _));
     }
 
+    /// <summary>A body that never had a state has one of zeros to the last, like any other.</summary>
+    [Fact]
+    public void BodyState_OfABodyThatIsRemovedAndNeverHadOne_IsZero()
+    {
+        GivenRules rules = new(bodies: true) { HearsAll = true, Removed = (w, body) => w.State<GivenState>().Count = 7 + w.State<GivenState>(body).Count };
+        Simulation world = Run(Scene(rules), 1, [PlayerAction.Remove(First).Stamp(At(0.5), 1, 1)]);
+        Assert.Equal(7, Count(world, 1));
+        Assert.False(world.TryReadRules(First, At(1), out GivenState _));
+    }
+
+    /// <summary>Across the edge of a periodic box a body is as near as it is to its image.</summary>
+    [Theory]
+    [InlineData(0.05, 1)]
+    [InlineData(0.5, 0)]
+    public void Within_AcrossTheEdgeOfAPeriodicBox_FindsTheNearestImage(double x, int expected)
+    {
+        GivenRules rules = new() { Command = (w, _, _) => w.State<GivenState>().Count = w.Within(V(x, 5, 5), 0.5, default) };
+        Scene scene = new SceneBuilder("box").WithGravity(V(0)).WithPeriodicBox(V(10, 10, 10)).AddBody("far", Ball(0.25), V(9.9, 5, 5)).WithRules(rules).Build();
+        Assert.Equal(expected, Count(Run(scene, 1, [PlayerAction.Command(new GameCommand(1)).Stamp(At(0.5), 1, 1)]), 1));
+    }
+
     [Theory]
     [MemberData(nameof(Failures))]
     public void Rules_ThatFail_AreNamedWithCallAndInstant(string which, string part)
@@ -296,7 +318,7 @@ public sealed class RuleTests
         [
             new() { Contact = (w, _) => w.State<GivenState>().Count = ++calls, Hears = (_, _, _) => true },
             new() { Contact = (w, _) => w.State<GivenState>().Draw = (ulong)Stamp(), Hears = (_, _, _) => true },
-            new() { Contact = (w, _) => w.State<GivenState>().Count = new HashSet<object> { new(), new(), new() }.First().GetHashCode(), Hears = (_, _, _) => true },
+            new() { Contact = (w, _) => w.State<GivenState>().Count = FirstOfASet(), Hears = (_, _, _) => true },
         ];
         foreach (GivenRules rules in faulty)
         {
@@ -343,6 +365,13 @@ public sealed class RuleTests
         ["delay"] = At025(w => w.SetTimer(1, SimDuration.FromSeconds(-1))),
         ["limit"] = At025(w => w.Random(0)),
     };
+
+    /// <summary>Which of sixteen objects a set lists first: it lists them by their hashes, which no object has of another world.</summary>
+    private static int FirstOfASet()
+    {
+        object[] objects = [.. Enumerable.Range(0, 16).Select(_ => new object())];
+        return Array.IndexOf(objects, ImmutableHashSet.Create(objects).First());
+    }
 
     private static GivenRules At025(Action<RuleWorld> act) => new() { Start = Later, Timer = (w, _) => act(w) };
 
