@@ -286,7 +286,7 @@ internal sealed class SessionRun
             int number = member.Player.Number;
             member.Trace.CompareCommitted(number, comparison);
             member.Trace.CompareWrong(number, comparison);
-            if (!member.Player.HasLeft && member.Session.World is not null)
+            if (!member.Player.HasLeft && member.Session.World is not null && member.Session.Failure is null) // what failed is said by itself
             {
                 comparison.Take(number, member.Session.World.Simulation);
             }

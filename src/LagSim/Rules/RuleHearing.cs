@@ -50,8 +50,22 @@ internal sealed class RuleHearing(Scene scene)
     }
 
     /// <summary>Whether a call is due for what opened a segment of a body, or ended there: it appears or disappears.</summary>
-    internal bool Hears(BodyId body, in EventKey key) =>
-        key.Kind is EventKind.Spawn or EventKind.Remove && key.Body == body && (rules.HearsBodies || rules.BodyBytes > 0);
+    internal bool Hears(BodyId body, in EventKey key)
+    {
+        if (key.Kind is not (EventKind.Spawn or EventKind.Remove) || key.Body != body)
+        {
+            return false;
+        }
+
+        try
+        {
+            return rules.HearsBodies || rules.BodyBytes > 0;
+        }
+        catch (Exception failure)
+        {
+            throw Failed(nameof(GameRules.HearsBodies), key, default, failure);
+        }
+    }
 
     private InstantException Failed(string method, in EventKey key, in RuleTrigger trigger, Exception failure) =>
         new($"{RuleCallText.Failed(scene, method, key, trigger)}: {failure.Message}", key.Time, failure);

@@ -1,5 +1,6 @@
 using LagSim.Events;
 using LagSim.Hosting;
+using LagSim.Net.Sessions;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Testing;
@@ -58,6 +59,14 @@ internal static class RuleSnippets
         }
 
         return goals;
+    }
+
+    internal static (Scene Pitch, HostOptions Host, ClientOptions Client) Give()
+    {
+        Scene pitch = new SceneBuilder("pitch").AddBody("ball", new BodySpec(0.25, 1, 0.8), new Vector3D(0, 2, 0)).WithRules(new Football()).WithSeed(7).Build();
+        HostOptions host = new() { RuleNotices = new RuleNotices() };
+        ClientOptions client = new() { Rules = [new Football()], RuleNotices = new RuleNotices() };
+        return (pitch, host, client);
     }
 
     internal static Score AfterAKick(Scene pitch)

@@ -46,7 +46,8 @@ public sealed class BannedSymbolTests
     {
         string[] forgotten = [.. Functions(type).Where(one => !Exact.Contains(one.Name)).Select(Identity).Where(one => !Banned.Contains(one))];
         Assert.True(forgotten.Length == 0, string.Join('\n', forgotten));
-        Assert.DoesNotContain(Functions(type), one => Exact.Contains(one.Name) && Banned.Contains(Identity(one)));
+        // Parse is exact; one of its forms is banned, since it reads the text by the language of the machine.
+        Assert.DoesNotContain(Functions(type), one => Exact.Contains(one.Name) && one.Name != "Parse" && Banned.Contains(Identity(one)));
         Assert.Contains(Functions(type), one => one.Name == "Sin" && Banned.Contains(Identity(one))); // the control
     }
 

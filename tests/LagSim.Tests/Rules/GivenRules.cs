@@ -39,7 +39,9 @@ internal sealed class GivenRules : GameRules
 
     internal bool HearsAll { get; init; }
 
-    public override bool HearsBodies => HearsAll;
+    internal Func<bool>? AskedForBodies { get; init; }
+
+    public override bool HearsBodies => HearsAll && AskedForBodies?.Invoke() != false;
 
     public override bool HearsContact(BodyId first, BodyId second, int surface) => Hears?.Invoke(first, second, surface) == true;
 

@@ -21,6 +21,7 @@ public sealed class RuleCallTextTests
         { "heard", "in HearsContact for body 'ball' (0.0.0) and body 2.1.0: broken" },
         { "crossing", "in OnCrossing for body 'ball' (0.0.0), which enters 'goal': broken" },
         { "heard crossing", "in HearsCrossing for body 'ball' (0.0.0), which enters 'goal': broken" },
+        { "hears bodies", "in HearsBodies for body 2.1.0: broken" },
         { "spawn", "failed at 0.0625s, round 0, in OnSpawned for body 2.1.0: broken" },
         { "remove", "failed at 0.75s, round 0, in OnRemoved for body 2.1.0: broken" },
     };
@@ -54,6 +55,7 @@ public sealed class RuleCallTextTests
         HearsSensor = (_, _) => Break(which == "heard crossing"),
         Crossed = (_, _) => Break(which == "crossing"),
         HearsAll = true,
+        AskedForBodies = () => Break(which == "hears bodies"),
         Spawned = (_, _) => Break(which == "spawn"),
         Removed = (_, _) => Break(which == "remove"),
     };
