@@ -9,6 +9,7 @@ using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Rules;
 using LagSim.Scenes;
+using LagSim.Testing;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
@@ -196,6 +197,26 @@ public sealed class LostThreadTests
 
         host.Dispose();
         release.Set();
+    }
+
+    /// <summary>A test under lag whose world is given up says which call it was, not that a world cannot be compared.</summary>
+    [Fact]
+    public void SessionTest_WhoseRulesAskTheWorldForEver_SaysWhichCall()
+    {
+        GivenRules rules = new()
+        {
+            Command = (w, _, _) =>
+            {
+                while (true)
+                {
+                    w.Random();
+                }
+            },
+        };
+        SessionTest test = new SessionTest(Floor(rules)).WithOptions(_ => new ClientOptions { RuleTimeout = RuleWatchdog.MinLimit }).WithClients(1, "lan")
+            .At(1, player: 1, PlayerAction.Command(new GameCommand(Hang)));
+        SessionTestException failure = Assert.Throws<SessionTestException>(() => test.Run(4, TestContext.Current.CancellationToken));
+        Assert.Matches("in OnCommand for command .*: it has not returned within 0.1s, and was given up", failure.Message);
     }
 
     // A question that was answered before the call has its answer; none is left without an end.
