@@ -1,12 +1,11 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using System.Runtime.InteropServices.JavaScript;
 using System.Runtime.Versioning;
 using System.Text.Json;
-using LagSim.Net.Strategies;
 using LagSim.Scenes;
-using LagSim.Testing.Links;
 
 namespace LagSim.Play.Browser;
 
@@ -101,8 +100,8 @@ internal static partial class PlaygroundExports
             json.WriteEndArray();
             WriteStrings(json, "panes", [.. playground.Panes.Select(p => PlaySetup.NameOf(p.Strategy))]);
             WriteStrings(json, "scenes", [.. PlayScene.Names]);
-            WriteStrings(json, "strategies", [.. LateEventStrategies.Names.Reverse()]);
-            WriteStrings(json, "links", [LinkSettings.Custom, .. LinkProfiles.Names]);
+            WriteStrings(json, "strategies", [.. PlaySetup.StrategyNames.Reverse()]);
+            WriteStrings(json, "links", [.. LinkSettings.Names]);
             json.WriteEndObject();
         }
 
@@ -145,7 +144,8 @@ internal static partial class PlaygroundExports
 
     /// <summary>The hand moves.</summary>
     [JSExport]
-    internal static void MoveHand(int pane, double x, double y, double velocityX, double velocityY) => playground!.MoveHand(pane, x, y, velocityX, velocityY);
+    internal static void MoveHand(int pane, double x, double y, double velocityX, double velocityY) =>
+        playground!.MoveHand(pane, x, y, velocityX, velocityY);
 
     /// <summary>The hand lets go.</summary>
     [JSExport]
@@ -158,7 +158,8 @@ internal static partial class PlaygroundExports
     {
         ulong?[] hashes = new ulong?[playground!.Panes.Count + 1];
         double at = playground.ReadHashes(hashes);
-        return [at.ToString("F2", CultureInfo.InvariantCulture), .. hashes.Select(hash => hash?.ToString("x16", CultureInfo.InvariantCulture) ?? "")];
+        IEnumerable<string> texts = hashes.Select(hash => hash?.ToString("x16", CultureInfo.InvariantCulture) ?? "");
+        return [at.ToString("F2", CultureInfo.InvariantCulture), .. texts];
     }
 
     [JSImport("takeFrame", "page")]

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using LagSim.Testing.Links;
 using LagSim.Time;
 
@@ -9,6 +10,9 @@ internal sealed record LinkSettings
 {
     /// <summary>The name of a link that a person has set by hand.</summary>
     internal const string Custom = "custom";
+
+    /// <summary>All names that a link may have.</summary>
+    internal static IReadOnlyList<string> Names { get; } = [Custom, .. LinkProfiles.Names];
 
     /// <summary>The name of a profile, or <see cref="Custom"/>: then the numbers below count.</summary>
     internal string Profile { get; init; } = Custom;
@@ -25,7 +29,7 @@ internal sealed record LinkSettings
     /// <summary>The mean number of datagrams that are lost in a row, 1 to 20.</summary>
     internal double MeanBurstLength { get; init; } = 1;
 
-    /// <summary>How much longer the way to the host takes than the way back, in milliseconds; at most the delay, either way.</summary>
+    /// <summary>How much longer the way to the host takes than the way back, in milliseconds; at most twice the delay, either way.</summary>
     internal double AsymmetryMilliseconds { get; init; }
 
     /// <summary>How far the clocks of clients are ahead of the host's, in milliseconds, up to an hour either way.</summary>

@@ -106,7 +106,8 @@ internal sealed class Pane
     }
 
     /// <summary>The hand moves; see <see cref="HandOfPerson.Move"/>.</summary>
-    internal ExternalEvent? MoveHand(double x, double y, double velocityX, double velocityY) => hand.Move(display, x, y, velocityX, velocityY);
+    internal ExternalEvent? MoveHand(double x, double y, double velocityX, double velocityY) =>
+        hand.Move(display, x, y, velocityX, velocityY);
 
     /// <summary>The hand lets go; see <see cref="HandOfPerson.Release"/>.</summary>
     internal ExternalEvent? Release(double velocityX, double velocityY) => hand.Release(display, velocityX, velocityY);

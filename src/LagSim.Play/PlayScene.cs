@@ -54,7 +54,8 @@ internal sealed class PlayScene
     internal (double X, double Y) ToView(in Vector3D place) => isFromAbove ? (place.X, -place.Z) : (place.X, place.Y);
 
     /// <summary>The place at a point of the view; as deep in the view as <paramref name="like"/>.</summary>
-    internal Vector3D FromView(double x, double y, in Vector3D like) => isFromAbove ? new Vector3D(x, like.Y, -y) : new Vector3D(x, y, like.Z);
+    internal Vector3D FromView(double x, double y, in Vector3D like) =>
+        isFromAbove ? new Vector3D(x, like.Y, -y) : new Vector3D(x, y, like.Z);
 
     /// <summary>Sixteen balls of three sizes above the floor of a walled room.</summary>
     private static Scene Room()

@@ -4,7 +4,6 @@ using System.Globalization;
 using System.Linq;
 using System.Text;
 using LagSim.Net.Strategies;
-using LagSim.Testing.Links;
 
 namespace LagSim.Play;
 
@@ -22,8 +21,12 @@ internal sealed record PlaySetup
         new("jitter", 0, 500, s => s.Link.JitterMilliseconds, (s, v) => s with { Link = s.Link with { JitterMilliseconds = v } }),
         new("loss", 0, 50, s => s.Link.LossPercent, (s, v) => s with { Link = s.Link with { LossPercent = v } }),
         new("burst", 1, 20, s => s.Link.MeanBurstLength, (s, v) => s with { Link = s.Link with { MeanBurstLength = v } }),
-        new("asymmetry", -4000, 4000, s => s.Link.AsymmetryMilliseconds, (s, v) => s with { Link = s.Link with { AsymmetryMilliseconds = v } }),
-        new("clock", -3.6e6, 3.6e6, s => s.Link.ClockOffsetMilliseconds, (s, v) => s with { Link = s.Link with { ClockOffsetMilliseconds = v } }),
+        new(
+            "asymmetry", -4000, 4000, s => s.Link.AsymmetryMilliseconds,
+            (s, v) => s with { Link = s.Link with { AsymmetryMilliseconds = v } }),
+        new(
+            "clock", -3.6e6, 3.6e6, s => s.Link.ClockOffsetMilliseconds,
+            (s, v) => s with { Link = s.Link with { ClockOffsetMilliseconds = v } }),
         new("ahead", 20, 2000, s => s.LookAheadMilliseconds, (s, v) => s with { LookAheadMilliseconds = v }),
         new("lag", 0, 500, s => s.LocalLagMilliseconds, (s, v) => s with { LocalLagMilliseconds = v }),
         new("smooth", 0, 1, s => s.IsSmooth ? 1 : 0, (s, v) => s with { IsSmooth = v != 0 }),
@@ -66,10 +69,9 @@ internal sealed record PlaySetup
             setup = name switch
             {
                 "scene" => setup with { Scene = OneOf(name, value, PlayScene.Names) },
-                "link" => setup with { Link = setup.Link with { Profile = OneOf(name, value, [LinkSettings.Custom, .. LinkProfiles.Names]) } },
+                "link" => setup with { Link = setup.Link with { Profile = OneOf(name, value, LinkSettings.Names) } },
                 "panes" => setup with { Strategies = Panes(value) },
-                _ => Array.Find(Numbers, n => n.Name == name) is Number number ? number.Read(setup, value)
-                    : throw new FormatException($"'{name}' is no part of a set-up; there are scene, link, panes, {string.Join(", ", Numbers.Select(n => n.Name))}."),
+                _ => NumberNamed(name).Read(setup, value),
             };
         }
 
@@ -95,17 +97,25 @@ internal sealed record PlaySetup
         return query.ToString();
     }
 
-    /// <summary>The name of a strategy, as the tool and links have it.</summary>
-    internal static string NameOf(LateEventStrategy strategy) => LateEventStrategies.Names.First(name => LateEventStrategies.OfName(name) == strategy);
+    /// <summary>The names of the strategies, as the tool and links have them, the simplest first.</summary>
+    internal static IReadOnlyList<string> StrategyNames => LateEventStrategies.Names;
+
+    /// <summary>The name of a strategy.</summary>
+    internal static string NameOf(LateEventStrategy strategy) =>
+        StrategyNames.First(name => LateEventStrategies.OfName(name) == strategy);
+
+    private static Number NumberNamed(string name) => Array.Find(Numbers, number => number.Name == name) ?? throw new FormatException(
+        $"'{name}' is no part of a set-up; there are scene, link, panes, {string.Join(", ", Numbers.Select(number => number.Name))}.");
 
     private static string OneOf(string name, string value, IReadOnlyList<string> allowed) =>
-        allowed.Contains(value) ? value : throw new FormatException($"'{name}' is '{value}'; it must be one of {string.Join(", ", allowed)}.");
+        allowed.Contains(value) ? value
+            : throw new FormatException($"'{name}' is '{value}'; it must be one of {string.Join(", ", allowed)}.");
 
     private static LateEventStrategy[] Panes(string value)
     {
         string[] names = value.Split(',');
         return names.Length is >= 2 and <= MaxPanes
-            ? [.. names.Select(name => LateEventStrategies.OfName(OneOf("panes", name, LateEventStrategies.Names)))]
+            ? [.. names.Select(name => LateEventStrategies.OfName(OneOf("panes", name, StrategyNames)))]
             : throw new FormatException($"'panes' names {names.Length} strategies; there are 2 to {MaxPanes} panes.");
     }
 
@@ -115,7 +125,8 @@ internal sealed record PlaySetup
         {
             throw new FormatException(string.Create(
                 CultureInfo.InvariantCulture,
-                $"'asymmetry' is {Link.AsymmetryMilliseconds} ms; with a delay of {Link.DelayMilliseconds} ms it can be {2 * Link.DelayMilliseconds} ms at most, either way."));
+                $"'asymmetry' is {Link.AsymmetryMilliseconds} ms; with a delay of {Link.DelayMilliseconds} ms it can be"
+                    + $" {2 * Link.DelayMilliseconds} ms at most, either way."));
         }
 
         try
@@ -129,11 +140,13 @@ internal sealed record PlaySetup
     }
 
     /// <summary>A number of a set-up: its name in a link, its range, and how it is read and written.</summary>
-    private sealed record Number(string Name, double Least, double Most, Func<PlaySetup, double> Get, Func<PlaySetup, double, PlaySetup> Set)
+    private sealed record Number(
+        string Name, double Least, double Most, Func<PlaySetup, double> Get, Func<PlaySetup, double, PlaySetup> Set)
     {
         internal PlaySetup Read(PlaySetup setup, string text) =>
             double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out double value) && value >= Least && value <= Most
                 ? Set(setup, value)
-                : throw new FormatException(string.Create(CultureInfo.InvariantCulture, $"'{Name}' is '{text}'; it must be a number from {Least} to {Most}."));
+                : throw new FormatException(string.Create(
+                    CultureInfo.InvariantCulture, $"'{Name}' is '{text}'; it must be a number from {Least} to {Most}."));
     }
 }

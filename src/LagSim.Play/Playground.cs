@@ -48,11 +48,12 @@ internal sealed class Playground
 
         Session host = panes[0].Session;
         WaitEnd end = run.RunUntil(
-            () => panes.All(p => p.Session is { State: SessionState.Running, World: not null }), () => panes.Any(p => p.Session.State == SessionState.Ended), Timeout);
+            () => panes.All(pane => pane.Session is { State: SessionState.Running, World: not null }),
+            () => panes.Any(pane => pane.Session.State == SessionState.Ended), Timeout);
         if (end != WaitEnd.Met)
         {
-            throw new InvalidOperationException(
-                $"Not every peer got in over that link: {string.Join("; ", panes.Select(p => $"pane {p.Number + 1} is {p.Session.State}. {p.Session.EndReason}"))}");
+            IEnumerable<string> states = panes.Select(pane => $"player {pane.Number + 1} is {pane.Session.State}. {pane.Session.EndReason}");
+            throw new InvalidOperationException($"Not every player got in over that link: {string.Join("; ", states)}");
         }
 
         truth = new Truth(Scene.Scene, host.World!.Simulation.Start);
@@ -114,7 +115,8 @@ internal sealed class Playground
     /// <param name="y">Where it is, in metres of the view.</param>
     /// <param name="velocityX">How fast it moves, in metres a second of the worlds.</param>
     /// <param name="velocityY">How fast it moves, in metres a second of the worlds.</param>
-    internal void MoveHand(int pane, double x, double y, double velocityX, double velocityY) => Note(panes[pane].MoveHand(x, y, velocityX, velocityY));
+    internal void MoveHand(int pane, double x, double y, double velocityX, double velocityY) =>
+        Note(panes[pane].MoveHand(x, y, velocityX, velocityY));
 
     /// <summary>The hand of a pane lets go, and throws at that velocity.</summary>
     internal void Release(int pane, double velocityX, double velocityY) => Note(panes[pane].Release(velocityX, velocityY));
@@ -146,14 +148,13 @@ internal sealed class Playground
             window = window.WithLocalLag(kind, SimDuration.FromMilliseconds(Setup.LocalLagMilliseconds));
         }
 
+        HostOptions host = new() { Window = window, Strategy = strategy, ExpectedClients = Setup.Strategies.Count - 1, Warmup = false };
+        ClientOptions client = new() { Window = window, Strategy = strategy, Warmup = false };
         (Session session, int place) = run.Open(
             number, link, 0, link?.ReceiverClockOffset ?? SimDuration.Zero,
             (port, clock) => number == 0
-                ? new HostSession(
-                    Scene.Scene, port, clock,
-                    new HostOptions { Window = window, Strategy = strategy, ExpectedClients = Setup.Strategies.Count - 1, Warmup = false }, Setup.Seed)
-                : new ClientSession(
-                    null, port, clock, new ClientOptions { Window = window, Strategy = strategy, Warmup = false }, VirtualRun.HostAddress, Setup.Seed + (ulong)number));
+                ? new HostSession(Scene.Scene, port, clock, host, Setup.Seed)
+                : new ClientSession(null, port, clock, client, VirtualRun.HostAddress, Setup.Seed + (ulong)number));
         panes.Add(new Pane(number, session, strategy, Scene, Setup.IsSmooth, () => run.Steps.Wake(place)));
     }
 

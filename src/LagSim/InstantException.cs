@@ -18,6 +18,6 @@ internal sealed class InstantException : Exception
     /// <summary>The instant.</summary>
     internal SimTime At { get; }
 
-    /// <summary>That with which it ends the simulation, where nothing can remove the cause any more: with the same sentence and cause.</summary>
+    /// <summary>That with which it ends the simulation, where nothing can remove the cause any more: the same sentence and cause.</summary>
     internal SimulationException AsEnd() => new(Message, InnerException!);
 }

@@ -35,7 +35,6 @@ internal class RuleCaller
     private readonly List<RuleRead> spare = new();
     private readonly RunningRuleCall? running;
     private StateVersion? loaded; // what the memory holds
-    private SimTime edge = SimTime.MinValue; // what lies before can no longer change
 
     /// <summary>Calls these rules in one world.</summary>
     internal RuleCaller(
@@ -55,11 +54,7 @@ internal class RuleCaller
     internal long Made { get; private set; }
 
     /// <summary>Forgets calls before a time, which can no longer change.</summary>
-    internal void DropBefore(SimTime time)
-    {
-        edge = time;
-        log.DropBefore(time);
-    }
+    internal void DropBefore(SimTime edge) => log.DropBefore(edge);
 
     /// <summary>Deals with the call that is next. What follows from it is scheduled.</summary>
     /// <exception cref="InstantException">The rules failed.</exception>
@@ -215,7 +210,7 @@ internal class RuleCaller
             return;
         }
 
-        log.DropAllBefore(edge);
+        log.DropAllBefore(view.HistoryEdge);
         if (log.Position >= MaxCalls)
         {
             throw Failed(call, $"it is one more than the {MaxCalls} that may lie within the history", null);
@@ -224,8 +219,8 @@ internal class RuleCaller
         if (log.StateBytes > MaxStateBytes)
         {
             throw Failed(
-                call, $"the states after the {log.Position} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}: each that"
-                    + " changes something is kept as a copy of all", null);
+                call, $"the states after the {log.Position} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}:"
+                    + " each that changes something is kept as a copy of all", null);
         }
     }
 

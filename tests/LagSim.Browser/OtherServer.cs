@@ -1,7 +1,7 @@
 using System;
+using System.ComponentModel;
 using System.Diagnostics;
-using System.Net;
-using System.Net.Sockets;
+using System.Text.RegularExpressions;
 using System.Threading.Tasks;
 using Xunit;
 
@@ -22,38 +22,21 @@ internal sealed class OtherServer : IAsyncDisposable
 
     internal static async Task<OtherServer> StartAsync(string folder)
     {
-        int port = FreePort();
-        Process process;
         try
         {
-            process = Process.Start(new ProcessStartInfo("python3")
+            Process process = Process.Start(new ProcessStartInfo("python3")
             {
-                ArgumentList = { "-m", "http.server", $"{port}", "--bind", "127.0.0.1", "--directory", folder },
-                RedirectStandardError = true,
+                ArgumentList = { "-u", "-m", "http.server", "0", "--bind", "127.0.0.1", "--directory", folder },
                 RedirectStandardOutput = true,
             })!;
+            string said = await process.StandardOutput.ReadLineAsync() ?? ""; // "Serving HTTP on 127.0.0.1 port N (http://127.0.0.1:N/) ..."
+            return new OtherServer(process, Regex.Match(said, @"\((http:[^)]+)\)").Groups[1].Value);
         }
-        catch (System.ComponentModel.Win32Exception)
+        catch (Win32Exception)
         {
             Assert.Skip("There is no python3 here.");
             throw;
         }
-
-        for (int n = 0; n < 100; n++)
-        {
-            try
-            {
-                using TcpClient asks = new();
-                await asks.ConnectAsync(IPAddress.Loopback, port);
-                break;
-            }
-            catch (SocketException)
-            {
-                await Task.Delay(100);
-            }
-        }
-
-        return new OtherServer(process, $"http://127.0.0.1:{port}/");
     }
 
     public async ValueTask DisposeAsync()
@@ -61,12 +44,5 @@ internal sealed class OtherServer : IAsyncDisposable
         process.Kill();
         await process.WaitForExitAsync();
         process.Dispose();
-    }
-
-    private static int FreePort()
-    {
-        using TcpListener free = new(IPAddress.Loopback, 0);
-        free.Start();
-        return ((IPEndPoint)free.LocalEndpoint).Port;
     }
 }

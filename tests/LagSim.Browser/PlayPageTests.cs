@@ -141,6 +141,26 @@ public sealed class PlayPageTests(ServedPage served)
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(
             served, "panes=healing,none", new() { ViewportSize = new() { Width = 1200, Height = 900 }, ColorScheme = theme, ReducedMotion = ReducedMotion.Reduce });
+        Assert.Empty(await Pale(page));
+        await page.Page.EvaluateAsync(
+            "() => { document.querySelector('h1').style.color = getComputedStyle(document.documentElement).backgroundColor }");
+        Assert.Equal(["H1 LagSim"], await Pale(page)); // the control
+    }
+
+    [Fact]
+    public async Task Folder_ServedByAnotherServer_PlaysAsWell()
+    {
+        string folder = System.IO.Path.Combine(ServedPage.Root, "src/LagSim.Play.Browser/bin/page/wwwroot");
+        await using OtherServer other = await OtherServer.StartAsync(folder);
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=50", address: other.Address);
+        await page.ThrowAsync(0, 5, 40, -60);
+        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
+        await page.AgreeAsync(2);
+    }
+
+    /// <summary>The texts that stand out too little from what is behind them: by less than 4.5 to 1, as WCAG 2 measures it.</summary>
+    private static async Task<string[]> Pale(OpenedPage page)
+    {
         string[] pale = await page.Page.EvaluateAsync<string[]>(
             """
             () => {
@@ -163,17 +183,6 @@ public sealed class PlayPageTests(ServedPage served)
               }).map(e => `${e.tagName} ${e.innerText.slice(0, 30)}`)
             }
             """);
-        Assert.True(pale.Length == 0, string.Join("; ", pale.Distinct()));
-    }
-
-    [Fact]
-    public async Task Folder_ServedByAnotherServer_PlaysAsWell()
-    {
-        string folder = System.IO.Path.Combine(ServedPage.Root, "src/LagSim.Play.Browser/bin/page/wwwroot");
-        await using OtherServer other = await OtherServer.StartAsync(folder);
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=50", address: other.Address);
-        await page.ThrowAsync(0, 5, 40, -60);
-        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
-        await page.AgreeAsync(2);
+        return [.. pale.Distinct()];
     }
 }

@@ -23,7 +23,10 @@ internal static class PlayCommand
             HelpName = "ADDRESS",
         };
         Option<bool> quiet = new("--no-browser") { Description = "Only print the address; do not open it." };
-        Command command = new("play", "Opens a page in which you throw a ball in one of several worlds, and see what lag does to the others.") { port, address, quiet };
+        Command command = new("play", "Opens a page in which you throw a ball in one of several worlds, and see what lag does to the others.")
+        {
+            port, address, quiet,
+        };
         command.SetAction(parsed =>
         {
             IPEndPoint local = new(EndPointText.ParseLocal("--address", parsed.GetValue(address)!), parsed.GetValue(port));

@@ -29,7 +29,8 @@ internal static class PageFolder
         }
 
         string project = Source()
-            ?? throw new InputException($"The page is not beside this tool ({beside}), and it does not run from a clone, in which it could build it.");
+            ?? throw new InputException(
+                $"The page is not beside this tool ({beside}), and it does not run from a clone, in which it could build it.");
         string output = Path.Combine(Path.GetDirectoryName(project)!, "bin", "page");
         await log.WriteLineAsync("building the page; the first time it takes about a minute");
         using (await LockAsync(output + ".lock", stop))
@@ -81,10 +82,8 @@ internal static class PageFolder
             RedirectStandardError = true,
             WorkingDirectory = Path.GetDirectoryName(project)!,
         };
-        foreach (string inherited in how.Environment.Keys.Where(name => name.StartsWith("MSBUILD", StringComparison.OrdinalIgnoreCase)).ToArray())
-        {
-            how.Environment.Remove(inherited); // of the `dotnet run` that this may be in
-        }
+        string[] inherited = [.. how.Environment.Keys.Where(name => name.StartsWith("MSBUILD", StringComparison.OrdinalIgnoreCase))];
+        Array.ForEach(inherited, name => how.Environment.Remove(name)); // of the `dotnet run` that this may be in
 
         using Process build = Process.Start(how)!;
         Task<string> said = build.StandardOutput.ReadToEndAsync(stop), complained = build.StandardError.ReadToEndAsync(stop);
@@ -100,8 +99,10 @@ internal static class PageFolder
 
         if (build.ExitCode != 0)
         {
-            string[] lines = [.. $"{await said}\n{await complained}".Split('\n', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries)];
-            throw new InputException($"The page cannot be built: dotnet publish ended with {build.ExitCode}.\n{string.Join('\n', lines.TakeLast(LinesOfAFailure))}");
+            string all = $"{await said}\n{await complained}";
+            string[] lines = all.Split('\n', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
+            string last = string.Join('\n', lines.TakeLast(LinesOfAFailure));
+            throw new InputException($"The page cannot be built: dotnet publish ended with {build.ExitCode}.\n{last}");
         }
     }
 }

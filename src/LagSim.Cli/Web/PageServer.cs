@@ -20,12 +20,15 @@ namespace LagSim.Cli.Web;
 internal sealed class PageServer : IAsyncDisposable
 {
     // WebAssembly is compiled in the page, which needs a word of its own; nothing else may come from anywhere but here.
-    private const string Policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src 'self' data:;"
-        + " frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+    private const string Policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline';"
+        + " img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+
+    private const string Compressed = ".br";
 
     private const string Waiting = """
-        <!doctype html><html lang="en"><meta charset="utf-8"><meta http-equiv="refresh" content="1"><meta name="color-scheme" content="light dark">
-        <title>LagSim</title><p style="font: 1rem system-ui; margin: 4rem; text-align: center">The page is being built. The first time it takes about a minute.</p></html>
+        <!doctype html><html lang="en"><meta charset="utf-8"><meta http-equiv="refresh" content="1">
+        <meta name="color-scheme" content="light dark"><title>LagSim</title>
+        <p style="font: 1rem system-ui; margin: 4rem; text-align: center">The page is being built. The first time it takes about a minute.</p></html>
         """;
 
     private readonly WebApplication application;
@@ -77,9 +80,11 @@ internal sealed class PageServer : IAsyncDisposable
     {
         FileExtensionContentTypeProvider types = new();
         types.Mappings[".mjs"] = "text/javascript";
+        types.Mappings[Compressed] = "application/octet-stream"; // replaced by what is inside
+        PhysicalFileProvider provider = new(folder);
         ApplicationBuilder pipeline = new(application.Services);
-        pipeline.Use((context, next) => TakeCompressed(context, next, folder, types));
-        pipeline.UseStaticFiles(new StaticFileOptions { FileProvider = new PhysicalFileProvider(folder), ContentTypeProvider = types, ServeUnknownFileTypes = false });
+        pipeline.Use((context, next) => TakeCompressed(context, next, provider, types));
+        pipeline.UseStaticFiles(new StaticFileOptions { FileProvider = provider, ContentTypeProvider = types });
         pipeline.Run(context =>
         {
             context.Response.StatusCode = StatusCodes.Status404NotFound;
@@ -120,15 +125,13 @@ internal sealed class PageServer : IAsyncDisposable
     }
 
     /// <summary>Files were compressed when the page was built: who takes them so gets them so.</summary>
-    private static Task TakeCompressed(HttpContext context, RequestDelegate next, string folder, FileExtensionContentTypeProvider types)
+    private static Task TakeCompressed(HttpContext context, RequestDelegate next, IFileProvider provider, IContentTypeProvider types)
     {
         string path = context.Request.Path.Value ?? "";
         bool isTaken = context.Request.Headers.AcceptEncoding.ToString().Contains("br", StringComparison.Ordinal);
-        if (isTaken && types.TryGetContentType(path, out string? type)
-            && new PhysicalFileProvider(folder).GetFileInfo(path + ".br").Exists)
+        if (isTaken && types.TryGetContentType(path, out string? type) && provider.GetFileInfo(path + Compressed).Exists)
         {
-            types.Mappings[".br"] = "application/octet-stream"; // replaced below, by what is inside
-            context.Request.Path = path + ".br";
+            context.Request.Path = path + Compressed;
             context.Response.OnStarting(() =>
             {
                 context.Response.ContentType = type;

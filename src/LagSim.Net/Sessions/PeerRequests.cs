@@ -62,7 +62,7 @@ internal sealed class PeerRequests(Session session, Action wake)
         CancelAll();
     }
 
-    /// <summary>The thread is given up, and will not come back from what it does: that is completed, too, if it answers a request.</summary>
+    /// <summary>The thread is given up, and will not come back from what it does: if that answers a request, it is completed, too.</summary>
     /// <param name="why">What ended the session.</param>
     internal void GiveUp(Exception why)
     {

@@ -286,9 +286,10 @@ internal sealed class SessionRun
             int number = member.Player.Number;
             member.Trace.CompareCommitted(number, comparison);
             member.Trace.CompareWrong(number, comparison);
-            if (!member.Player.HasLeft && member.Session.World is not null && member.Session.Failure is null) // what failed is said by itself
+            bool hasWorld = member.Session.World is not null && member.Session.Failure is null; // a failure is said by itself
+            if (!member.Player.HasLeft && hasWorld)
             {
-                comparison.Take(number, member.Session.World.Simulation);
+                comparison.Take(number, member.Session.World!.Simulation);
             }
         }
 

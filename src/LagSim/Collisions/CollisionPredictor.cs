@@ -11,7 +11,8 @@ namespace LagSim.Collisions;
 /// <summary>When a body's newest segment next meets a static surface or another's path.</summary>
 /// <remarks>
 /// A pure function of the segments, with the two bodies ordered by identity. It does not depend on the time of day, on which body asks
-/// first, or on other queries.
+/// first, or on other queries. Of an instant before the edge of the history, whose segments may be gone, it gives what it gave when they
+/// were there.
 /// </remarks>
 internal sealed class CollisionPredictor(
     Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, SegmentLookup view, MemberContacts members, StrikeCounts strikes,
@@ -80,8 +81,7 @@ internal sealed class CollisionPredictor(
             bool isElastic = Math.Min(bodies.Spec(slot).Restitution, surfaces.Restitution(surface)) >= 1;
             SimDuration wait = WaitFor(closing, segment.IsOfIsland && members.Holds(last, surface), isElastic);
             if (wait < ContactTime.Soon
-                && !HasWaited(opened)
-                && !MayWait(closing, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.On(last, surface, opened) : 0, round))
+                && !MayWait(closing, opened, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.On(last, surface, opened) : 0, round))
             {
                 return true;
             }
@@ -221,8 +221,8 @@ internal sealed class CollisionPredictor(
             SimDuration wait = WaitFor(
                 closing, members.HoldTogether(a, lastA, b, lastB), Math.Min(bodies.Spec(a).Restitution, bodies.Spec(b).Restitution) >= 1);
             if (wait < ContactTime.Soon
-                && !HasWaited(opened)
-                && !MayWait(closing, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.Between(lastA, lastB, opened) : 0, round))
+                && !MayWait(
+                    closing, opened, closing.Speed <= StrikeCounts.CollapseSpeed ? strikes.Between(lastA, lastB, opened) : 0, round))
             {
                 return true;
             }
@@ -294,16 +294,11 @@ internal sealed class CollisionPredictor(
     /// <summary>
     /// Whether what closes in the instant in which it was struck may wait: rounding after one impact, and what a collapse has left, or
     /// would have ended if one were possible. In the round of the first collapse it may not, however slow it is: that is what ends it.
+    /// An instant before the edge of the history is over, and what still closes there did wait, or it would be on another path. How often
+    /// it was struck then may be forgotten, and a world that goes on from a snapshot never knew it.
     /// </summary>
-    private static bool MayWait(in Closing closing, int strikes, uint round) =>
-        closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound;
-
-    /// <summary>
-    /// Whether two whose paths were opened at an instant waited in it, because it lies before the edge of the history: if they had not,
-    /// they would have been struck then, and would be on other paths. How often they were struck in it may be forgotten, and a world that
-    /// goes on from a snapshot never knew it.
-    /// </summary>
-    private bool HasWaited(SimTime opened) => opened < timelines.Edge;
+    private bool MayWait(in Closing closing, SimTime opened, int strikes, uint round) =>
+        opened < timelines.Edge || (closing.IsRounding ? strikes > 0 : strikes > 1 && round > CollapseRound);
 
     /// <summary>
     /// Whether a body closes on a surface that is no further off than places are rounded. No path can resolve the instant, so it is this

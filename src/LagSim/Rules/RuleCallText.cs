@@ -31,7 +31,8 @@ internal static class RuleCallText
         EventKind.Timer => $" for timer {unchecked((int)key.Sequence)}",
         EventKind.Impact => $" for {scene.Describe(trigger.Contact.First)} and {Other(scene, trigger.Contact)}",
         EventKind.Crossing =>
-            $" for {scene.Describe(key.Body)}, which {(trigger.Entered ? "enters" : "leaves")} '{scene.SensorArray[unchecked((int)key.Sequence)].Name}'",
+            $" for {scene.Describe(key.Body)}, which {(trigger.Entered ? "enters" : "leaves")}"
+                + $" '{scene.SensorArray[unchecked((int)key.Sequence)].Name}'",
         _ => $" for {scene.Describe(key.Body)}",
     };
 

@@ -273,7 +273,8 @@ internal class RuleLog : IRuleTriggers
         }
     }
 
-    /// <summary>Forgets calls before a time, which can no longer change, once they are an eighth of all: what stays has to be moved.</summary>
+    /// <summary>Forgets calls before a time, which can no longer change, once they are an eighth of all: the rest has to be
+    /// moved.</summary>
     internal void DropBefore(SimTime edge)
     {
         if (Position > 0 && calls[Position / 8].Key.Time < edge)

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
+using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim.Rules;
@@ -16,6 +17,9 @@ namespace LagSim.Rules;
 internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore timelines, CrossingLog? crossings)
 {
     private readonly Paths paths = new(timelines);
+
+    /// <summary>What lies before this can no longer change.</summary>
+    internal SimTime HistoryEdge => timelines.Edge;
 
     /// <summary>Reads a body, as it is right after an event.</summary>
     internal RuleRead ReadBody(BodyId body, in EventKey after)

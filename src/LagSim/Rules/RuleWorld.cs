@@ -102,8 +102,8 @@ public sealed class RuleWorld
         return ref memory.World<T>();
     }
 
-    /// <summary>The state of a body that is there, or that this call hears to have been removed, to read and to write; all zero at first. The
-    /// reference is valid during the call.</summary>
+    /// <summary>The state of a body that is there, or that this call hears to have been removed, to read and to write; all zero at first.
+    /// The reference is valid during the call.</summary>
     /// <typeparam name="T">The type that the rules declared by <see cref="GameRules.WithBodyState"/>.</typeparam>
     /// <exception cref="RuleException">They declared another or none, the body is not there, or too many bodies have a state.</exception>
     public ref T State<T>(BodyId body)
@@ -166,7 +166,8 @@ public sealed class RuleWorld
         CheckCalled();
         if (sensor < 0 || sensor >= Scene.SensorArray.Length)
         {
-            throw new RuleException($"Sensor {sensor} is asked for; the scene has {Limits.Count(Scene.SensorArray.Length, "sensor", "sensors")}, numbered from 0.");
+            string there = Limits.Count(Scene.SensorArray.Length, "sensor", "sensors");
+            throw new RuleException($"Sensor {sensor} is asked for; the scene has {there}, numbered from 0.");
         }
 
         RuleRead read = view.ReadSensor(body, sensor, key);

@@ -27,7 +27,8 @@ internal static class CheckSession
         }
         catch (Exception thrown) when (thrown is not OperationCanceledException and not OutOfMemoryException)
         {
-            string? place = Array.Find((thrown.GetBaseException().StackTrace ?? "").Split('\n'), line => line.Contains(" LagSim.", StringComparison.Ordinal))?.Trim();
+            string[] stack = (thrown.GetBaseException().StackTrace ?? "").Split('\n');
+            string? place = Array.Find(stack, line => line.Contains(" LagSim.", StringComparison.Ordinal))?.Trim();
             failure = $"{thrown.GetType().Name}: {thrown.Message} ({place})";
         }
 
