@@ -30,6 +30,7 @@ internal static class Program
         ["large"] = LargeTable.Print,
         ["build"] = BuildTable.Print,
         ["way"] = EventWayTable.Print,
+        ["carriers"] = CarrierTable.Print,
     };
 
     /// <summary>Benchmarks, or with the name of a table that table; <c>brief</c> after it for a run of seconds whose figures say little; <c>tables</c> for all but traffic.</summary>

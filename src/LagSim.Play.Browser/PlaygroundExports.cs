@@ -65,10 +65,6 @@ internal static partial class PlaygroundExports
             json.WriteStartObject();
             json.WriteString("query", playground.Setup.ToQuery());
             json.WriteString("scene", playground.Setup.Scene);
-            json.WriteNumber("left", view.Left);
-            json.WriteNumber("bottom", view.Bottom);
-            json.WriteNumber("right", view.Right);
-            json.WriteNumber("top", view.Top);
             json.WriteStartArray("bodies");
             foreach (SceneBody body in view.Scene.Bodies)
             {
@@ -79,25 +75,7 @@ internal static partial class PlaygroundExports
             }
 
             json.WriteEndArray();
-            json.WriteStartArray("lines");
-            foreach (StaticPlane plane in view.Scene.Planes)
-            {
-                (double x, double y) = view.ToView(plane.Normal);
-                if ((x * x) + (y * y) > 0.5)
-                {
-                    WriteNumbers(json, x, y, plane.Offset);
-                }
-            }
-
-            json.WriteEndArray();
-            json.WriteStartArray("discs");
-            foreach (StaticSphere sphere in view.Scene.StaticSpheres)
-            {
-                (double x, double y) = view.ToView(sphere.Centre);
-                WriteNumbers(json, x, y, sphere.Radius);
-            }
-
-            json.WriteEndArray();
+            SceneJson.WriteView(json, view);
             WriteStrings(json, "panes", [.. playground.Panes.Select(p => PlaySetup.NameOf(p.Strategy))]);
             WriteStrings(json, "scenes", [.. PlayScene.Names]);
             WriteStrings(json, "strategies", [.. PlaySetup.StrategyNames.Reverse()]);
@@ -164,17 +142,6 @@ internal static partial class PlaygroundExports
 
     [JSImport("takeFrame", "page")]
     private static partial void TakeFrame([JSMarshalAs<JSType.MemoryView>] Span<double> frame);
-
-    private static void WriteNumbers(Utf8JsonWriter json, params ReadOnlySpan<double> values)
-    {
-        json.WriteStartArray();
-        foreach (double value in values)
-        {
-            json.WriteNumberValue(value);
-        }
-
-        json.WriteEndArray();
-    }
 
     private static void WriteStrings(Utf8JsonWriter json, string name, string[] values)
     {

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 
@@ -50,12 +51,33 @@ internal sealed class PlayScene
         _ => throw new ArgumentException($"There is no scene '{name}'; there are {string.Join(", ", Names)}."),
     };
 
+    /// <summary>Any scene, as it is best looked at: from above if its bodies lie on a floor, and so much of it as its bodies are in.</summary>
+    internal static PlayScene Of(Scene scene)
+    {
+        foreach (string name in Names)
+        {
+            if (Named(name) is PlayScene known && known.Scene.Hash == scene.Hash)
+            {
+                return known;
+            }
+        }
+
+        Vector3D[] places = [.. scene.Bodies.Select(body => body.Position)];
+        double margin = scene.Bodies.Select(body => 3 * body.Spec.Radius).Append(1).Max();
+        (double low, double high) x = Span(places, place => place.X, margin), y = Span(places, place => place.Y, margin), z = Span(places, place => place.Z, margin);
+        bool isFromAbove = z.high - z.low > y.high - y.low;
+        return isFromAbove ? new PlayScene(scene, true, x.low, -z.high, x.high, -z.low) : new PlayScene(scene, false, x.low, y.low, x.high, y.high);
+    }
+
     /// <summary>Where a place is drawn.</summary>
     internal (double X, double Y) ToView(in Vector3D place) => isFromAbove ? (place.X, -place.Z) : (place.X, place.Y);
 
     /// <summary>The place at a point of the view; as deep in the view as <paramref name="like"/>.</summary>
     internal Vector3D FromView(double x, double y, in Vector3D like) =>
         isFromAbove ? new Vector3D(x, like.Y, -y) : new Vector3D(x, y, like.Z);
+
+    private static (double Low, double High) Span(Vector3D[] places, Func<Vector3D, double> along, double margin) =>
+        places.Length == 0 ? (-margin, margin) : (places.Min(along) - margin, places.Max(along) + margin);
 
     /// <summary>Sixteen balls of three sizes above the floor of a walled room.</summary>
     private static Scene Room()

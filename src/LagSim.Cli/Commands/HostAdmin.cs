@@ -85,7 +85,7 @@ internal sealed class HostAdmin
             case "kick":
                 return host.Kick(player) ? $"Player {player} is disconnected." : $"There is no player {player}.";
             case "ban":
-                string? from = host.Links.Where(link => link.Peer == player).Select(link => link.Address.ToEndPoint().Address.ToString()).FirstOrDefault();
+                string? from = host.Links.Where(link => link.Peer == player).Select(link => link.Address.ToIPAddress().ToString()).FirstOrDefault();
                 if (from is null || host.Ban(player) is not PeerAddress its)
                 {
                     return $"There is no player {player}.";

@@ -3,6 +3,7 @@ using System.CommandLine;
 using System.Linq;
 using System.Net;
 using LagSim.Cli.Output;
+using LagSim.Cli.Web;
 using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
@@ -20,6 +21,7 @@ internal static class HostCommand
     {
         CommonOptions common = new();
         SessionArguments shared = new();
+        WebOptions web = new();
         Option<string> scene = new("--scene") { Description = CommonOptions.SceneText, HelpName = "SCENE", Required = true };
         Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 picks a free one", 0, 0, 65535);
         Option<string> address = new("--address")
@@ -59,6 +61,7 @@ internal static class HostCommand
             scene, port, address, clients, history, early, perAddress, budget, identity, tokens, unprotected, admin,
         };
         shared.AddTo(command);
+        web.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
@@ -85,13 +88,19 @@ internal static class HostCommand
             }
 
             request = request with { Options = options };
-            using UdpPort carrier = new(new IPEndPoint(local, parsed.GetValue(port)));
-            HostSession session = Open(loaded, carrier, options);
+            using UdpPort udp = new(new IPEndPoint(local, parsed.GetValue(port)));
+            WebRequest? browsers = web.Read(parsed);
+            using WebSocketHostPort? sockets = browsers is null ? null : new WebSocketHostPort();
+            CarrierInUse carrier = sockets is null ? CarrierInUse.Of(udp) : CarrierInUse.Of(udp, sockets);
+            HostSession session = Open(loaded, carrier.Port, options);
+            using HostPage? page = browsers is null ? null
+                : OpenPage(new SessionDoor(sockets!, loaded, self?.Fingerprint, options.ConnectKey.Length > 0), browsers, local, console);
             bool json = parsed.GetValue(common.Json);
-            int udpPort = carrier.LocalAddress.ToEndPoint().Port;
+            int udpPort = udp.LocalAddress.ToEndPoint().Port;
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
                 ListeningOn = new IPEndPoint(local, udpPort).ToString(),
+                Page = page?.Address,
                 Addresses = self is null ? [] : [.. ReachableAddresses.Of(local)
                     .Select(reachable => new HostAddress(reachable.ToString(), udpPort, self.Fingerprint).ToString())],
             };
@@ -99,6 +108,11 @@ internal static class HostCommand
             foreach (string reachable in printer.Addresses)
             {
                 printer.Line(reachable);
+            }
+
+            if (page is not null)
+            {
+                TellPage(page, printer, json);
             }
 
             if (self is null)
@@ -116,6 +130,18 @@ internal static class HostCommand
             return runner.Run();
         });
         return command;
+    }
+
+    private static HostPage OpenPage(SessionDoor door, WebRequest browsers, IPAddress local, ToolConsole console) => HostPage.Start(
+        door, new IPEndPoint(local, browsers.Port), ReachableAddresses.Of(local), browsers.Origins, browsers.Certificate, console.Error, console.Stop);
+
+    private static void TellPage(HostPage page, SessionPrinter printer, bool json)
+    {
+        printer.Line($"browsers join at {page.Address}");
+        foreach (string row in json ? [] : page.Picture())
+        {
+            printer.Line(row);
+        }
     }
 
     /// <exception cref="UsageException">The options contradict each other.</exception>
@@ -141,7 +167,7 @@ internal static class HostCommand
         : TokenKey.TryParse(text, out TokenKey? key) ? key
         : throw new UsageException($"--tokens is '{text}'; it must be the public key of an issuer, 64 hexadecimal digits in lower case.");
 
-    private static HostSession Open(Scene scene, UdpPort carrier, HostOptions options)
+    private static HostSession Open(Scene scene, IDatagramPort carrier, HostOptions options)
     {
         try
         {

@@ -22,7 +22,7 @@ internal static class JoinCommand
         {
             Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as"
                 + " 192.168.0.7:5000, [::1]:5000 or some.name:5000, the host that answers first is trusted, and its fingerprint printed."
-                + " If a name has addresses of both kinds, IPv4 is used.",
+                + " If a name has addresses of both kinds, IPv4 is used. ws://192.168.0.7:8080 joins over a WebSocket, where UDP does not get through.",
         };
         Option<string?> token = new("--token")
         {
@@ -57,16 +57,18 @@ internal static class JoinCommand
             HostFingerprint? fingerprint = ProtectionOptions.ReadFingerprint(parsed.GetValue(host)!, out string place);
             SecureClient? protection = Protection(parsed.GetValue(unprotected), fingerprint);
             options = options with { Protection = protection, Token = Token(parsed.GetValue(token), fingerprint, console.Input) };
-            IPEndPoint there = EndPointText.Resolve(place, "join", console.Stop);
+            IPEndPoint? there = WebSocketText.Is(place) ? null : EndPointText.Resolve(place, "join", console.Stop);
             if (protection is null)
             {
                 ProtectionOptions.Warn(console);
             }
 
-            request = request with { Options = options, Host = there };
-            using UdpPort carrier = new(UdpDestination.Facing(there.Address));
-            ClientSession session = new(
-                null, carrier, new StopwatchClock(), options, PeerAddress.From(there), Session.DrawNumber());
+            request = request with { Options = options, Host = place };
+            using UdpPort? udp = there is null ? null : new UdpPort(UdpDestination.Facing(there.Address));
+            using WebSocketClientPort? socket = there is null ? new WebSocketClientPort(WebSocketText.Parse(place)) : null;
+            CarrierInUse carrier = udp is null ? CarrierInUse.Of(socket!) : CarrierInUse.Of(udp);
+            PeerAddress address = there is null ? WebSocketClientPort.Host : PeerAddress.From(there);
+            ClientSession session = new(null, carrier.Port, new StopwatchClock(), options, address, Session.DrawNumber());
             if (passFile is not null)
             {
                 PlayerPass former = options.Pass;
@@ -95,7 +97,8 @@ internal static class JoinCommand
             void TellTrustOnce(PlayerPass given)
             {
                 session.PassGiven -= TellTrustOnce;
-                HostAddress trusted = new(there.Address.ToString(), there.Port, protection!.Host!.Value);
+                HostFingerprint answered = protection!.Host!.Value;
+                string trusted = there is null ? $"{place}#{answered}" : new HostAddress(there.Address.ToString(), there.Port, answered).ToString();
                 console.Error.WriteLine(
                     $"Trusting the host that answered first. If it is the right one, join it as {trusted} from now on.");
             }

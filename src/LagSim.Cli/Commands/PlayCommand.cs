@@ -39,7 +39,7 @@ internal static class PlayCommand
     {
         try
         {
-            await using PageServer server = await PageServer.StartAsync(local, console.Stop);
+            await using PageServer server = await PageServer.StartAsync(local, "/index.html", null, console.Stop);
             console.Output.WriteLine(server.Address);
             console.Output.Flush();
             server.Serve(await PageFolder.FindAsync(console.Error, console.Stop));

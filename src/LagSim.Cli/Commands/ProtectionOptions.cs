@@ -33,6 +33,11 @@ internal static class ProtectionOptions
     internal static HostFingerprint? ReadFingerprint(string text, out string place)
     {
         text = text.Trim(); // as it was pasted
+        if (WebSocketText.Is(text))
+        {
+            return WebSocketText.ReadFingerprint(text, out place);
+        }
+
         if (!text.Contains("://", System.StringComparison.Ordinal) && !text.Contains('#', System.StringComparison.Ordinal))
         {
             place = text;

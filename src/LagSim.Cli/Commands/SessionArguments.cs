@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.CommandLine;
 using System.Globalization;
 using System.Linq;
-using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Net.Sessions;
 using LagSim.Time;
@@ -153,8 +152,8 @@ internal sealed class SessionArguments
 /// <param name="RecordFile">The file to record to; null for none.</param>
 internal sealed record SessionRequest(SessionOptions Options, IReadOnlyList<ScriptedAction> Actions, double? Seconds, string? RecordFile)
 {
-    /// <summary>The address of the host, for a client; null for a host.</summary>
-    internal IPEndPoint? Host { get; init; }
+    /// <summary>Where the host is, for a client, as the user wrote it; null for a host.</summary>
+    internal string? Host { get; init; }
 
     /// <summary>The same as <see cref="Seconds"/>.</summary>
     internal SimDuration? Length => Seconds is double seconds ? SimDuration.FromSeconds(seconds) : null;

@@ -2,7 +2,6 @@ using System;
 using System.Diagnostics;
 using System.Threading;
 using LagSim.Cli.Output;
-using LagSim.Net.Carriers;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Time;
@@ -31,7 +30,7 @@ internal sealed class SessionRunner : IDisposable
     private static readonly TimeSpan GoodbyeTime = TimeSpan.FromMilliseconds(300);
 
     private readonly Session session;
-    private readonly UdpPort port;
+    private readonly CarrierInUse carrier;
     private readonly SessionRequest request;
     private readonly SessionPrinter printer;
     private readonly CancellationToken stop;
@@ -44,10 +43,10 @@ internal sealed class SessionRunner : IDisposable
     private bool hasFailed; // for a reason other than an action
     private SimTime? timeoutEnd;
 
-    internal SessionRunner(Session session, UdpPort port, SessionRequest request, SessionPrinter printer, CancellationToken stop)
+    internal SessionRunner(Session session, CarrierInUse carrier, SessionRequest request, SessionPrinter printer, CancellationToken stop)
     {
         this.session = session;
-        this.port = port;
+        this.carrier = carrier;
         this.request = request;
         this.printer = printer;
         this.stop = stop;
@@ -61,7 +60,7 @@ internal sealed class SessionRunner : IDisposable
             recorder.Failed += why => queue.Tell(() => printer.Problem(why));
         }
 
-        thread = new PeerThread(session, port, "LagSim session");
+        thread = new PeerThread(session, carrier.Port, "LagSim session");
         thread.Session.HandlerFailed += failure =>
             queue.Tell(() => printer.Problem($"A handler of a session event failed: {failure.Message}"));
         onStop = stop.Register(queue.Wake);
@@ -122,7 +121,7 @@ internal sealed class SessionRunner : IDisposable
 
         if (session.World is not null)
         {
-            printer.Summary(session, port, recorder);
+            printer.Summary(session, carrier.Counts(), recorder);
         }
         else if (isInterrupted)
         {

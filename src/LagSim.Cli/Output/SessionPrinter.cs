@@ -4,7 +4,6 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Reports;
-using LagSim.Net.Carriers;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
@@ -45,6 +44,9 @@ internal sealed class SessionPrinter
 
     /// <summary>The address at which a host can be reached; null for a client.</summary>
     internal string? ListeningOn { get; init; }
+
+    /// <summary>The address of the page at which browsers join; null for none.</summary>
+    internal string? Page { get; init; }
 
     /// <summary>The addresses with fingerprint that clients join; none for a client, and for a session without protection.</summary>
     internal IReadOnlyList<string> Addresses { get; init; } = [];
@@ -131,26 +133,25 @@ internal sealed class SessionPrinter
     }
 
     /// <summary>Prints the summary. The session's thread must have stopped.</summary>
-    internal void Summary(Session session, UdpPort port, SessionRecorder? recorder)
+    internal void Summary(Session session, IEnumerable<(string Name, long Count)> carried, SessionRecorder? recorder)
     {
         if (json)
         {
             CommittedState? last = states.Count > 0 ? states[^1].State : null;
             JsonDocumentWriter.Write(
-                console.Output, command, seed, session.Scene!.Name, session.Scene.Hash, last?.StateHash, document => Write(document, session, port, recorder));
+                console.Output, command, seed, session.Scene!.Name, session.Scene.Hash, last?.StateHash, document => Write(document, session, carried, recorder));
         }
         else
         {
-            WriteText(session, port, recorder);
+            WriteText(session, carried, recorder);
         }
     }
 
-    private static IEnumerable<(string Name, long Count)> Counts(SessionCounters counters, UdpPort port) =>
+    private static IEnumerable<(string Name, long Count)> Counts(SessionCounters counters, IEnumerable<(string Name, long Count)> carried) =>
     [
         ("datagrams_sent", counters.DatagramsSent), ("datagrams_received", counters.DatagramsReceived), ("datagrams_malformed", counters.DatagramsMalformed),
         ("datagrams_ignored", counters.DatagramsIgnored), ("datagrams_forged", counters.DatagramsForged),
-        ("datagrams_dropped", port.Dropped), ("send_failures", port.SendFailures),
-        ("receive_failures", port.ReceiveFailures), ("events_forged", counters.EventsForged), ("events_deferred", counters.EventsDeferred),
+        .. carried, ("events_forged", counters.EventsForged), ("events_deferred", counters.EventsDeferred),
         ("events_lost", counters.EventsLost), ("events_unanswered", counters.EventsUnanswered), ("renewals", counters.Renewals),
     ];
 
@@ -160,7 +161,7 @@ internal sealed class SessionPrinter
         console.Error.Flush();
     }
 
-    private void WriteText(Session session, UdpPort port, SessionRecorder? recorder)
+    private void WriteText(Session session, IEnumerable<(string Name, long Count)> carried, SessionRecorder? recorder)
     {
         TextWriter to = console.Output;
         Scene scene = session.Scene!;
@@ -188,7 +189,7 @@ internal sealed class SessionPrinter
                 + $"round trip {NumberText.Short(row.Last.RoundTrip.ToMilliseconds())} ms");
         }
 
-        (string Name, long Count)[] counted = [.. Counts(counters, port).Where(c => c.Count != 0)];
+        (string Name, long Count)[] counted = [.. Counts(counters, carried).Where(c => c.Count != 0)];
         if (counted.Length > 0)
         {
             to.WriteLine($"counted: {string.Join(", ", counted.Select(c => $"{c.Name.Replace('_', ' ')} {c.Count}"))}");
@@ -205,11 +206,12 @@ internal sealed class SessionPrinter
 
     private static string PerSecond(double bytes) => double.IsNaN(bytes) ? "- B/s" : $"{NumberText.Short(bytes)} B/s";
 
-    private void Write(Utf8JsonWriter document, Session session, UdpPort port, SessionRecorder? recorder)
+    private void Write(Utf8JsonWriter document, Session session, IEnumerable<(string Name, long Count)> carried, SessionRecorder? recorder)
     {
         SessionCounters counters = session.Counters;
         document.WriteNumber("peer", session.Peer);
         document.WriteString("listening_on", ListeningOn);
+        document.WriteString("page", Page);
         document.WriteBoolean("protected", session.IsProtected);
         document.WriteStartArray("addresses");
         foreach (string address in Addresses)
@@ -273,7 +275,7 @@ internal sealed class SessionPrinter
 
         document.WriteEndArray();
         document.WriteStartObject("counters");
-        foreach ((string name, long count) in Counts(counters, port))
+        foreach ((string name, long count) in Counts(counters, carried))
         {
             document.WriteNumber(name, count);
         }

@@ -1,12 +1,16 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Net;
+using System.Net.Sockets;
+using System.Security.Cryptography.X509Certificates;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
 using Microsoft.AspNetCore.Builder;
 using Microsoft.AspNetCore.Hosting;
 using Microsoft.AspNetCore.Http;
+using Microsoft.AspNetCore.Server.Kestrel.Transport.Sockets;
 using Microsoft.AspNetCore.StaticFiles;
 using Microsoft.Extensions.DependencyInjection;
 using Microsoft.Extensions.FileProviders;
@@ -15,13 +19,18 @@ using Microsoft.Extensions.Logging;
 
 namespace LagSim.Cli.Web;
 
-/// <summary>Serves the files of the page over HTTP, and a page that says so while they are being built.</summary>
-/// <remarks>It gives away files of one folder, and takes nothing: every method but GET and HEAD is refused.</remarks>
+/// <summary>Serves the files of the page over HTTP, and a page that says so while they are being built; of a host's session, too, the way
+/// into it.</summary>
+/// <remarks>It gives away files of one folder, and takes nothing but WebSockets: every method but GET and HEAD is refused.</remarks>
 internal sealed class PageServer : IAsyncDisposable
 {
     // WebAssembly is compiled in the page, which needs a word of its own; nothing else may come from anywhere but here.
     private const string Policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline';"
         + " img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+
+    /// <summary>How much may wait in the server and the system for a client that is slow: what waits is old when it arrives, and a newer
+    /// datagram would have said the same. A megabit a second takes that in a quarter of one.</summary>
+    private const int MaxWaitingBytes = 32 << 10;
 
     private const string Compressed = ".br";
 
@@ -32,18 +41,29 @@ internal sealed class PageServer : IAsyncDisposable
         """;
 
     private readonly WebApplication application;
+    private readonly string firstPage;
     private volatile RequestDelegate? files;
+    private volatile RequestDelegate? door;
 
-    private PageServer(WebApplication application) => this.application = application;
+    private PageServer(WebApplication application, string firstPage)
+    {
+        this.application = application;
+        this.firstPage = firstPage;
+    }
 
-    /// <summary>The address of the page.</summary>
+    /// <summary>The address of the page, as the server listens.</summary>
     internal string Address { get; private set; } = "";
+
+    /// <summary>The port that it listens on.</summary>
+    internal int Port => new Uri(Address).Port;
 
     /// <summary>Begins to serve.</summary>
     /// <param name="local">Where to listen.</param>
+    /// <param name="firstPage">The file that is served at <c>/</c>.</param>
+    /// <param name="certificate">With it the page is served over HTTPS; null for HTTP.</param>
     /// <param name="stop">Gives up.</param>
     /// <exception cref="InputException">It cannot listen there.</exception>
-    internal static async Task<PageServer> StartAsync(IPEndPoint local, CancellationToken stop)
+    internal static async Task<PageServer> StartAsync(IPEndPoint local, string firstPage, X509Certificate2? certificate, CancellationToken stop)
     {
         WebApplicationBuilder builder = WebApplication.CreateSlimBuilder();
         builder.Logging.ClearProviders();
@@ -52,10 +72,26 @@ internal sealed class PageServer : IAsyncDisposable
         {
             kestrel.AddServerHeader = false;
             kestrel.Limits.MaxRequestBodySize = 0;
-            kestrel.Listen(local);
+            kestrel.Listen(local, listening =>
+            {
+                if (certificate is not null)
+                {
+                    listening.UseHttps(certificate);
+                }
+            });
+        });
+        builder.WebHost.UseSockets(sockets =>
+        {
+            sockets.MaxWriteBufferSize = MaxWaitingBytes;
+            sockets.CreateBoundListenSocket = endPoint =>
+            {
+                Socket socket = SocketTransportOptions.CreateDefaultBoundListenSocket(endPoint);
+                socket.SendBufferSize = MaxWaitingBytes; // inherited by what is accepted
+                return socket;
+            };
         });
         WebApplication application = builder.Build();
-        PageServer server = new(application);
+        PageServer server = new(application, firstPage);
         application.Run(server.Answer);
         try
         {
@@ -93,6 +129,11 @@ internal sealed class PageServer : IAsyncDisposable
         files = pipeline.Build();
     }
 
+    /// <summary>From now on browsers join a session.</summary>
+    /// <param name="session">The way in.</param>
+    /// <param name="origins">Where pages may come from.</param>
+    internal void Open(SessionDoor session, IEnumerable<string> origins) => door = session.Build(application.Services, origins);
+
     public ValueTask DisposeAsync() => application.DisposeAsync();
 
     private Task Answer(HttpContext context)
@@ -107,12 +148,17 @@ internal sealed class PageServer : IAsyncDisposable
             return Task.CompletedTask;
         }
 
-        if (context.Request.Path == "/")
+        context.Response.Headers.CacheControl = "no-cache"; // a page that was built again is seen at once
+        if (context.Request.Path == SessionDoor.Path && door is RequestDelegate enter)
         {
-            context.Request.Path = "/index.html";
+            return enter(context);
         }
 
-        context.Response.Headers.CacheControl = "no-cache"; // a page that was built again is seen at once
+        if (context.Request.Path == "/")
+        {
+            context.Request.Path = firstPage;
+        }
+
         if (files is RequestDelegate serve)
         {
             return serve(context);

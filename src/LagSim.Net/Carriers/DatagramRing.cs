@@ -39,6 +39,20 @@ internal sealed class DatagramRing
         }
     }
 
+    /// <summary>Copies a datagram in; if every slot is taken, the oldest makes room for it.</summary>
+    /// <returns>Whether one was lost.</returns>
+    internal bool PutNewest(ReadOnlySpan<byte> datagram, PeerAddress from)
+    {
+        lock (gate)
+        {
+            bool isFull = count == lengths.Length;
+            first = isFull ? (first + 1) % lengths.Length : first;
+            count -= isFull ? 1 : 0;
+            TryPut(datagram, from);
+            return isFull;
+        }
+    }
+
     /// <summary>Copies the oldest datagram out; false if there is none.</summary>
     internal bool TryTake(Span<byte> buffer, out int length, out PeerAddress from)
     {

@@ -4,7 +4,8 @@ using System.Net;
 
 namespace LagSim.Net.Carriers;
 
-/// <summary>The source or destination of datagrams, as a value: an IP address and port, or a number in a virtual network.</summary>
+/// <summary>The source or destination of datagrams, as a value: an IP address and port, a connection from an IP address, or a number in a
+/// virtual network.</summary>
 /// <remarks>Immutable, safe on any thread, never allocates to compare. <c>default</c> is no address.</remarks>
 public readonly struct PeerAddress : IEquatable<PeerAddress>
 {
@@ -13,7 +14,9 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
 
     private readonly ulong high;
     private readonly ulong low;
-    private readonly uint portAndFamily; // port + 1 in the low 17 bits; bit 31: IPv6
+    private readonly uint portAndFamily; // port + 1 in the low 17 bits; bit 30: a connection, whose number it is; bit 31: IPv6
+
+    private const uint Connected = 1u << 30;
 
     private PeerAddress(ulong high, ulong low, uint portAndFamily)
     {
@@ -27,6 +30,22 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
 
     /// <summary>Address <paramref name="number"/> of a virtual network.</summary>
     public static PeerAddress Virtual(int number) => new(ulong.MaxValue, (ulong)number, 0);
+
+    /// <summary>
+    /// A connection that a machine has opened to this one, over which datagrams go both ways. It is told from every endpoint, and from other
+    /// connections of that machine.
+    /// </summary>
+    /// <param name="machine">The IPv4 or IPv6 address of the machine.</param>
+    /// <param name="number">A number that no other connection has at the time.</param>
+    /// <exception cref="ArgumentNullException">The machine is null.</exception>
+    public static PeerAddress OfConnection(IPAddress machine, ushort number)
+    {
+        PeerAddress from = From(new IPEndPoint(machine ?? throw new ArgumentNullException(nameof(machine)), number));
+        return new PeerAddress(from.high, from.low, from.portAndFamily | Connected);
+    }
+
+    /// <summary>True for what <see cref="OfConnection"/> made.</summary>
+    public bool IsConnection => (portAndFamily & Connected) != 0;
 
     /// <summary>The address of an IPv4 or IPv6 endpoint; an IPv4 address mapped into IPv6 is the IPv4 address.</summary>
     /// <exception cref="ArgumentException">The endpoint is of another family.</exception>
@@ -53,12 +72,24 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
     }
 
     /// <summary>The endpoint given to <see cref="From"/>.</summary>
-    /// <exception cref="InvalidOperationException">This is no address, or one of a virtual network.</exception>
+    /// <exception cref="InvalidOperationException">This is no address, a connection, or an address of a virtual network.</exception>
     public IPEndPoint ToEndPoint()
+    {
+        if (portAndFamily == 0 || IsConnection)
+        {
+            throw new InvalidOperationException($"'{this}' is not an IP address and port.");
+        }
+
+        return new IPEndPoint(ToIPAddress(), (int)((portAndFamily & 0x1FFFF) - 1));
+    }
+
+    /// <summary>The IP address of an endpoint, or of the machine of a connection.</summary>
+    /// <exception cref="InvalidOperationException">This is no address, or one of a virtual network.</exception>
+    public IPAddress ToIPAddress()
     {
         if (portAndFamily == 0)
         {
-            throw new InvalidOperationException($"'{this}' is not an IP address and port.");
+            throw new InvalidOperationException($"'{this}' has no IP address.");
         }
 
         Span<byte> bytes = stackalloc byte[16];
@@ -73,7 +104,7 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
             System.Buffers.Binary.BinaryPrimitives.WriteUInt32BigEndian(bytes, (uint)low);
         }
 
-        return new IPEndPoint(new IPAddress(bytes.Slice(0, v6 ? 16 : 4)), (int)((portAndFamily & 0x1FFFF) - 1));
+        return new IPAddress(bytes.Slice(0, v6 ? 16 : 4));
     }
 
     /// <summary>Whether the other address is of the same <see cref="Machine"/>.</summary>
@@ -108,9 +139,12 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
     /// <summary>Different addresses.</summary>
     public static bool operator !=(PeerAddress a, PeerAddress b) => !a.Equals(b);
 
-    /// <summary><c>address:port</c>, <c>virtual:number</c> or <c>none</c>.</summary>
+    /// <summary>
+    /// <c>address:port</c>; <c>address#number</c> for a connection; <c>virtual:number</c>; or <c>none</c>.
+    /// </summary>
     public override string ToString() =>
         IsNone ? "none"
         : portAndFamily == 0 ? string.Format(CultureInfo.InvariantCulture, "virtual:{0}", low)
+        : IsConnection ? string.Format(CultureInfo.InvariantCulture, "{0}#{1}", ToIPAddress(), (portAndFamily & 0x1FFFF) - 1)
         : ToEndPoint().ToString();
 }

@@ -36,7 +36,7 @@ internal static class Layers
         ["LagSim.Net/Sessions/Core"],
         ["LagSim.Net/Sessions/Hosts", "LagSim.Net/Sessions/Clients"],
         ["LagSim.Net/Sessions"],
-        ["LagSim.Net/Recordings", "LagSim.Net.LiteNetLib", "LagSim.Net.Secure"],
+        ["LagSim.Net/Recordings", "LagSim.Net.LiteNetLib", "LagSim.Net.Secure", "LagSim.Net.WebSockets"],
 
         // Tests for games.
         ["LagSim.Testing/Links", "LagSim.Testing/Text"],

@@ -21,6 +21,7 @@ internal static class SourceAssemblies
         typeof(Playground).Assembly,
         typeof(ExitCode).Assembly,
         typeof(LiteNetLibPort).Assembly,
+        typeof(WebSocketHostPort).Assembly,
         typeof(SecureHost).Assembly,
     ];
 }

@@ -25,7 +25,7 @@ namespace LagSim.Tests.Docs;
 public sealed partial class SnippetTests
 {
     private static readonly string Compiled = Read("tests/LagSim.Tests/Docs/Snippets.cs") + Read("tests/LagSim.Tests/Docs/ForceSnippets.cs") + Read("tests/LagSim.Tests/Docs/RuleSnippets.cs")
-        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/SecuritySnippets.cs")
+        + Read("tests/LagSim.Tests/Docs/LiteNetLibSnippets.cs") + Read("tests/LagSim.Tests/Docs/WebSocketSnippets.cs") + Read("tests/LagSim.Tests/Docs/SecuritySnippets.cs")
         + Read("tests/LagSim.Tests/Docs/SensorSnippets.cs") + Read("tests/LagSim.Tests/Docs/Examples.cs")
         + Read("samples/FirstGame/Program.cs");
 
@@ -38,6 +38,7 @@ public sealed partial class SnippetTests
     [InlineData("src/LagSim/README.md", 1)]
     [InlineData("src/LagSim.Net/README.md", 1)]
     [InlineData("src/LagSim.Net.LiteNetLib/README.md", 1)]
+    [InlineData("src/LagSim.Net.WebSockets/README.md", 2)]
     [InlineData("src/LagSim.Net.Secure/README.md", 1)]
     [InlineData("docs/SECURITY.md", 2)]
     [InlineData("docs/FORCES.md", 7)]

@@ -1,0 +1,94 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Net;
+using System.Net.WebSockets;
+using System.Text.Json;
+using System.Threading;
+using System.Threading.Tasks;
+using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using Microsoft.AspNetCore.Builder;
+using Microsoft.AspNetCore.Http;
+
+namespace LagSim.Cli.Web;
+
+/// <summary>The way for browsers into a host's session: what a page has to know of it, and the WebSocket that it joins by.</summary>
+/// <remarks>A page of another site could open a WebSocket to a host on its visitor's own machine or network, so the browser's word on where
+/// the page comes from has to be one of the origins that are allowed. It has to be a name of ours even where the page and the socket have
+/// the same one, since whoever owns a name can have it point here.</remarks>
+internal sealed class SessionDoor
+{
+    /// <summary>The path of both: a plain request gets what there is to know, one for a WebSocket joins.</summary>
+    internal const string Path = "/session";
+
+    private static readonly TimeSpan AskEvery = TimeSpan.FromSeconds(10);
+
+    private readonly WebSocketHostPort port;
+    private readonly byte[] description;
+
+    /// <param name="port">Carries what comes.</param>
+    /// <param name="scene">The scene of the session.</param>
+    /// <param name="fingerprint">Of the host; null if the session is not protected.</param>
+    /// <param name="needsKey">Whether a client has to present a key.</param>
+    internal SessionDoor(WebSocketHostPort port, Scene scene, HostFingerprint? fingerprint, bool needsKey)
+    {
+        this.port = port;
+        description = Describe(scene, fingerprint, needsKey);
+    }
+
+    /// <summary>Returns what answers at <see cref="Path"/>.</summary>
+    /// <param name="services">The server's services.</param>
+    /// <param name="origins">Where pages may come from.</param>
+    internal RequestDelegate Build(IServiceProvider services, IEnumerable<string> origins)
+    {
+        WebSocketOptions options = new() { KeepAliveInterval = AskEvery, KeepAliveTimeout = AskEvery };
+        foreach (string origin in origins)
+        {
+            options.AllowedOrigins.Add(origin);
+        }
+
+        ApplicationBuilder pipeline = new(services);
+        pipeline.UseWebSockets(options);
+        pipeline.Run(AnswerAsync);
+        return pipeline.Build();
+    }
+
+    private static byte[] Describe(Scene scene, HostFingerprint? fingerprint, bool needsKey)
+    {
+        using MemoryStream stream = new();
+        using (Utf8JsonWriter json = new(stream))
+        {
+            json.WriteStartObject();
+            json.WriteNumber("wire_version", Session.WireVersion);
+            json.WriteString("scene", scene.Name);
+            json.WriteString("fingerprint", fingerprint?.ToString());
+            json.WriteBoolean("needs_key", needsKey);
+            json.WriteEndObject();
+        }
+
+        return stream.ToArray();
+    }
+
+    private async Task AnswerAsync(HttpContext context)
+    {
+        if (!context.WebSockets.IsWebSocketRequest)
+        {
+            context.Response.ContentType = "application/json";
+            await context.Response.Body.WriteAsync(description, context.RequestAborted);
+            return;
+        }
+
+        bool speaksOurs = context.WebSockets.WebSocketRequestedProtocols.Contains(WebSocketClientPort.Subprotocol);
+        if (!speaksOurs)
+        {
+            context.Response.StatusCode = StatusCodes.Status400BadRequest;
+            return;
+        }
+
+        using WebSocket socket = await context.WebSockets.AcceptWebSocketAsync(WebSocketClientPort.Subprotocol);
+        await port.ServeAsync(socket, context.Connection.RemoteIpAddress ?? IPAddress.None, CancellationToken.None);
+    }
+}

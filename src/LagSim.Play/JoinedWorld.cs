@@ -1,0 +1,193 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Hosting;
+using LagSim.Net.Carriers;
+using LagSim.Net.Display;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Time;
+
+namespace LagSim.Play;
+
+/// <summary>One peer of a real session, as the person at its page sees it.</summary>
+/// <remarks>It has no thread: the caller steps it, at the latest when <see cref="Step"/> said, and asks for a frame when one is drawn. Not
+/// thread-safe, and nothing in it blocks.</remarks>
+internal sealed class JoinedWorld : IDisposable
+{
+    /// <summary>How many committed states wait to be taken; older ones are lost.</summary>
+    internal const int MaxCommits = 1024;
+
+    private const double GlowSeconds = 0.35; // nothing flashes more than three times a second
+
+    private readonly IDatagramPort port;
+    private readonly Queue<CommittedState> commits = new();
+    private readonly List<JoinedBody> bodies = [];
+    private readonly Dictionary<BodyId, double> litUntil = [];
+    private PlayScene? view;
+    private HandOfPerson? hand;
+    private DisplayOffsets? display;
+    private LiveWorld? watched;
+    private double shownSeconds;
+
+    /// <summary>Asks to be let in, from the first step on.</summary>
+    /// <param name="port">The carrier, which is disposed with it.</param>
+    /// <param name="host">The host's address.</param>
+    /// <param name="options">How to take part.</param>
+    /// <param name="clock">This machine's clock.</param>
+    internal JoinedWorld(IDatagramPort port, PeerAddress host, ClientOptions options, IClock clock)
+    {
+        this.port = port;
+        Session = new ClientSession(null, port, clock, options, host, Net.Sessions.Session.DrawNumber());
+        Session.StateCommitted += Keep;
+    }
+
+    /// <summary>The peer.</summary>
+    internal ClientSession Session { get; }
+
+    /// <summary>What is drawn; null until the host has sent its scene.</summary>
+    internal PlayScene? View => view;
+
+    /// <summary>The bodies that there are, where they are drawn, in their canonical order.</summary>
+    internal IReadOnlyList<JoinedBody> Bodies => bodies;
+
+    /// <summary>How many events heals have simulated again.</summary>
+    internal long EventsRerun { get; private set; }
+
+    /// <summary>How many bodies heals have predicted again.</summary>
+    internal long BodiesRewound { get; private set; }
+
+    /// <summary>Counts how often there were other bodies than before.</summary>
+    internal int BodiesVersion { get; private set; }
+
+    /// <summary>Whether a person holds a body here.</summary>
+    internal bool IsHolding => hand?.IsHolding == true;
+
+    /// <summary>Seconds since the world began; 0 before.</summary>
+    internal double Seconds => Session.World is LiveWorld world ? (Session.SharedTime.Now - world.Simulation.Start).ToSeconds() : 0;
+
+    /// <summary>Does what is due.</summary>
+    /// <returns>How long until something is due again, unless a datagram or the person comes first.</returns>
+    internal SimDuration Step() => Session.State == SessionState.Ended ? SimDuration.FromSeconds(1) : Session.Step();
+
+    /// <summary>Finds what is drawn now.</summary>
+    /// <param name="seconds">How much real time has passed since the last frame.</param>
+    internal void Draw(double seconds)
+    {
+        long before = Identity();
+        bodies.Clear();
+        shownSeconds += seconds;
+        if (Session.World is not LiveWorld world || world.RenderSnapshots.Latest() is not RenderSnapshot snapshot)
+        {
+            return;
+        }
+
+        Watch(world);
+        display!.Update(snapshot, Session.DisplayTime);
+        for (int n = 0; n < snapshot.BodyCount; n++)
+        {
+            BodyId body = snapshot.BodyAt(n);
+            if (!display.TryRead(body, out DrawnBody drawn))
+            {
+                continue;
+            }
+
+            if (drawn.Jump > 0)
+            {
+                litUntil[body] = shownSeconds + GlowSeconds;
+            }
+
+            double glow = litUntil.TryGetValue(body, out double until) ? Math.Clamp((until - shownSeconds) / GlowSeconds, 0, 1) : 0;
+            bodies.Add(new JoinedBody(body, view!.ToView(drawn.Position), snapshot.RadiusOf(body), glow, drawn.IsInHand));
+        }
+
+        BodiesVersion += Identity() == before ? 0 : 1;
+    }
+
+    /// <summary>The person takes the body that is drawn at a point, or close by.</summary>
+    /// <param name="x">The point, in metres of the view.</param>
+    /// <param name="y">The point, in metres of the view.</param>
+    /// <param name="reach">How far beside a body still counts, in metres.</param>
+    /// <returns>Whether it is in the hand now.</returns>
+    internal bool Grab(double x, double y, double reach)
+    {
+        JoinedBody? nearest = null;
+        double least = reach;
+        foreach (JoinedBody body in bodies)
+        {
+            double dx = body.Place.X - x, dy = body.Place.Y - y;
+            double gap = Math.Sqrt((dx * dx) + (dy * dy)) - body.Radius;
+            (nearest, least) = gap <= least ? (body, gap) : (nearest, least);
+        }
+
+        return nearest is JoinedBody found && hand?.Take(found.Body) is not null;
+    }
+
+    /// <summary>The hand moves; see <see cref="HandOfPerson.Move"/>.</summary>
+    internal void MoveHand(double x, double y, double velocityX, double velocityY) => hand?.Move(display!, x, y, velocityX, velocityY);
+
+    /// <summary>The hand lets go; see <see cref="HandOfPerson.Release"/>.</summary>
+    internal void Release(double velocityX, double velocityY) => hand?.Release(display!, velocityX, velocityY);
+
+    /// <summary>The oldest committed state that was not taken yet, with its time in seconds since the world began.</summary>
+    internal bool TryTakeCommit(out double seconds, out CommittedState state)
+    {
+        bool any = commits.TryDequeue(out state);
+        seconds = any ? (state.Time - Session.World!.Simulation.Start).ToSeconds() : 0;
+        return any;
+    }
+
+    /// <summary>Leaves, and closes the port.</summary>
+    public void Dispose()
+    {
+        Session.Leave();
+        port.Dispose();
+    }
+
+    private long Identity()
+    {
+        HashCode all = new();
+        foreach (JoinedBody body in bodies)
+        {
+            all.Add(body.Body);
+        }
+
+        return all.ToHashCode();
+    }
+
+    private void Keep(CommittedState state)
+    {
+        commits.Enqueue(state);
+        if (commits.Count > MaxCommits)
+        {
+            commits.Dequeue();
+        }
+    }
+
+    /// <summary>A peer that has got a fresh copy has another world.</summary>
+    private void Watch(LiveWorld world)
+    {
+        if (ReferenceEquals(watched, world))
+        {
+            return;
+        }
+
+        watched = world;
+        view ??= PlayScene.Of(Session.Scene!);
+        hand ??= new HandOfPerson(Session, view, () => Session.Step());
+        display = new DisplayOffsets(Session.Scene!);
+        litUntil.Clear();
+        world.Simulation.Healed += heal =>
+        {
+            EventsRerun += heal.Events;
+            BodiesRewound += heal.Bodies;
+        };
+    }
+}
+
+/// <summary>A body of a joined world, as it is drawn.</summary>
+/// <param name="Body">The body.</param>
+/// <param name="Place">Where its centre is drawn, in metres of the view.</param>
+/// <param name="Radius">Its radius, in metres.</param>
+/// <param name="Glow">How much it glows because its path was rewritten, 0 to 1.</param>
+/// <param name="IsInHand">Whether it is drawn in the hand of a person.</param>
+internal readonly record struct JoinedBody(BodyId Body, (double X, double Y) Place, double Radius, double Glow, bool IsInHand);

@@ -1,0 +1,86 @@
+using System;
+using System.Threading.Tasks;
+using Microsoft.Playwright;
+using Xunit;
+
+namespace LagSim.Browser;
+
+/// <summary>Browsers in a real session: a native host, a native peer over UDP, and tabs over WebSockets.</summary>
+[Trait("Time", "real")]
+public sealed class JoinPageTests(ServedPage served)
+{
+    [Fact]
+    public Task World_OfAHostAPeerOverUdpAndTwoTabs_IsTheSameAtEveryTime() => SharedMinute.PlayAsync(served, webPort: 0, () => { });
+
+    [Fact]
+    public async Task Tab_ClosedAndOpenedAgain_GoesOnAsTheSamePlayer()
+    {
+        await using ToolProcess host = new("host", "--scene", "billiards", "--per-address", "8", "--web", "0", "--key", "open sesame");
+        string page = await host.AfterAsync("browsers join at ");
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        JoinedPage ann = await JoinedPage.JoinAsync(context, page, "Ann", "open sesame"), bob = await JoinedPage.JoinAsync(context, page, "Bob", "open sesame");
+        Assert.Equal((1, 2), (await ann.NumberAsync("player"), await bob.NumberAsync("player"))); // two tabs of one browser are two players
+        await ann.ThrowAsync(0, 100, 40);
+
+        await ann.Page.CloseAsync();
+        await bob.Page.WaitForTimeoutAsync(4500); // a tab that did not say goodbye holds its seat that long
+        JoinedPage again = await JoinedPage.JoinAsync(context, page, "Ann", "open sesame");
+        Assert.Equal(1, await again.NumberAsync("player"));
+        await again.ThrowAsync(3, -80, 60);
+        await again.Page.ReloadAsync(); // says goodbye, and so is at once back in its seat
+        await again.LoadAsync(page);
+        await again.AskAsync("Ann", "open sesame");
+        await again.RunningAsync();
+        Assert.Equal(1, await again.NumberAsync("player"));
+
+        await again.Page.WaitForFunctionAsync("() => window.lagsim.status.agreed >= 2", null, new() { Timeout = 20_000 });
+        JoinedPage.AssertSame(host.States, await again.StatesAsync(), 2);
+        await again.Page.GetByRole(AriaRole.Button, new() { Name = "Leave" }).ClickAsync();
+        await again.Page.GetByText("This peer left.").WaitForAsync();
+        await host.AfterAsync("peer 1 at 127.0.0.1");
+        Assert.Empty(again.Complaints);
+    }
+
+    [Fact]
+    public async Task Key_ThatIsWrong_IsRefusedWithTheReason()
+    {
+        await using ToolProcess host = new("host", "--scene", "billiards", "--web", "0", "--key", "open sesame");
+        string address = await host.AfterAsync("browsers join at ");
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        JoinedPage joined = await JoinedPage.OpenAsync(context, address);
+        await joined.AskAsync("Ann", "open rye");
+        IPage page = joined.Page;
+        await page.WaitForFunctionAsync("() => window.lagsim.status?.end", null, new() { Timeout = 30_000 });
+        Assert.Contains("key", await page.Locator("#state").InnerTextAsync(), StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public async Task Page_OfAnotherOrigin_IsRefusedUnlessItIsNamed()
+    {
+        await using OtherServer other = await OtherServer.StartAsync(AppContext.BaseDirectory);
+        string origin = new Uri(other.Address).GetLeftPart(UriPartial.Authority);
+        await using ToolProcess strict = new("host", "--scene", "drop", "--web", "0"), open = new("host", "--scene", "drop", "--web", "0", "--web-origin", origin);
+        string own = await strict.AfterAsync("browsers join at "), theirs = await open.AfterAsync("browsers join at ");
+        await using IBrowserContext context = await served.Browser.NewContextAsync();
+        IPage foreign = await context.NewPageAsync();
+        await foreign.GotoAsync(other.Address);
+        Assert.Equal("refused", await ConnectAsync(foreign, own));
+        Assert.Equal("open", await ConnectAsync(foreign, theirs));
+        Assert.Equal("refused", await ConnectAsync(foreign, own.Replace("127.0.0.1", "localhost", StringComparison.Ordinal))); // another name of it
+
+        IPage at = await context.NewPageAsync();
+        await at.GotoAsync(own); // the control: its own page is let in, whatever it is called
+        Assert.Equal("open", await ConnectAsync(at, own));
+        await at.GotoAsync(own.Replace("127.0.0.1", "localhost", StringComparison.Ordinal));
+        Assert.Equal("open", await ConnectAsync(at, own.Replace("127.0.0.1", "localhost", StringComparison.Ordinal)));
+    }
+
+    private static async Task<string> ConnectAsync(IPage page, string host) => await page.EvaluateAsync<string>(
+        """
+        address => new Promise(resolve => {
+          const socket = new WebSocket(address, 'lagsim')
+          socket.onopen = () => { resolve('open'); socket.close() }
+          socket.onerror = () => resolve('refused')
+        })
+        """, host.Replace("http:", "ws:", StringComparison.Ordinal) + "session");
+}
