@@ -140,10 +140,7 @@ internal static partial class PlaygroundExports
     internal static void SamplePaths(int count)
     {
         paths.Clear();
-        foreach (Pane pane in playground!.Panes)
-        {
-            pane.AppendPaths(playground.Now, count, paths);
-        }
+        playground!.AppendPaths(count, paths);
 
         TakePaths(CollectionsMarshal.AsSpan(paths));
     }

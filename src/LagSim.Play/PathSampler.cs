@@ -7,7 +7,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Play;
 
-/// <summary>The paths of all bodies of a world, over its whole window, as points of a line: evenly in time, and at each bounce.</summary>
+/// <summary>The paths of the bodies of a world, as points of a line: evenly in time, and at each bounce.</summary>
 /// <remarks>Costs a look into the timelines for every point, so it is for when somebody asks.</remarks>
 internal static class PathSampler
 {
@@ -15,18 +15,19 @@ internal static class PathSampler
     /// <param name="world">The world.</param>
     /// <param name="scene">Where a place is drawn.</param>
     /// <param name="body">The body.</param>
+    /// <param name="span">From when to when, within the window.</param>
     /// <param name="now">The moment that times are told from.</param>
     /// <param name="count">How many instants there are evenly spaced, both ends included; 2 or more.</param>
     /// <param name="into">Gets the number of points, then for each the time in seconds from <paramref name="now"/>, and x and y in metres of
     /// the view. A point whose x and y are not a number breaks the line: the body is not there, or was put elsewhere.</param>
-    internal static void Append(Simulation world, PlayScene scene, BodyId body, SimTime now, int count, List<double> into)
+    internal static void Append(Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now, int count, List<double> into)
     {
-        SimTime oldest = world.HistoryEdge, newest = world.Horizon;
-        long span = (newest - oldest).Ticks;
+        SimTime oldest = SimTime.Max(span.Oldest, world.HistoryEdge), newest = SimTime.Min(span.Newest, world.Horizon);
+        long ticks = (newest - oldest).Ticks;
         List<SimTime> times = [], breaks = [];
         for (int n = 0; n < count; n++)
         {
-            times.Add(oldest + SimDuration.FromTicks((long)((Int128)span * n / (count - 1))));
+            times.Add(oldest + SimDuration.FromTicks((long)((Int128)ticks * n / (count - 1))));
         }
 
         foreach (TimelineEntry entry in world.Timeline(body, oldest))

@@ -127,10 +127,10 @@ internal sealed class Playground
         Note(panes[stroke.Pane].Strike(stroke.Body, stroke.VelocityX, stroke.VelocityY));
 
     /// <summary>The instants that every pane's world has, the oldest that is kept and the furthest that is precomputed, in seconds from
-    /// now.</summary>
+    /// now. A world at rest knows its future for good; there the look-ahead counts.</summary>
     internal (double Oldest, double Newest) Window()
     {
-        (SimTime oldest, SimTime newest) = (SimTime.MinValue, SimTime.MaxValue);
+        (SimTime oldest, SimTime newest) = (SimTime.MinValue, Now + SimDuration.FromMilliseconds(Setup.LookAheadMilliseconds));
         foreach (Pane pane in panes)
         {
             Simulation world = pane.Session.World!.Simulation;
@@ -148,6 +148,16 @@ internal sealed class Playground
         foreach (Pane pane in panes)
         {
             pane.DrawAt(truth, time);
+        }
+    }
+
+    /// <summary>Appends the paths of all bodies over the window, pane by pane; see <see cref="PathSampler.Append"/>.</summary>
+    internal void AppendPaths(int count, List<double> into)
+    {
+        (double oldest, double newest) = Window();
+        foreach (Pane pane in panes)
+        {
+            pane.AppendPaths(Now + SimDuration.FromSeconds(oldest), Now + SimDuration.FromSeconds(newest), Now, count, into);
         }
     }
 

@@ -66,6 +66,15 @@ public sealed class ScrubTests
         Assert.InRange(newest, 0.1, 0.3);
     }
 
+    [Fact]
+    public void Window_OfAWorldAtRest_EndsWithTheLookAhead()
+    {
+        Playground playground = new(PlaySetup.Parse("scene=break&ahead=300"));
+        Run(playground, 5);
+        Assert.InRange(playground.Window().Newest, 0.29, 0.3);
+        Assert.All(Paths(playground, 0, 10)[3], point => Assert.InRange(point.T, -3.3, 0.3001));
+    }
+
     /// <summary>Points of a path are where scrubbing there finds the body, and no bounce is cut off.</summary>
     [Theory]
     [InlineData("room")]
@@ -76,7 +85,6 @@ public sealed class ScrubTests
         Playground playground = new(PlaySetup.Parse($"scene={scene}"));
         Run(playground, 2.5);
         List<List<(double T, double X, double Y)>> paths = Paths(playground, 1, 40);
-        Assert.Equal(playground.Scene.Scene.Bodies.Count, paths.Count);
         for (int body = 0; body < paths.Count; body++)
         {
             Assert.True(paths[body].Count >= 40);
@@ -108,7 +116,7 @@ public sealed class ScrubTests
     private static List<List<(double T, double X, double Y)>> Paths(Playground playground, int pane, int count)
     {
         List<double> flat = [];
-        playground.Panes[pane].AppendPaths(playground.Now, count, flat);
+        playground.AppendPaths(count, flat);
         List<List<(double T, double X, double Y)>> paths = [];
         for (int at = 0; at < flat.Count;)
         {
@@ -123,7 +131,9 @@ public sealed class ScrubTests
             paths.Add(path);
         }
 
-        return paths;
+        int bodies = playground.Scene.Scene.Bodies.Count;
+        Assert.Equal(bodies * playground.Panes.Count, paths.Count);
+        return paths[(pane * bodies)..((pane + 1) * bodies)];
     }
 
     private static (double X, double Y)[] Places(Playground playground) =>
