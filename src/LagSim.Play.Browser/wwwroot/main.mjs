@@ -161,5 +161,5 @@ function advance(virtual, real) {
 function readColours() {
   const style = getComputedStyle(document.documentElement)
   const read = name => style.getPropertyValue(`--${name}`).trim()
-  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), path: read('path'), accent: read('accent') }
+  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), path: read('path'), future: read('future'), accent: read('accent') }
 }

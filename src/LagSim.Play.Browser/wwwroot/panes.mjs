@@ -178,9 +178,7 @@ export class Pane {
     context.clearRect(0, 0, width, height)
     this.drawScene(context, colours)
     if (paths) {
-      context.strokeStyle = colours.path
-      context.lineWidth = Math.max(1, this.canvas.width / 700)
-      paths.draw(context, this.number, x => this.sx(x), y => this.sy(y), Math.max(1.5, this.canvas.width / 450))
+      paths.draw(context, this.number, x => this.sx(x), y => this.sy(y), Math.max(1, this.canvas.width / 700), colours)
     }
     for (let n = 0; n < this.setup.bodies.length; n++) {
       this.drawBody(context, frame, n, colours, isCalm)

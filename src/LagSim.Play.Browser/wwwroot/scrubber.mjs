@@ -113,9 +113,11 @@ class Paths {
   }
 
   /** Draws those of a pane: what has been as a line, what is precomputed with dashes. */
-  draw(context, pane, sx, sy, thin) {
+  draw(context, pane, sx, sy, thin, colours) {
     for (const isFuture of [false, true]) {
-      context.setLineDash(isFuture ? [3 * thin, 3 * thin] : [])
+      context.setLineDash(isFuture ? [4 * thin, 3 * thin] : [])
+      context.strokeStyle = isFuture ? colours.future : colours.path
+      context.lineWidth = isFuture ? 1.6 * thin : thin
       context.beginPath()
       for (let body = 0; body < this.bodies; body++) {
         this.trace(context, this.starts[pane * this.bodies + body], isFuture, sx, sy)

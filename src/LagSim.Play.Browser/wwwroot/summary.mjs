@@ -17,7 +17,7 @@ export class Summary {
       return
     }
     const text = panes.map(({ name, error, heals, agrees }) => {
-      const off = Number.isNaN(error) ? 'not there yet' : `off by ${length(error)}`
+      const off = Number.isNaN(error) ? 'precomputed' : `off by ${length(error)}`
       const state = agrees === undefined ? 'no hash yet' : agrees ? 'agrees' : 'differs'
       return `${name}: ${off}, ${heals} ${heals === 1 ? 'heal' : 'heals'}, ${state}.`
     }).join(' ')
