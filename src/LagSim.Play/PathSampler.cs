@@ -11,6 +11,9 @@ namespace LagSim.Play;
 /// <remarks>Costs a look into the timelines for every point, so it is for when somebody asks.</remarks>
 internal static class PathSampler
 {
+    /// <summary>How many bounces there may be between two of the evenly spaced instants: a heap bounces thousands of times a second.</summary>
+    private const int Corners = 2;
+
     /// <summary>Appends a body's path.</summary>
     /// <param name="world">The world.</param>
     /// <param name="scene">Where a place is drawn.</param>
@@ -33,13 +36,15 @@ internal static class PathSampler
         foreach (TimelineEntry entry in world.Timeline(body, oldest))
         {
             SimTime time = entry.Key.Time;
-            if (time <= oldest || time >= newest || entry.Key.Kind == EventKind.StepEnd)
+            bool isBreak = entry.Key.Kind is EventKind.Teleport or EventKind.Grab;
+            bool isNear = times.Count > count && (time - times[^1]).Ticks < ticks / (Corners * count);
+            if (time <= oldest || time >= newest || entry.Key.Kind == EventKind.StepEnd || (isNear && !isBreak))
             {
-                continue; // the end of a step bends nothing
+                continue; // the end of a step bends nothing, and what follows a bounce at once is not seen
             }
 
             times.Add(time);
-            if (entry.Key.Kind is EventKind.Teleport or EventKind.Grab)
+            if (isBreak)
             {
                 breaks.Add(time);
             }

@@ -69,15 +69,16 @@ public sealed class ShownPageTests(ServedPage served)
     [Fact]
     public async Task Figures_AfterAThrow_SayWhatItCostEachPeer()
     {
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,full-rollback&delay=200");
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing,full-rollback&delay=200");
         await page.Page.WaitForTimeoutAsync(1500);
         await page.ThrowAsync(0, 5, 50, -80);
-        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
-        Assert.True(await page.FigureAsync(1, "events") > 0);
-        Assert.True(await page.FigureAsync(1, "bodies") > 0);
-        Assert.Equal(0, await page.FigureAsync(0, "bodies")); // whose throw it is has nothing to rewind
+        await page.Page.WaitForFunctionAsync("() => [...document.querySelectorAll('dd[data-is=heals]')].slice(1).every(heals => Number(heals.textContent) > 0)");
         await page.Page.WaitForTimeoutAsync(300);
         double sent = await page.FigureAsync(0, "bytes"), received = await page.FigureAsync(1, "received");
+        await page.AgreeAsync(3);
+        double healed = await page.FigureAsync(1, "bodies"), rolled = await page.FigureAsync(2, "bodies");
+        Assert.True(healed > 0 && healed < rolled, $"{healed} bodies rewound by healing, {rolled} by full rollback");
+        Assert.True(await page.FigureAsync(1, "events") > 0);
         Assert.True(sent > 0.2, $"{sent} kB/s sent");
         Assert.True(received > 0.2, $"{received} kB/s received");
     }

@@ -1,9 +1,9 @@
 // The slider over the window of the worlds: from the oldest instant that is kept to the furthest that is precomputed.
 import { make, set } from './figures.mjs'
 
-const RunningPoints = 32 // of each path, ten times a second
+const RunningPoints = 32 // of each path, four times a second
 const PausedPoints = 120 // once, as long as nothing changes
-const Every = 100 // milliseconds
+const Every = 250 // milliseconds
 const OnTheSpot = 0.005 // seconds from now that still are now
 
 /** Says which instant the panes show, and has paths sampled where they are asked for. */

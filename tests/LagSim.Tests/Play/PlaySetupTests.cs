@@ -35,6 +35,7 @@ public sealed class PlaySetupTests
     [InlineData("loss=50&burst=1&delay=abc", "'delay' is 'abc'")]
     [InlineData("asymmetry=201", "'asymmetry' is 201 ms; with a delay of 100 ms it can be 200 ms at most, either way.")]
     [InlineData("seed=-1", "'seed' is '-1'")]
+    [InlineData("seed=1.5", "'seed' is '1.5'; it must be a whole number from 0 to 9007199254740992.")]
     [InlineData("link=carrier-pigeon", "'link' is 'carrier-pigeon'; it must be one of custom, loopback, lan,")]
     [InlineData("colour=red", "'colour' is no part of a set-up; there are scene, link, panes, seed, delay,")]
     public void Parse_OfWhatCannotBe_NamesItAndWhatIsAllowed(string query, string sentence) =>
