@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using System.Runtime.InteropServices;
 using System.Runtime.InteropServices.JavaScript;
 using System.Runtime.Versioning;
 using System.Text.Json;
@@ -15,9 +16,11 @@ namespace LagSim.Play.Browser;
 internal static partial class PlaygroundExports
 {
     private const int NumbersPerBody = 7;
-    private const int NumbersPerPane = 6;
+    private const int NumbersPerPane = 7;
 
     private static Playground? playground;
+    private static readonly List<double> paths = [];
+
     private static double[] numbers = [];
 
     /// <summary>Begins a playground of a set-up.</summary>
@@ -91,30 +94,45 @@ internal static partial class PlaygroundExports
     internal static void Advance(double virtualSeconds, double realSeconds)
     {
         playground!.Advance(virtualSeconds, realSeconds);
-        int at = 0;
-        numbers[at++] = playground.Seconds;
-        foreach (Pane pane in playground.Panes)
-        {
-            numbers[at++] = pane.Error;
-            numbers[at++] = pane.Heals;
-            numbers[at++] = pane.EventsRerun;
-            numbers[at++] = pane.BodiesRewound;
-            numbers[at++] = playground.BytesSent(pane.Number);
-            numbers[at++] = pane.IsHolding ? 1 : 0;
-            foreach (DrawnPlace place in pane.Places)
-            {
-                numbers[at++] = place.IsThere ? 1 : 0;
-                numbers[at++] = place.Drawn.X;
-                numbers[at++] = place.Drawn.Y;
-                numbers[at++] = place.Real.X;
-                numbers[at++] = place.Real.Y;
-                numbers[at++] = place.Glow;
-                numbers[at++] = place.IsInHand ? 1 : 0;
-            }
-        }
-
-        TakeFrame(numbers);
+        Show(0);
     }
+
+    /// <summary>Gives the page the numbers of a frame of another instant of the window, in seconds from now.</summary>
+    [JSExport]
+    internal static void Scrub(double seconds)
+    {
+        playground!.Scrub(seconds);
+        Show(seconds);
+    }
+
+    /// <summary>The instants that every world has: the oldest that is kept and the furthest that is precomputed, in seconds from now.</summary>
+    [JSExport]
+    internal static double[] Window()
+    {
+        (double oldest, double newest) = playground!.Window();
+        return [oldest, newest];
+    }
+
+    /// <summary>Gives the page the paths of all bodies over the window: pane by pane, body by body; see <see cref="PathSampler"/>.</summary>
+    [JSExport]
+    internal static void SamplePaths(int count)
+    {
+        paths.Clear();
+        playground!.AppendPaths(count, paths);
+
+        TakePaths(CollectionsMarshal.AsSpan(paths));
+    }
+
+    /// <summary>The things to try, as JSON.</summary>
+    [JSExport]
+    internal static string Steps() => GuidedSteps.ToJson();
+
+    /// <summary>Does what a button of a step does.</summary>
+    /// <param name="step">The name of the step.</param>
+    /// <param name="deed">The number of the button.</param>
+    /// <returns>Whether all of it could be done.</returns>
+    [JSExport]
+    internal static bool Act(string step, int deed) => GuidedSteps.Named(step).Deeds[deed].Strokes.All(stroke => playground!.Strike(stroke));
 
     /// <summary>A person takes a body.</summary>
     [JSExport]
@@ -140,8 +158,39 @@ internal static partial class PlaygroundExports
         return [at.ToString("F2", CultureInfo.InvariantCulture), .. texts];
     }
 
+    private static void Show(double seconds)
+    {
+        int at = 0;
+        numbers[at++] = playground!.Seconds + seconds;
+        foreach (Pane pane in playground.Panes)
+        {
+            numbers[at++] = pane.Error;
+            numbers[at++] = pane.Heals;
+            numbers[at++] = pane.EventsRerun;
+            numbers[at++] = pane.BodiesRewound;
+            numbers[at++] = playground.BytesSent(pane.Number);
+            numbers[at++] = playground.BytesReceived(pane.Number);
+            numbers[at++] = pane.IsHolding ? 1 : 0;
+            foreach (DrawnPlace place in pane.Places)
+            {
+                numbers[at++] = place.IsThere ? 1 : 0;
+                numbers[at++] = place.Drawn.X;
+                numbers[at++] = place.Drawn.Y;
+                numbers[at++] = place.Real.X;
+                numbers[at++] = place.Real.Y;
+                numbers[at++] = place.Glow;
+                numbers[at++] = place.IsInHand ? 1 : 0;
+            }
+        }
+
+        TakeFrame(numbers);
+    }
+
     [JSImport("takeFrame", "page")]
     private static partial void TakeFrame([JSMarshalAs<JSType.MemoryView>] Span<double> frame);
+
+    [JSImport("takePaths", "page")]
+    private static partial void TakePaths([JSMarshalAs<JSType.MemoryView>] Span<double> paths);
 
     private static void WriteStrings(Utf8JsonWriter json, string name, string[] values)
     {

@@ -67,6 +67,11 @@ internal sealed class HandOfPerson(Session session, PlayScene scene, Action wake
         return Do(PlayerAction.Release(held, scene.FromView(velocityX, velocityY, Vector3D.Zero)));
     }
 
+    /// <summary>Gives a body a velocity, in metres a second of the view, as a cue does.</summary>
+    /// <returns>What was done; null if it could not be.</returns>
+    internal ExternalEvent? Strike(BodyId body, double velocityX, double velocityY) =>
+        Do(PlayerAction.SetVelocity(body, scene.FromView(velocityX, velocityY, Vector3D.Zero)));
+
     private ExternalEvent? Do(in PlayerAction action)
     {
         try

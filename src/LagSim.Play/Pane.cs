@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Display;
@@ -111,6 +112,44 @@ internal sealed class Pane
 
     /// <summary>The hand lets go; see <see cref="HandOfPerson.Release"/>.</summary>
     internal ExternalEvent? Release(double velocityX, double velocityY) => hand.Release(display, velocityX, velocityY);
+
+    /// <summary>A player gives a body a velocity; see <see cref="HandOfPerson.Strike"/>.</summary>
+    internal ExternalEvent? Strike(int body, double velocityX, double velocityY) =>
+        hand.Strike(BodyId.OfScene(body), velocityX, velocityY);
+
+    /// <summary>Finds where the bodies are in this world at any instant of its window, instead of what is drawn now.</summary>
+    /// <remarks>The error is not a number where the world without delay does not have that instant.</remarks>
+    internal void DrawAt(Truth truth, SimTime time)
+    {
+        Simulation? world = Session.World?.Simulation;
+        bool isKnown = world is not null && time >= world.HistoryEdge && time <= world.Horizon, isTrue = truth.Covers(time);
+        Error = isTrue ? 0 : double.NaN;
+        for (int n = 0; n < places.Length; n++)
+        {
+            BodyState state = default, real = default;
+            bool isThere = isKnown && world!.TryRead(BodyId.OfScene(n), time, out state);
+            bool isReal = isTrue && truth.TryRead(BodyId.OfScene(n), time, out real);
+            (double X, double Y) drawn = scene.ToView(state.Position);
+            places[n] = new DrawnPlace(isThere, drawn, isReal ? scene.ToView(real.Position) : drawn, 0, false);
+            Error = isThere && isReal ? Math.Max(Error, (state.Position - real.Position).Length) : Error;
+        }
+    }
+
+    /// <summary>Appends the paths of all bodies of the scene, in their order, over a span of the window; see <see cref="PathSampler.Append"/>.</summary>
+    internal void AppendPaths(SimTime oldest, SimTime newest, SimTime now, int count, List<double> into)
+    {
+        for (int n = 0; n < places.Length; n++)
+        {
+            if (Session.World?.Simulation is Simulation world)
+            {
+                PathSampler.Append(world, scene, BodyId.OfScene(n), (oldest, newest), now, count, into);
+            }
+            else
+            {
+                into.Add(0);
+            }
+        }
+    }
 
     /// <summary>The hash of its state at a time; null if it does not have that time.</summary>
     internal ulong? HashAt(SimTime time)

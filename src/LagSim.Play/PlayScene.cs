@@ -22,7 +22,7 @@ internal sealed class PlayScene
     }
 
     /// <summary>The names, as a link to the page has them.</summary>
-    internal static IReadOnlyList<string> Names { get; } = ["room", "drop", "billiards", "cradle", "orbits"];
+    internal static IReadOnlyList<string> Names { get; } = ["room", "drop", "billiards", "break", "cradle", "orbits"];
 
     /// <summary>The scene.</summary>
     internal Scene Scene { get; }
@@ -46,6 +46,7 @@ internal sealed class PlayScene
         "room" => new PlayScene(Room(), isFromAbove: false, -4.4, -0.4, 4.4, 5.6),
         "drop" => new PlayScene(BuiltInScenes.Drop(), isFromAbove: false, -8, -0.6, 8, 11),
         "billiards" => new PlayScene(BuiltInScenes.Billiards(), isFromAbove: true, -1.33, -0.7, 1.33, 0.7),
+        "break" => new PlayScene(BuiltInScenes.Billiards(breakSpeed: 0), isFromAbove: true, -1.33, -0.7, 1.33, 0.7),
         "cradle" => new PlayScene(BuiltInScenes.Cradle(), isFromAbove: false, -4.8, -0.4, 4.8, 4),
         "orbits" => new PlayScene(Orbits(), isFromAbove: false, -6, -4.5, 6, 4.5),
         _ => throw new ArgumentException($"There is no scene '{name}'; there are {string.Join(", ", Names)}."),

@@ -16,7 +16,7 @@ internal sealed record PlaySetup
 
     private static readonly Number[] Numbers =
     [
-        new("seed", 0, 1L << 53, s => s.Seed, (s, v) => s with { Seed = (ulong)v }),
+        new("seed", 0, 1L << 53, s => s.Seed, (s, v) => s with { Seed = (ulong)v }, IsWhole: true),
         new("delay", 0, 2000, s => s.Link.DelayMilliseconds, (s, v) => s with { Link = s.Link with { DelayMilliseconds = v } }),
         new("jitter", 0, 500, s => s.Link.JitterMilliseconds, (s, v) => s with { Link = s.Link with { JitterMilliseconds = v } }),
         new("loss", 0, 50, s => s.Link.LossPercent, (s, v) => s with { Link = s.Link with { LossPercent = v } }),
@@ -141,12 +141,13 @@ internal sealed record PlaySetup
 
     /// <summary>A number of a set-up: its name in a link, its range, and how it is read and written.</summary>
     private sealed record Number(
-        string Name, double Least, double Most, Func<PlaySetup, double> Get, Func<PlaySetup, double, PlaySetup> Set)
+        string Name, double Least, double Most, Func<PlaySetup, double> Get, Func<PlaySetup, double, PlaySetup> Set, bool IsWhole = false)
     {
         internal PlaySetup Read(PlaySetup setup, string text) =>
             double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out double value) && value >= Least && value <= Most
+                    && (!IsWhole || Math.Floor(value) == value)
                 ? Set(setup, value)
                 : throw new FormatException(string.Create(
-                    CultureInfo.InvariantCulture, $"'{Name}' is '{text}'; it must be a number from {Least} to {Most}."));
+                    CultureInfo.InvariantCulture, $"'{Name}' is '{text}'; it must be a {(IsWhole ? "whole " : "")}number from {Least} to {Most}."));
     }
 }

@@ -121,6 +121,46 @@ internal sealed class Playground
     /// <summary>The hand of a pane lets go, and throws at that velocity.</summary>
     internal void Release(int pane, double velocityX, double velocityY) => Note(panes[pane].Release(velocityX, velocityY));
 
+    /// <summary>A player gives a body a velocity.</summary>
+    /// <returns>Whether it could.</returns>
+    internal bool Strike(in Stroke stroke) =>
+        Note(panes[stroke.Pane].Strike(stroke.Body, stroke.VelocityX, stroke.VelocityY));
+
+    /// <summary>The instants that every pane's world has, the oldest that is kept and the furthest that is precomputed, in seconds from
+    /// now. A world at rest knows its future for good; there the look-ahead counts.</summary>
+    internal (double Oldest, double Newest) Window()
+    {
+        (SimTime oldest, SimTime newest) = (SimTime.MinValue, Now + SimDuration.FromMilliseconds(Setup.LookAheadMilliseconds));
+        foreach (Pane pane in panes)
+        {
+            Simulation world = pane.Session.World!.Simulation;
+            (oldest, newest) = (SimTime.Max(oldest, world.HistoryEdge), SimTime.Min(newest, world.Horizon));
+        }
+
+        return ((oldest - Now).ToSeconds(), (newest - Now).ToSeconds());
+    }
+
+    /// <summary>Finds where all bodies are at another instant of the window; the next <see cref="Advance"/> draws the present again.</summary>
+    /// <param name="seconds">The instant, in seconds from now. Outside of the window nothing is there.</param>
+    internal void Scrub(double seconds)
+    {
+        SimTime time = Now + SimDuration.FromSeconds(seconds);
+        foreach (Pane pane in panes)
+        {
+            pane.DrawAt(truth, time);
+        }
+    }
+
+    /// <summary>Appends the paths of all bodies over the window, pane by pane; see <see cref="PathSampler.Append"/>.</summary>
+    internal void AppendPaths(int count, List<double> into)
+    {
+        (double oldest, double newest) = Window();
+        foreach (Pane pane in panes)
+        {
+            pane.AppendPaths(Now + SimDuration.FromSeconds(oldest), Now + SimDuration.FromSeconds(newest), Now, count, into);
+        }
+    }
+
     /// <summary>The hashes of all panes and of the truth at the newest instant of the grid that all have.</summary>
     /// <param name="hashes">Gets one for each pane, then that of the truth; null where there is none.</param>
     /// <returns>The instant, in seconds since the world began.</returns>
@@ -140,10 +180,13 @@ internal sealed class Playground
     /// <summary>The bytes that a pane's peer has sent so far, with UDP and IP headers.</summary>
     internal long BytesSent(int pane) => run.Network.Traffic(pane).BytesSent;
 
+    /// <summary>The bytes that have come to a pane's peer so far, with UDP and IP headers.</summary>
+    internal long BytesReceived(int pane) => run.Network.Traffic(pane).BytesReceived;
+
     private void Add(int number, LateEventStrategy strategy, LinkProfile? link)
     {
         LatencyCompensationWindow window = new(SimDuration.FromSeconds(3), SimDuration.FromMilliseconds(Setup.LookAheadMilliseconds));
-        foreach (EventKind kind in new[] { EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release })
+        foreach (EventKind kind in new[] { EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetVelocity })
         {
             window = window.WithLocalLag(kind, SimDuration.FromMilliseconds(Setup.LocalLagMilliseconds));
         }

@@ -42,6 +42,9 @@ internal sealed class Truth
     internal bool TryRead(BodyId body, SimTime time, out BodyState state) =>
         world.TryRead(body, SimTime.Max(world.HistoryEdge, SimTime.Min(time, world.Horizon)), out state);
 
+    /// <summary>Whether a time is within what it remembers and knows.</summary>
+    internal bool Covers(SimTime time) => time >= world.HistoryEdge && time <= world.SimulatedTo;
+
     /// <summary>The hash of the state at a time that it has reached; null for one that it does not know any more.</summary>
     internal ulong? HashAt(SimTime time) => time >= world.HistoryEdge && time <= world.Horizon ? world.StateHash(time) : null;
 }

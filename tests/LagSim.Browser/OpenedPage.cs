@@ -39,6 +39,21 @@ internal sealed class OpenedPage : IAsyncDisposable
         Assert.Empty(complaints);
     }
 
+    /// <summary>Presses Tab until an element has the focus, as a person without a mouse does.</summary>
+    internal async Task TabToAsync(string selector)
+    {
+        for (int n = 0; n < 60; n++)
+        {
+            await Page.Keyboard.PressAsync("Tab");
+            if (await Page.EvaluateAsync<bool>("selector => document.activeElement.matches(selector)", selector))
+            {
+                return;
+            }
+        }
+
+        Assert.Fail($"Tab does not come to {selector}.");
+    }
+
     /// <summary>The canvas of a pane.</summary>
     internal ILocator Canvas(int pane) => Page.Locator(".pane").Nth(pane).Locator("canvas").First;
 
@@ -46,7 +61,7 @@ internal sealed class OpenedPage : IAsyncDisposable
     internal async Task<(string Hash, string Says)> HashAsync(int pane)
     {
         ILocator line = Page.Locator(".agrees").Nth(pane);
-        return (await line.Locator("code").InnerTextAsync(), await line.Locator("span").InnerTextAsync());
+        return (await line.Locator("code").First.InnerTextAsync(), await line.Locator("span").InnerTextAsync());
     }
 
     /// <summary>Waits until every pane says the same hash of the same instant, and that it agrees.</summary>

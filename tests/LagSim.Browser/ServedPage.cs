@@ -6,6 +6,8 @@ using System.Threading.Tasks;
 using Microsoft.Playwright;
 using Xunit;
 
+// Each page keeps a core busy, and pages look at the clock.
+[assembly: CollectionBehavior(DisableTestParallelization = true)]
 [assembly: AssemblyFixture(typeof(LagSim.Browser.ServedPage))]
 
 namespace LagSim.Browser;
@@ -30,8 +32,7 @@ public sealed class ServedPage : IAsyncLifetime
 
     public async ValueTask InitializeAsync()
     {
-        string tool = Path.Combine(Root, "src/LagSim.Cli/bin/Release/net10.0/LagSim.Cli.dll");
-        server = Process.Start(new ProcessStartInfo("dotnet") { ArgumentList = { tool, "play", "--port", "0", "--no-browser" }, RedirectStandardOutput = true })!;
+        server = Process.Start(new ProcessStartInfo("dotnet") { ArgumentList = { Tool.Path, "play", "--port", "0", "--no-browser" }, RedirectStandardOutput = true })!;
         Address = await server.StandardOutput.ReadLineAsync() ?? throw new InvalidOperationException("lagsim play ended without an address.");
         playwright = await Playwright.CreateAsync();
         Browser = await playwright.Chromium.LaunchAsync(new()

@@ -103,11 +103,11 @@ internal static class DropCommand
 
     private static List<DropRun> CompareStrategies(ToolConsole console, DropOptions options)
     {
-        DropOptions[] compared = LateEventStrategies.Names.Select(name => Teleport(options, name)).ToArray();
+        IReadOnlyList<DropOptions> compared = options.ForEveryStrategy();
         double each = compared[0].Length.ToSeconds();
         return console.WithProgress(
             "every strategy, virtual time",
-            each * compared.Length,
+            each * compared.Count,
             progress => compared.Select((other, n) =>
             {
                 console.Begin(other.Strategy);
@@ -118,9 +118,6 @@ internal static class DropCommand
     /// <summary>Checks that strategies that promise agreement agree, in the comparison too.</summary>
     internal static int ExitCodeOf(IEnumerable<DropRun> runs) =>
         runs.Any(run => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees) ? ExitCode.CheckFailed : ExitCode.Done;
-
-    private static DropOptions Teleport(DropOptions options, string strategy) =>
-        options with { Cases = [DropCase.Teleport], Strategy = strategy, IsVirtual = true };
 
     private static IReadOnlyList<DropCase> Cases(string which) => which switch
     {

@@ -19,9 +19,6 @@ internal static class HoldCommand
 {
     private const double RealDelay = 100;
 
-    /// <summary>The one-way delays of Fig 4 and 5, in milliseconds; the default.</summary>
-    private static readonly double[] Delays = [0, 25, 50, 100, 200, 300, 500];
-
     internal static Command Create(ToolConsole console)
     {
         CommonOptions common = new();
@@ -33,7 +30,7 @@ internal static class HoldCommand
             DefaultValueFactory = _ => HandMotions.Random,
             HelpName = "slow|random|FILE.csv",
         };
-        string delays = string.Join(", ", Delays.Select(delay => delay.ToString(CultureInfo.InvariantCulture)));
+        string delays = string.Join(", ", HoldOptions.Delays.Select(delay => delay.ToString(CultureInfo.InvariantCulture)));
         Option<double?> delay = CommonOptions.Delay($"by default one run each of {delays} in virtual time, {RealDelay} in real time");
         Option<string?> profile = CommonOptions.Profile();
         Option<string> time = CommonOptions.Time("virtual");
@@ -79,8 +76,8 @@ internal static class HoldCommand
                 Cancellation = console.Stop,
             };
             HoldTest.Check(options);
-            double?[] each = asked is not null ? [parsed.GetValue(delay)] : isVirtual ? [.. Delays.Select(d => (double?)d)] : [RealDelay];
-            HoldOptions[] runs = Array.ConvertAll(each, d => options with { Link = d is double one ? LinkProfiles.PureDelay(one) : asked!, DelayMilliseconds = d });
+            double?[] each = asked is not null ? [parsed.GetValue(delay)] : isVirtual ? [.. HoldOptions.Delays.Select(d => (double?)d)] : [RealDelay];
+            HoldOptions[] runs = Array.ConvertAll(each, d => d is double one ? options.At(one) : options with { Link = asked!, DelayMilliseconds = null });
             return Run(console, motion, runs, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
         });
         return command;

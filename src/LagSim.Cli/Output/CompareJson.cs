@@ -3,6 +3,7 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Experiments.Compare;
+using LagSim.Harness.Experiments.Peers;
 using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Time;

@@ -1,9 +1,8 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
-using System.Text.Json;
 using LagSim.Harness.Experiments.Drop;
-using LagSim.Harness.SceneFiles;
+using LagSim.Harness.Experiments.Peers;
 
 namespace LagSim.Cli.Output;
 
@@ -19,20 +18,10 @@ internal static class DropJson
             json.WriteStartArray("runs");
             foreach (DropRun run in runs)
             {
-                Run(json, run);
+                DropRunJson.Write(json, run);
             }
 
             json.WriteEndArray();
         });
-    }
-
-    private static void Run(Utf8JsonWriter json, DropRun run)
-    {
-        json.WriteStartObject();
-        RunJson.Setting(
-            json, DropNames.Case(run.Case), run.Options.Strategy, MotionNames.Of(run.Options.Motion), DropNames.Time(run.Options), DropNames.Transport(run.Options),
-            run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null, run.Options.DelayMilliseconds, run.Options.Peers);
-        RunJson.Figures(json, run, run.CpuCoresAtRest);
-        json.WriteEndObject();
     }
 }

@@ -107,11 +107,6 @@ internal static class HoldTables
     /// <summary>Whether a strategy promised agreement, and did not agree.</summary>
     internal static bool IsBroken(HoldRun run) => LateEventStrategies.Create(run.Options.Strategy).PromisesAgreement && !run.Agrees;
 
-    internal static string Time(HoldOptions options) => options.IsVirtual ? "virtual" : "real";
-
-    /// <summary>The name of the carrier. In virtual time there is no socket.</summary>
-    internal static string Transport(HoldOptions options) => options.IsVirtual ? "virtual" : options.Carrier.Name;
-
     internal static string PeerName(int place) => place == 0 ? "host" : string.Create(CultureInfo.InvariantCulture, $"client {place}");
 
     private static string Ratio(double ratio) => double.IsFinite(ratio) ? ratio.ToString("0.000", CultureInfo.InvariantCulture) : "-";

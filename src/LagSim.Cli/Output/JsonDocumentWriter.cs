@@ -1,9 +1,9 @@
 using System;
-using System.Globalization;
 using System.IO;
 using System.Text;
 using System.Text.Encodings.Web;
 using System.Text.Json;
+using LagSim.Harness.Reports;
 
 namespace LagSim.Cli.Output;
 
@@ -39,19 +39,9 @@ internal static class JsonDocumentWriter
         output.WriteLine(Encoding.UTF8.GetString(bytes.ToArray()));
     }
 
-    /// <summary>Writes 16 hexadecimal digits; null for none.</summary>
-    internal static string? Hash(ulong? hash) => hash?.ToString("x16", CultureInfo.InvariantCulture);
+    /// <inheritdoc cref="JsonValues.Hash"/>
+    internal static string? Hash(ulong? hash) => JsonValues.Hash(hash);
 
-    /// <summary>Writes a number, or null for NaN, which JSON does not have.</summary>
-    internal static void Number(Utf8JsonWriter json, string key, double? value)
-    {
-        if (value is double number && double.IsFinite(number))
-        {
-            json.WriteNumber(key, number);
-        }
-        else
-        {
-            json.WriteNull(key);
-        }
-    }
+    /// <inheritdoc cref="JsonValues.Number"/>
+    internal static void Number(Utf8JsonWriter json, string key, double? value) => JsonValues.Number(json, key, value);
 }

@@ -22,7 +22,7 @@ internal static class BilliardsScene
     private const int Rows = 5;
     private const double OffTheMiddle = 0.01;
 
-    internal static Scene Build(double ballRestitution, double cushionRestitution)
+    internal static Scene Build(double ballRestitution, double cushionRestitution, double breakSpeed)
     {
         BodySpec ball = new(Radius, Mass, ballRestitution);
         SceneBuilder builder = new SceneBuilder(Name)
@@ -31,7 +31,7 @@ internal static class BilliardsScene
             .AddPlane("foot", new Vector3D(-1, 0, 0), -Length / 2, cushionRestitution)
             .AddPlane("left", new Vector3D(0, 0, 1), -Width / 2, cushionRestitution)
             .AddPlane("right", new Vector3D(0, 0, -1), -Width / 2, cushionRestitution)
-            .AddBody("cue", ball, new Vector3D(-Length / 4, Radius, OffTheMiddle), new Vector3D(BreakSpeed, 0, 0));
+            .AddBody("cue", ball, new Vector3D(-Length / 4, Radius, OffTheMiddle), new Vector3D(breakSpeed, 0, 0));
         int number = 1;
         for (int row = 0; row < Rows; row++)
         {

@@ -102,9 +102,11 @@ public static class BuiltInScenes
     /// <remarks>Balls slide without friction and do not spin, so they never stop; restitution alone slows them down.</remarks>
     /// <param name="ballRestitution">The restitution of ball on ball, 0 to 1.</param>
     /// <param name="cushionRestitution">The restitution of the cushions, 0 to 1; the lesser of the two counts.</param>
+    /// <param name="breakSpeed">How fast the cue ball comes, in m/s; 0 if somebody has still to break.</param>
     /// <exception cref="SceneException">A value is out of range.</exception>
-    public static Scene Billiards(double ballRestitution = 0.95, double cushionRestitution = 0.8) =>
-        BilliardsScene.Build(ballRestitution, cushionRestitution);
+    public static Scene Billiards(
+        double ballRestitution = 0.95, double cushionRestitution = 0.8, double breakSpeed = BilliardsScene.BreakSpeed) =>
+        BilliardsScene.Build(ballRestitution, cushionRestitution, breakSpeed);
 
     /// <summary>Three balls on a floor with two goals, and <see cref="GoalsRules"/>, which kick them off after a second.</summary>
     public static Scene Goals() => GoalsScene.Build();

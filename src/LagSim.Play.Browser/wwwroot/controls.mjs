@@ -16,14 +16,21 @@ const OfLink = ['delay', 'jitter', 'loss', 'burst', 'asymmetry', 'clock']
 export class Controls {
   /**
    * @param form where it is built
-   * @param on what is called: `begin(query)` for another set-up, `link(query)` for other links only, `pause(isPaused)`, `speed(times)`, `step()`
+   * @param on what is called: `begin(query)` for another set-up, `link(query)` for other links only, `pause(isPaused)`, `step()`
    */
   constructor(form, on) {
     this.form = form
     this.on = on
-    this.values = new URLSearchParams(location.search.slice(1) || location.hash.slice(1))
+    this.read()
     this.isPaused = false
     form.addEventListener('submit', event => event.preventDefault())
+  }
+
+  /** Takes the set-up, and the step that is open, from the address of the page. */
+  read() {
+    this.values = new URLSearchParams(location.search.slice(1) || location.hash.slice(1))
+    this.step = this.values.get('step')
+    this.values.delete('step')
   }
 
   /** The query of what is set now. */
@@ -95,11 +102,12 @@ export class Controls {
     this.isPaused = isPaused
     this.pauseButton.textContent = isPaused ? 'Go on' : 'Pause'
     this.pauseButton.setAttribute('aria-pressed', String(isPaused))
+    this.on.pause(isPaused)
   }
 
   /** The address of the page holds the set-up, so that it can be sent, and stays when it is loaded again. */
   remember() {
-    history.replaceState(null, '', `${location.pathname}?${this.query}`)
+    history.replaceState(null, '', `${location.pathname}?${this.step === null ? '' : `step=${this.step}&`}${this.query}`)
   }
 
   async copy(button) {

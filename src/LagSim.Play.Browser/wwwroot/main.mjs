@@ -2,19 +2,28 @@
 import { dotnet } from './_framework/dotnet.js'
 import { Controls } from './controls.mjs'
 import { Pane } from './panes.mjs'
+import { Scrubber } from './scrubber.mjs'
+import { Steps } from './steps.mjs'
+import { Summary } from './summary.mjs'
 
 const LongestFrame = 0.1 // seconds: a tab that was hidden does not catch up
 const HashEvery = 0.25
 
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
-let engine, setup, panes = [], frame = new Float64Array(0), last = 0, lastHash = -1, colours = readColours()
+let engine, setup, steps, panes = [], frame = new Float64Array(0), last = 0, lastHash = -1, colours = readColours()
 
 const controls = new Controls(found('controls'), {
   begin,
   link: query => say(engine.SetLink(query)),
-  step: () => advance(1 / 60, 1 / 60),
+  pause: isPaused => isPaused || scrubber.reset(),
+  step: () => { scrubber.reset(); advance(1 / 60, 1 / 60) },
 })
+const scrubber = new Scrubber(found('scrubber'), {
+  pause: () => !controls.isPaused && (controls.pause(true), true),
+  goOn: () => controls.pause(false),
+})
+const summary = new Summary(found('summary'))
 
 try {
   const { getAssemblyExports, getConfig, setModuleImports, runMain } = await dotnet.create()
@@ -25,13 +34,13 @@ try {
       }
       view.copyTo(frame)
     },
+    takePaths: view => scrubber.take(view),
   })
   const exports = await getAssemblyExports(getConfig().mainAssemblyName)
   await runMain()
-  engine = { ...exports.LagSim.Play.Browser.PlaygroundExports, speed: () => controls.speed }
-  if (!begin(controls.query)) {
-    begin('') // the sentence says what was wrong; the page shows the usual set-up
-  }
+  engine = { ...exports.LagSim.Play.Browser.PlaygroundExports, speed: () => controls.speed, heals: () => panes.map(pane => pane.heals) }
+  steps = new Steps(found('steps'), JSON.parse(engine.Steps()), { open: openStep, close: closeStep, act, seed })
+  arrive()
   found('loading').hidden = true
   requestAnimationFrame(tick)
 } catch (failure) {
@@ -41,6 +50,9 @@ try {
 }
 
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = readColours() })
+addEventListener('popstate', () => { controls.read(); arrive() })
+found('panes').addEventListener('pointerdown', () => scrubber.isAway && scrubber.toNow(), true) // a hand is in the present
+found('panes').addEventListener('keydown', event => event.key === 'Enter' && scrubber.isAway && scrubber.toNow(), true)
 new ResizeObserver(() => panes.forEach(pane => pane.resize())).observe(found('panes'))
 addEventListener('keydown', event => {
   if (event.key.toLowerCase() === 'p' && !event.ctrlKey && !event.metaKey && !/^(INPUT|SELECT)$/.test(document.activeElement.tagName)) {
@@ -50,6 +62,47 @@ addEventListener('keydown', event => {
 
 // For scripts and tests: where a pane draws a ball on the screen, in CSS pixels.
 window.lagsim = { placeOnScreen: (pane, ball) => panes[pane].placeOnScreen(ball) }
+
+/** Shows what the address of the page says: a set-up, and a step beside it. */
+function arrive() {
+  if (!begin(controls.query || steps.queryOf(controls.step))) {
+    begin('') // the sentence says what was wrong; the page shows the usual set-up
+  }
+  if (controls.step !== null && !steps.has(controls.step)) {
+    say(`There is no step '${controls.step}'; there are ${steps.names.join(', ')}.`)
+    controls.step = null
+    controls.remember()
+  }
+  steps.show(controls.step, controls.values.get('seed') ?? '1')
+}
+
+function openStep(name, values) {
+  history.pushState(null, '', `${location.pathname}?${decodeURIComponent(values.toString())}`)
+  controls.read()
+  arrive()
+}
+
+function closeStep() {
+  const name = controls.step
+  controls.step = null
+  controls.remember()
+  steps.show(null)
+  document.querySelector(`[data-step=${name}]`).focus()
+}
+
+function act(name, deed) {
+  scrubber.isAway && scrubber.toNow()
+  controls.isPaused && controls.pause(false)
+  if (!engine.Act(name, deed)) {
+    say('That cannot be done just now: a ball is in a hand, or there was too much at once.')
+  }
+}
+
+/** Another seed for the worlds, and for the test beside them. */
+function seed(text) {
+  controls.values.set('seed', text)
+  return begin(controls.query)
+}
 
 /** Begins a set-up; says what is wrong with it, and goes on with the one before, if it cannot be. */
 function begin(query) {
@@ -63,7 +116,8 @@ function begin(query) {
   setup = JSON.parse(engine.Describe())
   panes = setup.panes.map((_, number) => new Pane(number, setup, engine, (pane, name) => controls.strategy(pane, name, setup.panes)))
   found('panes').replaceChildren(...panes.map(pane => pane.element))
-  found('panes').hidden = found('controls').hidden = false
+  found('panes').hidden = found('controls').hidden = found('scrubber').hidden = false
+  scrubber.reset()
   controls.build(setup)
   panes.forEach(pane => pane.resize())
   lastHash = -1
@@ -83,9 +137,20 @@ function tick(now) {
 }
 
 function advance(virtual, real) {
-  panes.forEach(pane => pane.send())
-  engine.Advance(virtual, real)
-  panes.forEach(pane => pane.draw(frame, colours, isCalm.matches))
+  const { isAway } = scrubber
+  if (isAway) {
+    engine.Scrub(scrubber.offset)
+  } else {
+    panes.forEach(pane => pane.send())
+    engine.Advance(virtual, real)
+  }
+  scrubber.update(engine, frame, controls.isPaused)
+  const paths = scrubber.paths(setup.bodies.length)
+  panes.forEach(pane => pane.draw(frame, colours, isCalm.matches, paths, isAway))
+  summary.tell(panes.map(pane => pane.state))
+  if (isAway) {
+    return
+  }
   if (frame[0] < lastHash || frame[0] - lastHash >= HashEvery / 4) {
     lastHash = frame[0]
     const [at, ...hashes] = engine.Hashes()
@@ -96,5 +161,5 @@ function advance(virtual, real) {
 function readColours() {
   const style = getComputedStyle(document.documentElement)
   const read = name => style.getPropertyValue(`--${name}`).trim()
-  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), accent: read('accent') }
+  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), path: read('path'), future: read('future'), accent: read('accent') }
 }

@@ -1,6 +1,7 @@
 // The panes: what each player sees, drawn on a canvas, and the hand of the person who looks.
+import { length, set } from './figures.mjs'
 
-const HeaderNumbers = 6
+const HeaderNumbers = 7
 const BodyNumbers = 7
 const StripSeconds = 6
 const KeyStep = 1 / 40 // of the width of the view, for each key press
@@ -14,7 +15,7 @@ export class Pane {
     this.chosen = 0 // the body that keys take
     this.held = null // the hand: where it is, and how fast
     this.errors = [] // metres, one a frame
-    this.sent = []
+    this.traffic = []
     this.element = this.build(onStrategy)
     this.resize()
   }
@@ -30,9 +31,11 @@ export class Pane {
         <div><dt>off by</dt><dd data-is="error"></dd></div>
         <div><dt>heals</dt><dd data-is="heals"></dd></div>
         <div><dt>events re-run</dt><dd data-is="events"></dd></div>
+        <div><dt>bodies rewound</dt><dd data-is="bodies"></dd></div>
         <div><dt>sends</dt><dd data-is="bytes"></dd></div>
+        <div><dt>receives</dt><dd data-is="received"></dd></div>
       </dl>
-      <div class="agrees" role="status"><code></code><span></span></div>`
+      <div class="agrees"><p><small>this world</small> <code></code></p><p><small>without delay</small> <code></code></p><span></span></div>`
     const select = document.createElement('select')
     select.setAttribute('aria-label', `What player ${this.number + 1} does with late events`)
     for (const name of this.setup.strategies) {
@@ -44,6 +47,7 @@ export class Pane {
     this.strip = pane.querySelector('.strip')
     this.figures = Object.fromEntries([...pane.querySelectorAll('dd')].map(dd => [dd.dataset.is, dd]))
     this.agrees = pane.querySelector('.agrees')
+    this.hashes = this.agrees.querySelectorAll('code')
     this.listen()
     return pane
   }
@@ -165,19 +169,22 @@ export class Pane {
     return { x: box.left + this.sx(at.x) * box.width / this.canvas.width, y: box.top + this.sy(at.y) * box.height / this.canvas.height }
   }
 
-  /** Draws a frame of numbers, which begin for this pane at an offset. */
-  draw(frame, colours, isCalm) {
+  /** Draws a frame of numbers, which begin for this pane at an offset; of another instant than now, if that is shown. */
+  draw(frame, colours, isCalm, paths, isAway) {
     this.frame = frame
     this.offset = 1 + this.number * (HeaderNumbers + this.setup.bodies.length * BodyNumbers)
     const context = this.canvas.getContext('2d'), { width, height } = this.canvas
     context.setTransform(1, 0, 0, 1, 0, 0)
     context.clearRect(0, 0, width, height)
     this.drawScene(context, colours)
+    if (paths) {
+      paths.draw(context, this.number, x => this.sx(x), y => this.sy(y), Math.max(1, this.canvas.width / 700), colours)
+    }
     for (let n = 0; n < this.setup.bodies.length; n++) {
       this.drawBody(context, frame, n, colours, isCalm)
     }
-    this.note(frame)
-    this.drawStrip(colours)
+    this.note(frame, isAway)
+    this.drawStrip(colours, isAway ? frame[0] : null)
   }
 
   drawScene(context, colours) {
@@ -242,28 +249,36 @@ export class Pane {
     }
   }
 
-  note(frame) {
-    const [error, heals, events, , bytes] = frame.subarray(this.offset, this.offset + HeaderNumbers)
+  note(frame, isAway) {
+    const [error, heals, events, bodies, bytes, received] = frame.subarray(this.offset, this.offset + HeaderNumbers)
+    this.error = error
+    this.heals = heals
+    set(this.figures.error, length(error))
+    if (isAway) {
+      return // the strip and the traffic are of what was drawn as time passed
+    }
     const time = frame[0]
     this.errors.push({ time, error })
     while (this.errors.length > 1 && this.errors[0].time < time - StripSeconds) {
       this.errors.shift()
     }
-    this.sent.push({ time, bytes })
-    while (this.sent.length > 1 && this.sent[0].time < time - 1) {
-      this.sent.shift()
+    this.traffic.push({ time, bytes, received })
+    while (this.traffic.length > 1 && this.traffic[0].time < time - 1) {
+      this.traffic.shift()
     }
-    const span = time - this.sent[0].time
+    const first = this.traffic[0], span = time - first.time
+    const rate = (now, then) => span > 0.2 ? `${((now - then) / span / 1000).toFixed(1)} kB/s` : ''
     const worst = this.errors.reduce((most, point) => Math.max(most, point.error), 0)
-    set(this.figures.error, length(error))
     this.figures.error.title = `${length(worst)} at worst in the last ${StripSeconds} s`
     set(this.figures.heals, heals.toFixed(0))
     set(this.figures.events, events.toFixed(0))
-    set(this.figures.bytes, span > 0.2 ? `${((bytes - this.sent[0].bytes) / span / 1000).toFixed(1)} kB/s` : '')
+    set(this.figures.bodies, bodies.toFixed(0))
+    set(this.figures.bytes, rate(bytes, first.bytes))
+    set(this.figures.received, rate(received, first.received))
   }
 
   /** How far off what was drawn was, in the last seconds. */
-  drawStrip(colours) {
+  drawStrip(colours, shown) {
     const context = this.strip.getContext('2d'), { width, height } = this.strip
     context.clearRect(0, 0, width, height)
     const newest = this.errors.at(-1)?.time ?? 0
@@ -282,13 +297,19 @@ export class Pane {
     context.fillStyle = colours.soft
     context.font = `${height / 4}px system-ui, sans-serif`
     context.fillText(length(most), 6, height / 3.4)
+    if (shown !== null && shown <= newest) {
+      context.fillStyle = colours.accent
+      context.fillRect(width * (1 - (newest - shown) / StripSeconds) - 1, 0, 2, height)
+    }
   }
 
   /** Shows the hash of this world, and whether it is that of the world without delay. */
   tell(hash, truth, at) {
     const same = hash !== '' && hash === truth
+    this.isSame = hash === '' ? undefined : same
     this.agrees.classList.toggle('differs', !same)
-    set(this.agrees.querySelector('code'), hash || '…')
+    set(this.hashes[0], hash || '…')
+    set(this.hashes[1], truth || '…')
     set(this.agrees.querySelector('span'), hash === '' ? `at ${at} s: not there yet` : same ? `agrees at ${at} s` : `differs at ${at} s`)
   }
 
@@ -297,14 +318,7 @@ export class Pane {
   sy(y) { return this.shiftY - this.scale * y }
 
   speed() { return this.engine.speed() }
-}
 
-function length(metres) {
-  return metres < 1e-6 ? '0 mm' : metres < 0.01 ? `${(metres * 1000).toFixed(1)} mm` : metres < 1 ? `${(metres * 1000).toFixed(0)} mm` : `${metres.toFixed(2)} m`
-}
-
-function set(element, text) {
-  if (element.textContent !== text) {
-    element.textContent = text
-  }
+  /** How it is, for the summary in words. */
+  get state() { return { name: `Player ${this.number + 1}`, error: this.error, heals: this.heals, agrees: this.isSame } }
 }

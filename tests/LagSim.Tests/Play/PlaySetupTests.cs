@@ -26,7 +26,7 @@ public sealed class PlaySetupTests
     }
 
     [Theory]
-    [InlineData("scene=moon", "'scene' is 'moon'; it must be one of room, drop, billiards, cradle, orbits.")]
+    [InlineData("scene=moon", "'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits.")]
     [InlineData("panes=healing", "'panes' names 1 strategies; there are 2 to 4 panes.")]
     [InlineData("panes=healing,magic", "'panes' is 'magic'; it must be one of none, latency-forward, interpolation, full-rollback, healing.")]
     [InlineData("delay=2001", "'delay' is '2001'; it must be a number from 0 to 2000.")]
@@ -35,6 +35,7 @@ public sealed class PlaySetupTests
     [InlineData("loss=50&burst=1&delay=abc", "'delay' is 'abc'")]
     [InlineData("asymmetry=201", "'asymmetry' is 201 ms; with a delay of 100 ms it can be 200 ms at most, either way.")]
     [InlineData("seed=-1", "'seed' is '-1'")]
+    [InlineData("seed=1.5", "'seed' is '1.5'; it must be a whole number from 0 to 9007199254740992.")]
     [InlineData("link=carrier-pigeon", "'link' is 'carrier-pigeon'; it must be one of custom, loopback, lan,")]
     [InlineData("colour=red", "'colour' is no part of a set-up; there are scene, link, panes, seed, delay,")]
     public void Parse_OfWhatCannotBe_NamesItAndWhatIsAllowed(string query, string sentence) =>

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Threading;
 using LagSim.Harness.Experiments.Peers;
 using LagSim.Net.Strategies;
@@ -87,6 +88,10 @@ public sealed record DropOptions
         Cases.Count == 1 ? (SimDuration.Zero, Length)
         : which == DropCase.SameStart ? (SimDuration.Zero, SameStartLength)
         : (SameStartLength, Length);
+
+    /// <summary>These options for the lift alone, from rest, in virtual time, once for each strategy: what compares them.</summary>
+    public IReadOnlyList<DropOptions> ForEveryStrategy() =>
+        [.. LateEventStrategies.Names.Select(name => this with { Cases = [DropCase.Teleport], Strategy = name, IsVirtual = true })];
 
     /// <summary>The scene: a ball above a floor, or at rest on it if only the teleport case is run.</summary>
     /// <exception cref="SceneException">A height or the restitution is out of range.</exception>

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Threading;
 using LagSim.Harness.Experiments.Hands;
 using LagSim.Harness.Experiments.Peers;
@@ -28,6 +29,9 @@ public sealed record HoldOptions(HandMotion Motion)
 
     /// <summary>The longest default hold in real time, in seconds.</summary>
     public const double RealSeconds = 20;
+
+    /// <summary>The one-way delays of Fig 4 and 5, in milliseconds: by default there is a run for each.</summary>
+    public static IReadOnlyList<double> Delays { get; } = [0, 25, 50, 100, 200, 300, 500];
 
     /// <summary>
     /// The duration of the motion, <see cref="ShortestSeconds"/> to <see cref="LongestSeconds"/>, and at most that of the recording.
@@ -69,6 +73,9 @@ public sealed record HoldOptions(HandMotion Motion)
 
     /// <summary>The length of the run, from the start of the scene.</summary>
     public SimDuration Length => GrabAfter + SimDuration.FromSeconds(HandCourse.LiftSeconds + HoldSeconds) + Afterwards;
+
+    /// <summary>These options over a link with that delay one way, in milliseconds.</summary>
+    public HoldOptions At(double delay) => this with { Link = LinkProfiles.PureDelay(delay), DelayMilliseconds = delay };
 
     /// <summary>
     /// The scene: a ball of radius 0.1 m and 0.4 kg at rest on a floor, in flight moved by Runge-Kutta steps as in the drop test.

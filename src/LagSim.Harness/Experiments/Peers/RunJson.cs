@@ -2,15 +2,15 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Experiments.Metrics;
-using LagSim.Harness.Experiments.Peers;
+using LagSim.Harness.Reports;
 
-namespace LagSim.Cli.Output;
+namespace LagSim.Harness.Experiments.Peers;
 
 /// <summary>The JSON keys that the runs of every peer comparison have in common.</summary>
-internal static class RunJson
+public static class RunJson
 {
     /// <summary>The keys that every run begins with: what was run.</summary>
-    internal static void Setting(
+    public static void Setting(
         Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay, int peers)
     {
         json.WriteString("case", which);
@@ -19,12 +19,12 @@ internal static class RunJson
         json.WriteString("time", time);
         json.WriteString("transport", transport);
         json.WriteString("profile", profile);
-        JsonDocumentWriter.Number(json, "delay_ms", delay);
+        JsonValues.Number(json, "delay_ms", delay);
         json.WriteNumber("peers", peers);
     }
 
     /// <summary>The keys that follow: the results.</summary>
-    internal static void Figures(Utf8JsonWriter json, IPeerRun run, double? cpuCoresAtRest)
+    public static void Figures(Utf8JsonWriter json, IPeerRun run, double? cpuCoresAtRest)
     {
         Phases(json, "seen", run.Seen);
         Phases(json, "seen_true_time", run.SeenTrueTime);
@@ -36,7 +36,7 @@ internal static class RunJson
         json.WriteNumber("heals", run.Heals);
         Numbers(json, "bytes_sent_per_s", run.BytesSentPerSecond);
         Percentiles(json, "event_lateness_ms", run.Lateness);
-        JsonDocumentWriter.Number(json, "cpu_cores_at_rest", cpuCoresAtRest);
+        JsonValues.Number(json, "cpu_cores_at_rest", cpuCoresAtRest);
     }
 
     private static void Hashes(Utf8JsonWriter json, string key, IReadOnlyList<ulong> hashes)
@@ -44,13 +44,14 @@ internal static class RunJson
         json.WriteStartArray(key);
         foreach (ulong hash in hashes)
         {
-            json.WriteStringValue(JsonDocumentWriter.Hash(hash));
+            json.WriteStringValue(JsonValues.Hash(hash));
         }
 
         json.WriteEndArray();
     }
 
-    internal static void Phases(Utf8JsonWriter json, string key, PhaseErrors errors)
+    /// <summary>The errors of each phase.</summary>
+    public static void Phases(Utf8JsonWriter json, string key, PhaseErrors errors)
     {
         json.WriteStartObject(key);
         Errors(json, "before", errors.Before.ToStatistics());
@@ -65,14 +66,14 @@ internal static class RunJson
     /// <param name="errors">The statistics of the error.</param>
     /// <param name="without">The value in place of the figures of no sample: 0 where a phase may be empty, null where nothing could be
     /// measured.</param>
-    internal static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors, double? without = 0)
+    public static void Errors(Utf8JsonWriter json, string key, in ErrorStatistics errors, double? without = 0)
     {
         double? Figure(double metres, long samples) => samples == 0 ? without : metres;
         json.WriteStartObject(key);
         json.WriteNumber("samples", errors.Samples);
-        JsonDocumentWriter.Number(json, "max_m", Figure(errors.MaxMetres, errors.Samples));
-        JsonDocumentWriter.Number(json, "mean_m", Figure(errors.MeanMetres, errors.Samples));
-        JsonDocumentWriter.Number(json, "rms_m", Figure(errors.RmsMetres, errors.Samples));
+        JsonValues.Number(json, "max_m", Figure(errors.MaxMetres, errors.Samples));
+        JsonValues.Number(json, "mean_m", Figure(errors.MeanMetres, errors.Samples));
+        JsonValues.Number(json, "rms_m", Figure(errors.RmsMetres, errors.Samples));
         json.WriteNumber("differing_bits", errors.DifferingBits);
         json.WriteNumber("stalled_samples", errors.StalledSamples);
         json.WriteEndObject();
@@ -89,7 +90,8 @@ internal static class RunJson
         json.WriteEndArray();
     }
 
-    internal static void Percentiles(Utf8JsonWriter json, string key, Percentiles of)
+    /// <summary>Percentiles of a figure.</summary>
+    public static void Percentiles(Utf8JsonWriter json, string key, Percentiles of)
     {
         json.WriteStartObject(key);
         json.WriteNumber("p50", of.P50);
@@ -98,7 +100,8 @@ internal static class RunJson
         json.WriteEndObject();
     }
 
-    internal static void MeanAndTail(Utf8JsonWriter json, string key, MeanAndTail of)
+    /// <summary>The mean of a figure, and its 99th percentile.</summary>
+    public static void MeanAndTail(Utf8JsonWriter json, string key, MeanAndTail of)
     {
         json.WriteStartObject(key);
         json.WriteNumber("mean", of.Mean);
@@ -107,7 +110,7 @@ internal static class RunJson
     }
 
     /// <summary>Returns the hash that all have in common; null if they differ.</summary>
-    internal static ulong? Common(IEnumerable<ulong> hashes)
+    public static ulong? Common(IEnumerable<ulong> hashes)
     {
         ulong[] different = hashes.Distinct().ToArray();
         return different.Length == 1 ? different[0] : null;

@@ -1,0 +1,75 @@
+// Things to try: five steps, each an ordinary link that holds its set-up. An opened step says what to look at, and does what it needs.
+import { make } from './figures.mjs'
+import { ThesisTest } from './thesis.mjs'
+
+/** The list of steps, and the one that is open. */
+export class Steps {
+  /**
+   * @param section where it is built
+   * @param steps what the engine offers
+   * @param on what is called: `open(name, query)` for the set-up of a step, `close()`, `act(name, deed)`, and `seed(text)`, whether it can be
+   */
+  constructor(section, steps, on) {
+    this.section = section
+    this.steps = steps
+    this.on = on
+    this.panel = make('div', { class: 'step', id: 'step', hidden: '' })
+    const list = make('ol', {}, ...steps.map((step, n) => make('li', {}, make('a', { href: address(step.name, step.query), 'data-step': step.name },
+      make('b', { 'aria-hidden': 'true' }, String(n + 1)), make('span', {}, step.title, make('small', {}, step.subtitle))))))
+    section.append(make('h2', { id: 'steps-title' }, 'Things to try'), list, this.panel)
+    section.addEventListener('click', event => this.follow(event))
+    section.hidden = false
+  }
+
+  /** Whether there is a step of that name. */
+  has(name) { return this.steps.some(step => step.name === name) }
+
+  /** The set-up of a step; that of none is the usual one. */
+  queryOf(name) { return this.steps.find(step => step.name === name)?.query ?? '' }
+
+  get names() { return this.steps.map(step => step.name) }
+
+  /** A link of a step is followed in the page itself, unless a person wants it elsewhere. */
+  follow(event) {
+    const link = event.target.closest('a[data-step]')
+    if (link && event.button === 0 && !event.ctrlKey && !event.metaKey && !event.shiftKey && !event.altKey) {
+      event.preventDefault()
+      this.on.open(link.dataset.step, new URLSearchParams(new URL(link.href).search))
+    }
+  }
+
+  /** Shows a step; none for null. */
+  show(name, seed) {
+    this.test?.stop()
+    this.test = null
+    const step = this.steps.find(one => one.name === name)
+    for (const link of this.section.querySelectorAll('ol a')) {
+      link.dataset.step === name ? link.setAttribute('aria-current', 'step') : link.removeAttribute('aria-current')
+    }
+    this.panel.hidden = !step
+    this.panel.replaceChildren()
+    if (!step) {
+      return
+    }
+    const close = make('button', { type: 'button', class: 'close', 'aria-label': 'Close this step' }, '×')
+    close.addEventListener('click', () => this.on.close())
+    const buttons = step.deeds.map((text, number) => {
+      const button = make('button', { type: 'button', class: 'main' }, text)
+      button.addEventListener('click', () => this.on.act(step.name, number))
+      return button
+    })
+    const links = [...step.variants, { text: 'Start this step again', query: step.query }].map(({ text, query }) =>
+      make('a', { href: address(step.name, query), 'data-step': step.name }, text))
+    this.panel.append(close, make('h3', {}, step.title), ...step.sentences.map(text => make('p', {}, text)), make('p', { class: 'deeds' }, ...buttons, ...links))
+    if (step.test) {
+      this.test = new ThesisTest(step.test, seed, this.on.seed)
+      this.panel.append(this.test.element)
+      this.test.run()
+    }
+  }
+}
+
+/** The address of a step with a set-up. */
+export function address(name, query) {
+  return `?step=${name}&${query}`
+}

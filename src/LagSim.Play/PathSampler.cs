@@ -1,0 +1,84 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Time;
+using LagSim.Timelines;
+
+namespace LagSim.Play;
+
+/// <summary>The paths of the bodies of a world, as points of a line: evenly in time, and at each bounce.</summary>
+/// <remarks>Costs a look into the timelines for every point, so it is for when somebody asks.</remarks>
+internal static class PathSampler
+{
+    /// <summary>How many bounces there may be between two of the evenly spaced instants: a heap bounces thousands of times a second.</summary>
+    private const int Corners = 2;
+
+    /// <summary>Appends a body's path.</summary>
+    /// <param name="world">The world.</param>
+    /// <param name="scene">Where a place is drawn.</param>
+    /// <param name="body">The body.</param>
+    /// <param name="span">From when to when, within the window.</param>
+    /// <param name="now">The moment that times are told from.</param>
+    /// <param name="count">How many instants there are evenly spaced, both ends included; 2 or more.</param>
+    /// <param name="into">Gets the number of points, then for each the time in seconds from <paramref name="now"/>, and x and y in metres of
+    /// the view. A point whose x and y are not a number breaks the line: the body is not there, or was put elsewhere.</param>
+    internal static void Append(Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now, int count, List<double> into)
+    {
+        SimTime oldest = SimTime.Max(span.Oldest, world.HistoryEdge), newest = SimTime.Min(span.Newest, world.Horizon);
+        long ticks = (newest - oldest).Ticks;
+        List<SimTime> times = [], breaks = [];
+        for (int n = 0; n < count; n++)
+        {
+            times.Add(oldest + SimDuration.FromTicks((long)((Int128)ticks * n / (count - 1))));
+        }
+
+        foreach (TimelineEntry entry in world.Timeline(body, oldest))
+        {
+            SimTime time = entry.Key.Time;
+            bool isBreak = entry.Key.Kind is EventKind.Teleport or EventKind.Grab;
+            bool isNear = times.Count > count && (time - times[^1]).Ticks < ticks / (Corners * count);
+            if (time <= oldest || time >= newest || entry.Key.Kind == EventKind.StepEnd || (isNear && !isBreak))
+            {
+                continue; // the end of a step bends nothing, and what follows a bounce at once is not seen
+            }
+
+            times.Add(time);
+            if (isBreak)
+            {
+                breaks.Add(time);
+            }
+        }
+
+        times.Sort();
+        int head = into.Count, points = 0;
+        into.Add(0);
+        foreach (SimTime time in times)
+        {
+            if (breaks.Contains(time))
+            {
+                Add(time, double.NaN, double.NaN);
+            }
+
+            if (world.TryRead(body, time, out BodyState state))
+            {
+                (double x, double y) = scene.ToView(state.Position);
+                Add(time, x, y);
+            }
+            else
+            {
+                Add(time, double.NaN, double.NaN);
+            }
+        }
+
+        into[head] = points;
+
+        void Add(SimTime time, double x, double y)
+        {
+            points++;
+            into.Add((time - now).ToSeconds());
+            into.Add(x);
+            into.Add(y);
+        }
+    }
+}

@@ -1,0 +1,216 @@
+using System;
+using System.Globalization;
+using System.Linq;
+using System.Text.Json;
+using System.Text.RegularExpressions;
+using System.Threading.Tasks;
+using Microsoft.Playwright;
+using Xunit;
+
+namespace LagSim.Browser;
+
+/// <summary>The things to try: their figures are the tool's, and a person opens them with mouse, keys and fingers.</summary>
+public sealed class GuidedStepPageTests(ServedPage served)
+{
+    private const string Done = "[data-state=done]";
+
+    /// <summary>Every figure of the thesis's tests that the page shows is the tool's, to the last bit; another seed has others.</summary>
+    [Theory]
+    [InlineData("lift", 1)]
+    [InlineData("lift", 20_261)]
+    [InlineData("hand", 1)]
+    [InlineData("hand", 77)]
+    public async Task Figures_OfAThesissTest_AreThoseOfTheTool(string step, int seed)
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, $"step={step}&panes=healing,healing&seed={seed}");
+        await page.Page.WaitForSelectorAsync(Done, new() { Timeout = 120_000 });
+        Figure[] figures = await FiguresAsync(page);
+        Assert.Equal(step == "lift" ? 57 : 84, figures.Length);
+
+        JsonElement own = await ToolAsync(step, seed);
+        Assert.Equal(own.GetArrayLength(), figures.Max(figure => figure.Run) + 1);
+        Assert.All(figures, figure => Assert.Null(Difference(figure, own)));
+        JsonElement other = await ToolAsync(step, seed + 1);
+        Assert.Contains(figures, figure => Difference(figure, other) is not null);
+    }
+
+    [Fact]
+    public async Task Worlds_WhileATestRuns_GoOn()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "step=hand&panes=healing,healing");
+        await page.Page.WaitForSelectorAsync("[data-state=running]");
+        (_, string before) = await page.HashAsync(0);
+        await page.Page.WaitForTimeoutAsync(1500);
+        Assert.NotEqual(before, (await page.HashAsync(0)).Says);
+        Assert.Equal("running", await page.Page.Locator(".test").GetAttributeAsync("data-state"));
+        await page.Page.GetByRole(AriaRole.Button, new() { Name = "Stop" }).ClickAsync();
+        Assert.Equal("stopped", await page.Page.Locator(".test").GetAttributeAsync("data-state"));
+        int rows = await page.Page.Locator(".test tbody tr").CountAsync();
+        await page.Page.WaitForTimeoutAsync(4000);
+        Assert.Equal(rows, await page.Page.Locator(".test tbody tr").CountAsync()); // nothing goes on behind the page
+    }
+
+    [Fact]
+    public async Task Seed_ChosenInATest_IsInTheAddressAndOfTheTest()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "step=lift");
+        await page.Page.GetByRole(AriaRole.Button, new() { Name = "Stop" }).ClickAsync();
+        await page.Page.Locator("input[name=seed]").FillAsync("12");
+        await page.Page.GetByRole(AriaRole.Button, new() { Name = "Run again" }).ClickAsync();
+        Assert.Contains("seed=12", page.Page.Url, StringComparison.Ordinal);
+        Assert.Contains("step=lift", page.Page.Url, StringComparison.Ordinal);
+        await page.Page.WaitForSelectorAsync(Done, new() { Timeout = 120_000 });
+        JsonElement own = await ToolAsync("lift", 12);
+        Assert.All(await FiguresAsync(page), figure => Assert.Null(Difference(figure, own)));
+    }
+
+    [Fact]
+    public async Task Strategy_ChosenForTheChart_IsDrawn()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "step=lift");
+        await page.Page.WaitForSelectorAsync(Done, new() { Timeout = 120_000 });
+        ILocator apart = page.Page.Locator(".charts figure").Nth(1).Locator("path.line").First;
+        Assert.True((await apart.GetAttributeAsync("d"))!.Split('L').Length > 100); // apart for good
+        await page.Page.Locator(".charts select").SelectOptionAsync("healing");
+        Assert.True((await apart.GetAttributeAsync("d"))!.Split('L').Length < 10); // until the event is there
+    }
+
+    [Fact]
+    public async Task Steps_FollowedWithAMouse_SetThePageUpAndComeBack()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "");
+        foreach ((string step, string part) in new[] { ("break", "scene=break"), ("loss", "loss=40"), ("later", "lag=100") })
+        {
+            ILocator link = page.Page.Locator($"#steps ol a[data-step={step}]");
+            await link.ClickAsync();
+            Assert.Equal("step", await link.GetAttributeAsync("aria-current"));
+            Assert.Equal(1, await page.Page.Locator("#steps ol a[aria-current]").CountAsync());
+            Assert.Contains($"step={step}", page.Page.Url, StringComparison.Ordinal);
+            Assert.Contains(part, page.Page.Url, StringComparison.Ordinal);
+            Assert.True(await page.Page.Locator("#step").IsVisibleAsync());
+        }
+
+        await page.Page.GoBackAsync();
+        Assert.Equal("step", await page.Page.Locator("#steps ol a[data-step=loss]").GetAttributeAsync("aria-current"));
+        Assert.Equal("40", await page.Page.Locator("input[name=loss]").InputValueAsync());
+        await page.Page.ReloadAsync();
+        await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+        Assert.Equal("step", await page.Page.Locator("#steps ol a[data-step=loss]").GetAttributeAsync("aria-current"));
+        Assert.Equal("40", await page.Page.Locator("input[name=loss]").InputValueAsync());
+    }
+
+    [Fact]
+    public async Task Break_ByKeysAlone_IsAnotherGameForThoseWhoPromiseNothing()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "");
+        await page.TabToAsync("#steps ol a[data-step=break]");
+        await page.Page.Keyboard.PressAsync("Enter");
+        await page.Page.WaitForSelectorAsync("#step:not([hidden])");
+        await page.Page.WaitForTimeoutAsync(600);
+        await page.TabToAsync("#step .deeds button");
+        await page.Page.Keyboard.PressAsync("Enter");
+        await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
+        await page.Page.WaitForFunctionAsync(
+            """
+            () => [...document.querySelectorAll('.agrees span')].map(span => span.textContent.split(' ')[0]).join() === 'agrees,agrees,differs,differs'
+              && Number(document.querySelectorAll('.agrees span')[0].textContent.split(' ')[2]) > 2.5
+            """);
+        await page.TabToAsync("#step .close");
+        await page.Page.Keyboard.PressAsync("Enter");
+        Assert.False(await page.Page.Locator("#step").IsVisibleAsync());
+        Assert.DoesNotContain("step=", page.Page.Url, StringComparison.Ordinal);
+        Assert.Equal("break", await page.Page.EvaluateAsync<string>("() => document.activeElement.dataset.step")); // where the person came from
+    }
+
+    /// <summary>A link of a step is an ordinary one: opened elsewhere it is the same step and set-up.</summary>
+    [Theory]
+    [InlineData("lift")]
+    [InlineData("hand")]
+    [InlineData("break")]
+    [InlineData("loss")]
+    [InlineData("later")]
+    public async Task Link_OfAStepOpenedElsewhere_IsThatStepOnAPhoneToo(string step)
+    {
+        string href;
+        await using (OpenedPage page = await OpenedPage.OpenAsync(served, ""))
+        {
+            href = (await page.Page.Locator($"#steps ol a[data-step={step}]").GetAttributeAsync("href"))!;
+        }
+
+        await using OpenedPage phone = await OpenedPage.OpenAsync(
+            served, href[1..], new() { ViewportSize = new() { Width = 390, Height = 844 }, HasTouch = true, IsMobile = true, DeviceScaleFactor = 2 });
+        Assert.Equal("step", await phone.Page.Locator($"#steps ol a[data-step={step}]").GetAttributeAsync("aria-current"));
+        Assert.Equal(href[1..], Uri.UnescapeDataString(new Uri(phone.Page.Url).Query[1..]));
+        foreach (ILocator deed in await phone.Page.Locator("#step .deeds button").AllAsync())
+        {
+            await deed.TapAsync();
+        }
+
+        if (step is "lift" or "hand")
+        {
+            await phone.Page.WaitForSelectorAsync(".test tbody tr", new() { Timeout = 60_000 });
+        }
+        else
+        {
+            await phone.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
+        }
+
+        Assert.True(await phone.Page.EvaluateAsync<bool>("() => document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the phone");
+    }
+
+    [Fact]
+    public async Task Step_ThatThereIsNot_IsNamed()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "step=moon");
+        Assert.Equal("There is no step 'moon'; there are lift, hand, break, loss, later.", await page.Page.Locator("#problem").InnerTextAsync());
+        Assert.False(await page.Page.Locator("#step").IsVisibleAsync());
+        await page.AgreeAsync(2);
+    }
+
+    private static Task<JsonElement> ToolAsync(string step, int seed)
+    {
+        string text = seed.ToString(CultureInfo.InvariantCulture);
+        return step == "lift"
+            ? Tool.RunsAsync("drop", "--time", "virtual", "--strategy", "all", "--seed", text)
+            : Tool.RunsAsync("hold", "--time", "virtual", "--seed", text);
+    }
+
+    private static async Task<Figure[]> FiguresAsync(OpenedPage page)
+    {
+        JsonElement all = await page.Page.EvaluateAsync<JsonElement>(
+            """
+            () => [...document.querySelectorAll('.test [data-key]')].map(e => ({ run: Number(e.dataset.run), key: e.dataset.key, text: e.textContent, value: e.getAttribute('value') ?? '' }))
+            """);
+        return [.. all.EnumerateArray().Select(one => new Figure(
+            one.GetProperty("run").GetInt32(), one.GetProperty("key").GetString()!, one.GetProperty("text").GetString()!, one.GetProperty("value").GetString()!))];
+    }
+
+    /// <summary>How a figure differs from that in the tool's JSON, in words; null if it does not.</summary>
+    private static string? Difference(Figure figure, JsonElement runs)
+    {
+        JsonElement at = runs[figure.Run];
+        foreach (string part in figure.Key.Split('.'))
+        {
+            at = at.ValueKind == JsonValueKind.Array ? at[int.Parse(part, CultureInfo.InvariantCulture)] : at.GetProperty(part);
+        }
+
+        if (at.ValueKind == JsonValueKind.String)
+        {
+            return at.GetString() == figure.Text ? null : $"run {figure.Run}, {figure.Key}: {figure.Text} against {at}";
+        }
+
+        if (at.ValueKind == JsonValueKind.Null)
+        {
+            return figure.Value.Length == 0 && figure.Text == "–" ? null : $"run {figure.Run}, {figure.Key}: {figure.Text} against nothing";
+        }
+
+        double exact = double.Parse(figure.Value, CultureInfo.InvariantCulture);
+        Match shown = Regex.Match(figure.Text, @"^([-0-9.e+]+)( mm)?");
+        double text = double.Parse(shown.Groups[1].Value, CultureInfo.InvariantCulture) / (shown.Groups[2].Success ? 1000 : 1);
+        return exact != at.GetDouble() ? $"run {figure.Run}, {figure.Key}: {exact:R} against {at}"
+            : Math.Abs(text - exact) > 6e-3 * Math.Abs(exact) ? $"run {figure.Run}, {figure.Key}: shown as {figure.Text}, and is {exact:R}"
+            : null;
+    }
+
+    private sealed record Figure(int Run, string Key, string Text, string Value);
+}
