@@ -67,7 +67,9 @@ internal sealed class HandOfPerson(Session session, PlayScene scene, Action wake
         return Do(PlayerAction.Release(held, scene.FromView(velocityX, velocityY, Vector3D.Zero)));
     }
 
-    private ExternalEvent? Do(in PlayerAction action)
+    /// <summary>Does an action.</summary>
+    /// <returns>What was done; null if the session refused it.</returns>
+    internal ExternalEvent? Do(in PlayerAction action)
     {
         try
         {

@@ -130,7 +130,7 @@ public sealed class PlayPageTests(ServedPage served)
     public async Task SetUp_ThatCannotBe_IsNamed()
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=moon&delay=9");
-        Assert.Equal("'scene' is 'moon'; it must be one of room, drop, billiards, cradle, orbits.", await page.Page.Locator("#problem").InnerTextAsync());
+        Assert.Equal("'scene' is 'moon'; it must be one of room, drop, billiards, cradle, orbits, air-hockey.", await page.Page.Locator("#problem").InnerTextAsync());
         await page.AgreeAsync(2); // and the usual set-up is shown
     }
 

@@ -1,4 +1,5 @@
 // The panes: what each player sees, drawn on a canvas, and the hand of the person who looks.
+import { AirHockeyTable } from './airhockey.mjs'
 
 const HeaderNumbers = 6
 const BodyNumbers = 7
@@ -15,6 +16,7 @@ export class Pane {
     this.held = null // the hand: where it is, and how fast
     this.errors = [] // metres, one a frame
     this.sent = []
+    this.game = setup.scene === 'air-hockey' ? new AirHockeyTable(this, engine.airHockey) : null
     this.element = this.build(onStrategy)
     this.resize()
   }
@@ -44,7 +46,7 @@ export class Pane {
     this.strip = pane.querySelector('.strip')
     this.figures = Object.fromEntries([...pane.querySelectorAll('dd')].map(dd => [dd.dataset.is, dd]))
     this.agrees = pane.querySelector('.agrees')
-    this.listen()
+    this.game ? this.game.build(pane, this.canvas) : this.listen()
     return pane
   }
 
@@ -172,12 +174,16 @@ export class Pane {
     const context = this.canvas.getContext('2d'), { width, height } = this.canvas
     context.setTransform(1, 0, 0, 1, 0, 0)
     context.clearRect(0, 0, width, height)
+    this.game ? this.game.draw(context, frame, colours, isCalm) : this.drawAll(context, frame, colours, isCalm)
+    this.note(frame)
+    this.drawStrip(colours)
+  }
+
+  drawAll(context, frame, colours, isCalm) {
     this.drawScene(context, colours)
     for (let n = 0; n < this.setup.bodies.length; n++) {
       this.drawBody(context, frame, n, colours, isCalm)
     }
-    this.note(frame)
-    this.drawStrip(colours)
   }
 
   drawScene(context, colours) {
