@@ -135,12 +135,14 @@ public sealed class PlayPageTests(ServedPage served)
     }
 
     [Theory]
-    [InlineData(ColorScheme.Light)]
-    [InlineData(ColorScheme.Dark)]
-    public async Task Text_InBothThemes_HasEnoughContrast(ColorScheme theme)
+    [InlineData(ColorScheme.Light, "room")]
+    [InlineData(ColorScheme.Dark, "room")]
+    [InlineData(ColorScheme.Light, "air-hockey")]
+    [InlineData(ColorScheme.Dark, "air-hockey")]
+    public async Task Text_InBothThemes_HasEnoughContrast(ColorScheme theme, string scene)
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(
-            served, "panes=healing,none", new() { ViewportSize = new() { Width = 1200, Height = 900 }, ColorScheme = theme, ReducedMotion = ReducedMotion.Reduce });
+            served, $"scene={scene}&panes=healing,none", new() { ViewportSize = new() { Width = 1200, Height = 900 }, ColorScheme = theme, ReducedMotion = ReducedMotion.Reduce });
         Assert.Empty(await Pale(page));
         await page.Page.EvaluateAsync(
             "() => { document.querySelector('h1').style.color = getComputedStyle(document.documentElement).backgroundColor }");
@@ -177,7 +179,7 @@ public sealed class PlayPageTests(ServedPage served)
                   if (colour !== 'rgba(0, 0, 0, 0)') return colour
                 }
               }
-              return [...document.querySelectorAll('h1, h2, p, label, output, dt, dd, code, button, select, .agrees span')].filter(e => e.innerText?.trim()).filter(e => {
+              return [...document.querySelectorAll('h1, h2, p, label, output, dt, dd, code, button, select, .agrees span, .board span, b, small, .how')].filter(e => e.innerText?.trim()).filter(e => {
                 const [a, b] = [light(getComputedStyle(e).color), light(back(e))].sort((x, y) => y - x)
                 return (a + 0.05) / (b + 0.05) < 4.5
               }).map(e => `${e.tagName} ${e.innerText.slice(0, 30)}`)
