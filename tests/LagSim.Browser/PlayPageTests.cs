@@ -27,13 +27,17 @@ public sealed class PlayPageTests(ServedPage served)
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=billiards&panes=healing,none&delay=300");
         await page.Page.WaitForTimeoutAsync(600);
-        await page.ThrowAsync(0, 0, -60, 40);
-        await page.Page.WaitForTimeoutAsync(2500);
-        (string host, string agrees) = await page.HashAsync(0);
-        (string other, string differs) = await page.HashAsync(1);
-        Assert.NotEqual(host, other);
-        Assert.StartsWith("agrees", agrees, StringComparison.Ordinal);
-        Assert.StartsWith("differs", differs, StringComparison.Ordinal);
+        (string Hash, string Says) host, other;
+        int throws = 0;
+        do
+        {
+            await page.ThrowAsync(0, 0, -60, 40); // on a busy machine it may be let go at rest, which even that strategy gets right
+            await page.Page.WaitForTimeoutAsync(2500);
+            (host, other) = (await page.HashAsync(0), await page.HashAsync(1));
+        }
+        while (other.Says.StartsWith("agrees", StringComparison.Ordinal) && ++throws < 5);
+        Assert.StartsWith("agrees", host.Says, StringComparison.Ordinal);
+        Assert.StartsWith("differs", other.Says, StringComparison.Ordinal);
     }
 
     [Fact]

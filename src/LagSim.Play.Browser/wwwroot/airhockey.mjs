@@ -38,7 +38,7 @@ export class AirHockeyTable {
     const foot = document.createElement('div')
     foot.className = 'hand'
     const keys = this.player < 2 ? `<span class="keys">${Keys[this.player]}, or </span>` : ''
-    foot.innerHTML = `<i class="${this.side === 0 ? 'first' : 'second'}"></i><span class="how">Player ${this.player + 1}: ${keys}drag on the table</span>
+    foot.innerHTML = `<i class="${this.side === 0 ? 'first' : 'second'}"></i><span class="how">Player ${this.player + 1}: ${keys}drag</span>
       <button type="button" class="again" hidden>Play again</button><button type="button" class="bot" aria-pressed="false">Let a bot play</button>`
     canvas.before(board, news)
     canvas.after(foot)
