@@ -1,9 +1,10 @@
 using System;
 using LagSim;
-using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Scenes;
 using LagSim.Time;
+
+namespace AirHockey;
 
 /// <summary>A player that is no person. It sees what a screen would show, and moves a hand.</summary>
 public sealed class Bot

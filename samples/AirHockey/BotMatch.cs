@@ -12,6 +12,8 @@ using LagSim.Testing.Links;
 using LagSim.Time;
 using LagSim.Timelines;
 
+namespace AirHockey;
+
 /// <summary>A match of bots in virtual time: real sessions over a simulated link, and a comparison of what peers heard and have.</summary>
 public sealed class BotMatch
 {

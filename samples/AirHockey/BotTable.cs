@@ -10,6 +10,8 @@ using LagSim.Testing;
 using LagSim.Testing.Links;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>Matches of bots on every link profile, and a table of what came of them.</summary>
 public static class BotTable
 {

@@ -1,6 +1,8 @@
 using LagSim.Rules;
 using LagSim.Timelines;
 
+namespace AirHockey;
+
 /// <summary>The negative control: rules with a mistake that is easily made. They keep a count in a field, outside of the state.</summary>
 /// <remarks>
 /// A late event has a call made again, and takes back what it did to the state; a field it cannot take back. So each peer counts goals as

@@ -6,6 +6,8 @@ using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>The hand of a person or a bot: it takes the mallet, moves it within its half, and takes it again if it has lost it.</summary>
 public sealed class Hand
 {

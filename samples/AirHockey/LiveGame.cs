@@ -11,6 +11,8 @@ using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
+namespace AirHockey;
+
 /// <summary>A person's game over UDP, in a terminal. Where nobody can press keys a bot plays.</summary>
 public sealed class LiveGame
 {

@@ -6,6 +6,8 @@ using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>Draws what this player holds exactly where the hand is, while all else moves smoothly; and measures what that is worth.</summary>
 public sealed class OwnMallet
 {

@@ -5,6 +5,8 @@ using LagSim.Hosting;
 using LagSim.Net.Sessions;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>What one peer heard of its rules in a match: its own history of the score.</summary>
 public sealed class PeerLog
 {

@@ -7,6 +7,8 @@ using LagSim.Net.Display;
 using LagSim.Scenes;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>The table as a picture of 80 by 24 characters: dots of Braille, two by four to a character, and text over them.</summary>
 public sealed class Picture
 {

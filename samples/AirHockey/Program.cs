@@ -8,6 +8,7 @@ using System;
 using System.Globalization;
 using System.IO;
 using System.Net;
+using AirHockey;
 using LagSim.Testing.Links;
 
 const string Usage = "--bots [--broken], --watch [LINK [PLAYERS]], host [PORT [PLAYERS]], or join ADDRESS:PORT";

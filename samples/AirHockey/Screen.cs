@@ -5,6 +5,8 @@ using LagSim.Net.Sessions;
 using LagSim.Rules;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>The terminal: shows pictures one over the other, and the words for what the rules tell.</summary>
 public sealed class Screen : IDisposable
 {

@@ -6,6 +6,8 @@ using LagSim.Testing;
 using LagSim.Testing.Links;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>A match of bots over a simulated link, drawn in real time as the last player sees it.</summary>
 public static class Watch
 {

@@ -23,6 +23,9 @@ internal static partial class PlaygroundExports
 
     private static double[] numbers = [];
 
+    /// <summary>The panes that are shown.</summary>
+    internal static IReadOnlyList<Pane> Panes => playground!.Panes;
+
     /// <summary>Begins a playground of a set-up.</summary>
     /// <returns>A sentence on what cannot be; empty if it began.</returns>
     [JSExport]

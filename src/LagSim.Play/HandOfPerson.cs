@@ -72,7 +72,9 @@ internal sealed class HandOfPerson(Session session, PlayScene scene, Action wake
     internal ExternalEvent? Strike(BodyId body, double velocityX, double velocityY) =>
         Do(PlayerAction.SetVelocity(body, scene.FromView(velocityX, velocityY, Vector3D.Zero)));
 
-    private ExternalEvent? Do(in PlayerAction action)
+    /// <summary>Does an action.</summary>
+    /// <returns>What was done; null if the session refused it.</returns>
+    internal ExternalEvent? Do(in PlayerAction action)
     {
         try
         {

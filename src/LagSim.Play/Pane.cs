@@ -48,6 +48,9 @@ internal sealed class Pane
     /// <summary>What it does with late events.</summary>
     internal LateEventStrategy Strategy { get; }
 
+    /// <summary>Its player, in a scene of air hockey; else null.</summary>
+    internal AirHockeyPlayer? Player { get; set; }
+
     /// <summary>How many heals there were.</summary>
     internal long Heals { get; private set; }
 
@@ -81,6 +84,7 @@ internal sealed class Pane
         SimTime now = Session.SharedTime.Now; // as well as this peer knows it
         shownSeconds += seconds;
         display.Update(world.RenderSnapshots.Latest(), Session.DisplayTime);
+        Player?.Look(display);
         Error = 0;
         for (int n = 0; n < places.Length; n++)
         {
@@ -103,7 +107,7 @@ internal sealed class Pane
     internal ExternalEvent? Grab(double x, double y, double reach)
     {
         int nearest = Nearest(x, y, reach);
-        return nearest < 0 || Session.World is null ? null : hand.Take(BodyId.OfScene(nearest));
+        return nearest < 0 || Session.World is null || Player is not null ? null : hand.Take(BodyId.OfScene(nearest));
     }
 
     /// <summary>The hand moves; see <see cref="HandOfPerson.Move"/>.</summary>
@@ -150,6 +154,9 @@ internal sealed class Pane
             }
         }
     }
+
+    /// <summary>Does an action; see <see cref="HandOfPerson.Do"/>.</summary>
+    internal ExternalEvent? Do(in PlayerAction action) => hand.Do(action);
 
     /// <summary>The hash of its state at a time; null if it does not have that time.</summary>
     internal ulong? HashAt(SimTime time)

@@ -22,7 +22,7 @@ internal sealed class PlayScene
     }
 
     /// <summary>The names, as a link to the page has them.</summary>
-    internal static IReadOnlyList<string> Names { get; } = ["room", "drop", "billiards", "break", "cradle", "orbits"];
+    internal static IReadOnlyList<string> Names { get; } = ["room", "drop", "billiards", "break", "cradle", "orbits", AirHockeyGame.Name];
 
     /// <summary>The scene.</summary>
     internal Scene Scene { get; }
@@ -39,9 +39,15 @@ internal sealed class PlayScene
     /// <summary>The upper edge, in metres.</summary>
     internal double Top { get; }
 
+    /// <summary>Whether it is air hockey: then hands are those of its players.</summary>
+    internal bool IsAirHockey { get; private init; }
+
     /// <summary>Returns the scene of that name.</summary>
+    /// <param name="name">One of <see cref="Names"/>.</param>
+    /// <param name="players">How many play, where it is a game.</param>
+    /// <param name="seed">What its random numbers begin with, where it has some.</param>
     /// <exception cref="ArgumentException">There is none; the message lists those that there are.</exception>
-    internal static PlayScene Named(string name) => name switch
+    internal static PlayScene Named(string name, int players = 2, ulong seed = 1) => name switch
     {
         "room" => new PlayScene(Room(), isFromAbove: false, -4.4, -0.4, 4.4, 5.6),
         "drop" => new PlayScene(BuiltInScenes.Drop(), isFromAbove: false, -8, -0.6, 8, 11),
@@ -49,6 +55,10 @@ internal sealed class PlayScene
         "break" => new PlayScene(BuiltInScenes.Billiards(breakSpeed: 0), isFromAbove: true, -1.33, -0.7, 1.33, 0.7),
         "cradle" => new PlayScene(BuiltInScenes.Cradle(), isFromAbove: false, -4.8, -0.4, 4.8, 4),
         "orbits" => new PlayScene(Orbits(), isFromAbove: false, -6, -4.5, 6, 4.5),
+        AirHockeyGame.Name => new PlayScene(
+            AirHockeyGame.Build(players, seed), isFromAbove: true, -AirHockeyGame.HalfViewLength, -AirHockeyGame.HalfViewWidth,
+            AirHockeyGame.HalfViewLength, AirHockeyGame.HalfViewWidth)
+        { IsAirHockey = true },
         _ => throw new ArgumentException($"There is no scene '{name}'; there are {string.Join(", ", Names)}."),
     };
 

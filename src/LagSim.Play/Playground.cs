@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
+using LagSim.Hosting;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
 using LagSim.Testing.Links;
@@ -26,6 +27,10 @@ internal sealed class Playground
     /// <summary>The grid of instants at which the panes' hashes are compared.</summary>
     internal static readonly SimDuration HashGrid = SimDuration.FromSeconds(0.25);
 
+    /// <summary>How far behind the newest instant the hashes of air hockey are: hands never let go there, so something is always under
+    /// way, and a history is three seconds.</summary>
+    private static readonly SimDuration HashesOfHandsBehind = SimDuration.FromSeconds(2.5);
+
     private const double OriginSeconds = 7200; // more than any clock is behind
     private const double Timeout = 60;
 
@@ -38,12 +43,13 @@ internal sealed class Playground
     internal Playground(PlaySetup setup)
     {
         Setup = setup;
-        Scene = PlayScene.Named(setup.Scene);
+        Scene = PlayScene.Named(setup.Scene, setup.Strategies.Count, setup.Seed);
         run = new VirtualRun(OriginSeconds, setup.Seed, CancellationToken.None);
         LinkProfile link = setup.Link.ToProfile();
+        RuleNotices[] notices = [.. setup.Strategies.Select(_ => new RuleNotices())];
         for (int n = 0; n < setup.Strategies.Count; n++)
         {
-            Add(n, setup.Strategies[n], n == 0 ? null : link);
+            Add(n, setup.Strategies[n], n == 0 ? null : link, notices[n]);
         }
 
         Session host = panes[0].Session;
@@ -58,6 +64,11 @@ internal sealed class Playground
 
         truth = new Truth(Scene.Scene, host.World!.Simulation.Start);
         host.Logged += truth.Hear;
+        foreach (Pane pane in panes.Where(_ => Scene.IsAirHockey))
+        {
+            pane.Player = new AirHockeyPlayer(pane.Session, notices[pane.Number], action => Note(pane.Do(action)), setup.Seed);
+        }
+
         AdvanceTo(host.World.Simulation.Start);
     }
 
@@ -82,6 +93,7 @@ internal sealed class Playground
     internal void Advance(double virtualSeconds, double realSeconds)
     {
         run.AdvanceTo(run.Clock.Now + SimDuration.FromSeconds(virtualSeconds));
+        panes.ForEach(pane => pane.Player?.Move());
         truth.AdvanceTo(panes.Max(p => p.Session.SharedTime.Now)); // clocks differ by what measuring them costs
         foreach (Pane pane in panes)
         {
@@ -161,13 +173,15 @@ internal sealed class Playground
         }
     }
 
-    /// <summary>The hashes of all panes and of the truth at the newest instant of the grid that all have.</summary>
+    /// <summary>The hashes of all panes and of the truth at the newest instant of the grid that all have; of air hockey at one 2.5 s
+    /// before.</summary>
     /// <param name="hashes">Gets one for each pane, then that of the truth; null where there is none.</param>
     /// <returns>The instant, in seconds since the world began.</returns>
     internal double ReadHashes(Span<ulong?> hashes)
     {
         SimTime start = panes[0].Session.World!.Simulation.Start;
-        SimTime at = start + (HashGrid * ((Now - start).Ticks / HashGrid.Ticks));
+        SimDuration newest = Now - start - (Scene.IsAirHockey ? HashesOfHandsBehind : SimDuration.Zero);
+        SimTime at = start + (HashGrid * Math.Max(0, newest.Ticks / HashGrid.Ticks));
         for (int n = 0; n < panes.Count; n++)
         {
             hashes[n] = panes[n].HashAt(at);
@@ -183,7 +197,7 @@ internal sealed class Playground
     /// <summary>The bytes that have come to a pane's peer so far, with UDP and IP headers.</summary>
     internal long BytesReceived(int pane) => run.Network.Traffic(pane).BytesReceived;
 
-    private void Add(int number, LateEventStrategy strategy, LinkProfile? link)
+    private void Add(int number, LateEventStrategy strategy, LinkProfile? link, RuleNotices notices)
     {
         LatencyCompensationWindow window = new(SimDuration.FromSeconds(3), SimDuration.FromMilliseconds(Setup.LookAheadMilliseconds));
         foreach (EventKind kind in new[] { EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetVelocity })
@@ -191,8 +205,22 @@ internal sealed class Playground
             window = window.WithLocalLag(kind, SimDuration.FromMilliseconds(Setup.LocalLagMilliseconds));
         }
 
-        HostOptions host = new() { Window = window, Strategy = strategy, ExpectedClients = Setup.Strategies.Count - 1, Warmup = false };
-        ClientOptions client = new() { Window = window, Strategy = strategy, Warmup = false };
+        HostOptions host = new()
+        {
+            Window = window, // and no early confirmation: the page looks at the whole of its history
+            Strategy = strategy,
+            ExpectedClients = Setup.Strategies.Count - 1,
+            Warmup = false,
+            RuleNotices = notices,
+        };
+        ClientOptions client = new()
+        {
+            Window = window,
+            Strategy = strategy,
+            Warmup = false,
+            RuleNotices = notices,
+            Rules = Scene.IsAirHockey ? [AirHockeyGame.NewRules()] : null,
+        };
         (Session session, int place) = run.Open(
             number, link, 0, link?.ReceiverClockOffset ?? SimDuration.Zero,
             (port, clock) => number == 0

@@ -27,13 +27,17 @@ public sealed class PlayPageTests(ServedPage served)
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=billiards&panes=healing,none&delay=300");
         await page.Page.WaitForTimeoutAsync(600);
-        await page.ThrowAsync(0, 0, -60, 40);
-        await page.Page.WaitForTimeoutAsync(2500);
-        (string host, string agrees) = await page.HashAsync(0);
-        (string other, string differs) = await page.HashAsync(1);
-        Assert.NotEqual(host, other);
-        Assert.StartsWith("agrees", agrees, StringComparison.Ordinal);
-        Assert.StartsWith("differs", differs, StringComparison.Ordinal);
+        (string Hash, string Says) host, other;
+        int throws = 0;
+        do
+        {
+            await page.ThrowAsync(0, 0, -60, 40); // on a busy machine it may be let go at rest, which even that strategy gets right
+            await page.Page.WaitForTimeoutAsync(2500);
+            (host, other) = (await page.HashAsync(0), await page.HashAsync(1));
+        }
+        while (other.Says.StartsWith("agrees", StringComparison.Ordinal) && ++throws < 5);
+        Assert.StartsWith("agrees", host.Says, StringComparison.Ordinal);
+        Assert.StartsWith("differs", other.Says, StringComparison.Ordinal);
     }
 
     [Fact]
@@ -128,17 +132,19 @@ public sealed class PlayPageTests(ServedPage served)
     public async Task SetUp_ThatCannotBe_IsNamed()
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=moon&delay=9");
-        Assert.Equal("'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits.", await page.Page.Locator("#problem").InnerTextAsync());
+        Assert.Equal("'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits, air-hockey.", await page.Page.Locator("#problem").InnerTextAsync());
         await page.AgreeAsync(2); // and the usual set-up is shown
     }
 
     [Theory]
-    [InlineData(ColorScheme.Light)]
-    [InlineData(ColorScheme.Dark)]
-    public async Task Text_InBothThemes_HasEnoughContrast(ColorScheme theme)
+    [InlineData(ColorScheme.Light, "room")]
+    [InlineData(ColorScheme.Dark, "room")]
+    [InlineData(ColorScheme.Light, "air-hockey")]
+    [InlineData(ColorScheme.Dark, "air-hockey")]
+    public async Task Text_InBothThemes_HasEnoughContrast(ColorScheme theme, string scene)
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(
-            served, "step=lift&scene=drop&panes=healing,none", new() { ViewportSize = new() { Width = 1200, Height = 900 }, ColorScheme = theme, ReducedMotion = ReducedMotion.Reduce });
+            served, $"step=lift&scene={scene}&panes=healing,none", new() { ViewportSize = new() { Width = 1200, Height = 900 }, ColorScheme = theme, ReducedMotion = ReducedMotion.Reduce });
         await page.Page.WaitForSelectorAsync("[data-state=done]", new() { Timeout = 60_000 });
         Assert.Empty(await Pale(page));
         await page.Page.EvaluateAsync(
@@ -176,7 +182,7 @@ public sealed class PlayPageTests(ServedPage served)
                   if (colour !== 'rgba(0, 0, 0, 0)') return colour
                 }
               }
-              return [...document.querySelectorAll('h1, h2, h3, p, label, output, dt, dd, code, button:enabled, select, input, a, small, th, td, figcaption span, .agrees span')].filter(e => e.innerText?.trim()).filter(e => {
+              return [...document.querySelectorAll('h1, h2, h3, p, label, output, dt, dd, code, button:enabled, select, input, a, small, th, td, figcaption span, .agrees span, .board span, b, .how')].filter(e => e.innerText?.trim()).filter(e => {
                 const [a, b] = [light(getComputedStyle(e).color), light(back(e))].sort((x, y) => y - x)
                 return (a + 0.05) / (b + 0.05) < 4.5
               }).map(e => `${e.tagName} ${e.innerText.slice(0, 30)}`)

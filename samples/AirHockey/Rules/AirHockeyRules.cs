@@ -6,6 +6,8 @@ using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
+namespace AirHockey;
+
 /// <summary>Air hockey. A goal counts when the whole puck is behind the line; five goals win, or more of them after a minute.</summary>
 public class AirHockeyRules : GameRules
 {

@@ -2,6 +2,8 @@ using System;
 using System.Runtime.CompilerServices;
 using LagSim.Time;
 
+namespace AirHockey;
+
 /// <summary>What is going on.</summary>
 public enum Phase
 {

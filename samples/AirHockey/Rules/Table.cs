@@ -1,7 +1,8 @@
 using System;
-using LagSim;
 using LagSim.Rules;
 using LagSim.Scenes;
+
+namespace AirHockey;
 
 /// <summary>The table: where its walls and goals are, who stands where, and what collides with what. In metres, in the plane y = 0.
 /// </summary>

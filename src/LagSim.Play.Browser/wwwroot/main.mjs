@@ -1,6 +1,7 @@
 // The page: loads the worlds, lets time pass in them once a frame, and draws what each player sees.
 import { dotnet } from './_framework/dotnet.js'
 import { Controls } from './controls.mjs'
+import { SharedKeyboard } from './keyboard.mjs'
 import { Pane } from './panes.mjs'
 import { Scrubber } from './scrubber.mjs'
 import { Steps } from './steps.mjs'
@@ -12,6 +13,11 @@ const HashEvery = 0.25
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
 let engine, setup, steps, panes = [], frame = new Float64Array(0), last = 0, lastHash = -1, colours = readColours()
+
+const keyboard = new SharedKeyboard((player, x, y) => {
+  const pane = panes.find(one => one.game?.player === player)
+  pane && engine.airHockey.Steer(pane.number, x, y)
+})
 
 const controls = new Controls(found('controls'), {
   begin,
@@ -38,7 +44,8 @@ try {
   })
   const exports = await getAssemblyExports(getConfig().mainAssemblyName)
   await runMain()
-  engine = { ...exports.LagSim.Play.Browser.PlaygroundExports, speed: () => controls.speed, heals: () => panes.map(pane => pane.heals) }
+  const { PlaygroundExports, AirHockeyExports } = exports.LagSim.Play.Browser
+  engine = { ...PlaygroundExports, speed: () => controls.speed, heals: () => panes.map(pane => pane.heals), airHockey: AirHockeyExports }
   steps = new Steps(found('steps'), JSON.parse(engine.Steps()), { open: openStep, close: closeStep, act, seed })
   arrive()
   found('loading').hidden = true
@@ -115,6 +122,9 @@ function begin(query) {
   query !== '' && say('')
   setup = JSON.parse(engine.Describe())
   panes = setup.panes.map((_, number) => new Pane(number, setup, engine, (pane, name) => controls.strategy(pane, name, setup.panes)))
+  document.documentElement.dataset.scene = setup.scene
+  colours = readColours()
+  keyboard.turn(setup.scene === 'air-hockey')
   found('panes').replaceChildren(...panes.map(pane => pane.element))
   found('panes').hidden = found('controls').hidden = found('scrubber').hidden = false
   scrubber.reset()

@@ -1,8 +1,8 @@
 // The panes: what each player sees, drawn on a canvas, and the hand of the person who looks.
+import { AirHockeyTable } from './airhockey.mjs'
 import { length, set } from './figures.mjs'
+import { BodyNumbers, HeaderNumbers } from './frame.mjs'
 
-const HeaderNumbers = 7
-const BodyNumbers = 7
 const StripSeconds = 6
 const KeyStep = 1 / 40 // of the width of the view, for each key press
 
@@ -16,6 +16,7 @@ export class Pane {
     this.held = null // the hand: where it is, and how fast
     this.errors = [] // metres, one a frame
     this.traffic = []
+    this.game = setup.scene === 'air-hockey' ? new AirHockeyTable(this, engine.airHockey) : null
     this.element = this.build(onStrategy)
     this.resize()
   }
@@ -48,7 +49,7 @@ export class Pane {
     this.figures = Object.fromEntries([...pane.querySelectorAll('dd')].map(dd => [dd.dataset.is, dd]))
     this.agrees = pane.querySelector('.agrees')
     this.hashes = this.agrees.querySelectorAll('code')
-    this.listen()
+    this.game ? this.game.build(pane, this.canvas) : this.listen()
     return pane
   }
 
@@ -176,6 +177,12 @@ export class Pane {
     const context = this.canvas.getContext('2d'), { width, height } = this.canvas
     context.setTransform(1, 0, 0, 1, 0, 0)
     context.clearRect(0, 0, width, height)
+    this.game ? this.game.draw(context, frame, colours, isCalm) : this.drawAll(context, frame, colours, isCalm, paths)
+    this.note(frame, isAway)
+    this.drawStrip(colours, isAway ? frame[0] : null)
+  }
+
+  drawAll(context, frame, colours, isCalm, paths) {
     this.drawScene(context, colours)
     if (paths) {
       paths.draw(context, this.number, x => this.sx(x), y => this.sy(y), Math.max(1, this.canvas.width / 700), colours)
@@ -183,8 +190,6 @@ export class Pane {
     for (let n = 0; n < this.setup.bodies.length; n++) {
       this.drawBody(context, frame, n, colours, isCalm)
     }
-    this.note(frame, isAway)
-    this.drawStrip(colours, isAway ? frame[0] : null)
   }
 
   drawScene(context, colours) {

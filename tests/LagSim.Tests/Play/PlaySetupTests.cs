@@ -26,7 +26,7 @@ public sealed class PlaySetupTests
     }
 
     [Theory]
-    [InlineData("scene=moon", "'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits.")]
+    [InlineData("scene=moon", "'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits, air-hockey.")]
     [InlineData("panes=healing", "'panes' names 1 strategies; there are 2 to 4 panes.")]
     [InlineData("panes=healing,magic", "'panes' is 'magic'; it must be one of none, latency-forward, interpolation, full-rollback, healing.")]
     [InlineData("delay=2001", "'delay' is '2001'; it must be a number from 0 to 2000.")]

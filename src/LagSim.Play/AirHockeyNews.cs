@@ -1,0 +1,129 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using AirHockey;
+using LagSim.Hosting;
+using LagSim.Rules;
+using LagSim.Time;
+
+namespace LagSim.Play;
+
+/// <summary>What the rules of air hockey told one peer, in sentences: at first provisional, then certain, or taken back.</summary>
+/// <remarks>Not thread-safe.</remarks>
+/// <param name="notices">Those of the peer.</param>
+/// <param name="players">How many play: with more than two a side has no player's name.</param>
+internal sealed class AirHockeyNews(RuleNotices notices, int players)
+{
+    // Seconds of the world: a sentence is shown at least so long, and stays until it is certain, and for so long after that.
+    private const double LeastSeconds = 2.4;
+    private const double AfterSeconds = 1.2;
+    private const int MostKept = 64;
+
+    private readonly List<Line> told = [];
+    private readonly List<RuleEvent> confirmed = [];
+
+    /// <summary>What is shown now; empty for nothing.</summary>
+    internal string Sentence { get; private set; } = "";
+
+    /// <summary>What is known of <see cref="Sentence"/>.</summary>
+    internal NoticeKind Kind { get; private set; }
+
+    /// <summary>The last 64 that are certain, in order: the same at every peer.</summary>
+    internal IReadOnlyList<RuleEvent> Confirmed => confirmed;
+
+    /// <summary>How many are neither certain nor taken back.</summary>
+    internal int Pending => told.Count(one => one.Kind == NoticeKind.Predicted);
+
+    /// <summary>How many goals were shown and taken back, since a late event came before them.</summary>
+    internal long GoalsTakenBack { get; private set; }
+
+    /// <summary>A frame: takes what the rules have told, and finds what is shown at a time.</summary>
+    internal void Take(SimTime shown)
+    {
+        while (notices.TryRead(out RuleEvent next))
+        {
+            Note(next, shown);
+        }
+
+        told.RemoveAll(one => shown > one.Until);
+        (Sentence, Kind) = ("", NoticeKind.Predicted);
+        int best = 0;
+        foreach (Line one in told)
+        {
+            if (one.Event.Time <= shown && one.Rank >= best)
+            {
+                best = one.Rank;
+                (Sentence, Kind) = (one.Kind == NoticeKind.Retracted ? $"Not so: {one.Sentence}" : one.Sentence, one.Kind);
+            }
+        }
+    }
+
+    /// <summary>What a notice says, as a sentence without its full stop.</summary>
+    internal static string SentenceOf(in RuleNotice notice, int players)
+    {
+        switch ((Told)notice.Code)
+        {
+            case Told.Begins:
+                return "Play!";
+            case Told.Goal:
+                Goal goal = Goal.From(notice.Value);
+                return $"Goal for {Side(goal.Side)}{(players > 2 && goal.Player >= 0 ? $", by player {goal.Player + 1}" : "")}";
+            case Told.Prize:
+                string what = (PrizeKind)(notice.Value & 15) switch
+                {
+                    PrizeKind.SecondPuck => "a second puck",
+                    PrizeKind.FastPuck => "a faster puck",
+                    _ => "a shield",
+                };
+                return $"Player {(notice.Value >> 4) + 1} takes {what}";
+            case Told.Won:
+                string winner = Side((int)notice.Value);
+                return $"{char.ToUpperInvariant(winner[0])}{winner[1..]} wins";
+            default:
+                throw new ArgumentOutOfRangeException(nameof(notice), $"The rules tell {notice.Code}, which this page does not know.");
+        }
+
+        string Side(int side) => players > 2 ? side == 0 ? "the left side" : "the right side" : $"player {side + 1}";
+    }
+
+    private void Note(in RuleEvent next, SimTime shown)
+    {
+        if (next.Kind == NoticeKind.Confirmed)
+        {
+            confirmed.Add(next);
+            confirmed.RemoveRange(0, Math.Max(0, confirmed.Count - MostKept));
+        }
+
+        RuleEvent same = next;
+        int at = told.FindLastIndex(one => one.Event.IsSameNotice(same));
+        if (next.Kind == NoticeKind.Predicted)
+        {
+            told.Add(new Line(next, SentenceOf(next.Notice, players), NoticeKind.Predicted, SimTime.MaxValue));
+        }
+        else if (next.Kind == NoticeKind.Retracted)
+        {
+            GoalsTakenBack += next.Notice.Code == (int)Told.Goal && next.Time <= shown ? 1 : 0;
+            if (at >= 0 && next.Time > shown)
+            {
+                told.RemoveAt(at); // nobody has seen it
+            }
+            else if (at >= 0)
+            {
+                told[at] = told[at] with { Kind = NoticeKind.Retracted, Until = shown + SimDuration.FromSeconds(AfterSeconds) };
+            }
+        }
+        else if (at >= 0)
+        {
+            SimTime least = next.Time + SimDuration.FromSeconds(LeastSeconds);
+            SimTime until = SimTime.Max(least, shown + SimDuration.FromSeconds(AfterSeconds));
+            told[at] = told[at] with { Kind = NoticeKind.Confirmed, Until = until };
+        }
+    }
+
+    /// <summary>A sentence, what is known of it, and until when it is shown.</summary>
+    private readonly record struct Line(RuleEvent Event, string Sentence, NoticeKind Kind, SimTime Until)
+    {
+        /// <summary>What stands is shown rather than what does not, a goal rather than a prize; of equals the last.</summary>
+        internal int Rank => Kind == NoticeKind.Retracted ? 1 : Event.Notice.Code is (int)Told.Goal or (int)Told.Won ? 3 : 2;
+    }
+}
