@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
-using System.Linq;
 using System.Runtime.InteropServices.JavaScript;
 using System.Runtime.Versioning;
 using System.Text;
@@ -13,7 +12,6 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Play.Browser;
@@ -24,7 +22,7 @@ namespace LagSim.Play.Browser;
 [SupportedOSPlatform("browser")]
 internal static partial class JoinExports
 {
-    private const int NumbersPerPane = 6; // as a pane of the playground, of which this is the only one
+    private const int NumbersPerPane = 7; // as a pane of the playground, of which this is the only one
     private const int NumbersPerBody = 7;
 
     private static readonly TimeSpan LongestWait = TimeSpan.FromSeconds(1);
@@ -153,6 +151,7 @@ internal static partial class JoinExports
         numbers[at++] = joined.EventsRerun;
         numbers[at++] = joined.BodiesRewound;
         numbers[at++] = joined.Session.Links is [LinkTraffic link, ..] ? link.BytesSent : 0;
+        numbers[at++] = joined.Session.Links is [LinkTraffic from, ..] ? from.BytesReceived : 0;
         numbers[at++] = joined.IsHolding ? 1 : 0;
         foreach (JoinedBody body in bodies)
         {

@@ -1,5 +1,6 @@
 // The page of a host: joins its session as one more peer, beside native ones, and draws the world that all share.
 import { dotnet } from './_framework/dotnet.js'
+import { BodyNumbers, HeaderNumbers } from './frame.mjs'
 import { Pane } from './panes.mjs'
 import { Seat } from './seats.mjs'
 
@@ -78,7 +79,7 @@ function tick(now) {
     version = other
     describe()
   }
-  if (pane && frame.length === 7 + 7 * setup.bodies.length) {
+  if (pane && frame.length === 1 + HeaderNumbers + BodyNumbers * setup.bodies.length) {
     pane.draw(frame, colours, isCalm.matches)
   }
   requestAnimationFrame(tick)
