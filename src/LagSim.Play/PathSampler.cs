@@ -26,52 +26,47 @@ internal static class PathSampler
     internal static void Append(Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now, int count, List<double> into)
     {
         SimTime oldest = SimTime.Max(span.Oldest, world.HistoryEdge), newest = SimTime.Min(span.Newest, world.Horizon);
-        long ticks = (newest - oldest).Ticks;
-        List<SimTime> times = [], breaks = [];
-        for (int n = 0; n < count; n++)
-        {
-            times.Add(oldest + SimDuration.FromTicks((long)((Int128)ticks * n / (count - 1))));
-        }
-
+        long ticks = (newest - oldest).Ticks, least = ticks / (Corners * count);
+        int head = into.Count, points = 0, next = 0;
+        into.Add(0);
+        SimTime last = oldest;
         foreach (TimelineEntry entry in world.Timeline(body, oldest))
         {
             SimTime time = entry.Key.Time;
             bool isBreak = entry.Key.Kind is EventKind.Teleport or EventKind.Grab;
-            bool isNear = times.Count > count && (time - times[^1]).Ticks < ticks / (Corners * count);
-            if (time <= oldest || time >= newest || entry.Key.Kind == EventKind.StepEnd || (isNear && !isBreak))
+            bool isSeen = isBreak || (entry.Key.Kind != EventKind.StepEnd && (time - last).Ticks >= least);
+            if (time <= oldest || time >= newest || !isSeen)
             {
                 continue; // the end of a step bends nothing, and what follows a bounce at once is not seen
             }
 
-            times.Add(time);
+            AddEvenlyUntil(time);
             if (isBreak)
             {
-                breaks.Add(time);
-            }
-        }
-
-        times.Sort();
-        int head = into.Count, points = 0;
-        into.Add(0);
-        foreach (SimTime time in times)
-        {
-            if (breaks.Contains(time))
-            {
                 Add(time, double.NaN, double.NaN);
             }
 
-            if (world.TryRead(body, time, out BodyState state))
-            {
-                (double x, double y) = scene.ToView(state.Position);
-                Add(time, x, y);
-            }
-            else
-            {
-                Add(time, double.NaN, double.NaN);
-            }
+            Read(time);
+            last = time;
         }
 
+        AddEvenlyUntil(newest + SimDuration.OneTick);
         into[head] = points;
+
+        void AddEvenlyUntil(SimTime end)
+        {
+            for (; next < count && oldest + SimDuration.FromTicks((long)((double)ticks * next / (count - 1))) is SimTime time && time < end; next++)
+            {
+                Read(time);
+            }
+        }
+
+        void Read(SimTime time)
+        {
+            bool isThere = world.TryRead(body, time, out BodyState state);
+            (double x, double y) = isThere ? scene.ToView(state.Position) : (double.NaN, double.NaN);
+            Add(time, x, y);
+        }
 
         void Add(SimTime time, double x, double y)
         {

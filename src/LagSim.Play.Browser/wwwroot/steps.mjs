@@ -46,6 +46,8 @@ export class Steps {
     for (const link of this.section.querySelectorAll('ol a')) {
       link.dataset.step === name ? link.setAttribute('aria-current', 'step') : link.removeAttribute('aria-current')
     }
+    const list = this.section.querySelector('ol'), open = list.querySelector('[aria-current]')
+    open && list.scrollTo({ left: open.offsetLeft - list.offsetLeft - 8 }) // on a phone not all are seen at once
     this.panel.hidden = !step
     this.panel.replaceChildren()
     if (!step) {

@@ -72,7 +72,7 @@ public sealed class ScrubTests
         Playground playground = new(PlaySetup.Parse("scene=break&ahead=300"));
         Run(playground, 5);
         Assert.Equal(0.3, playground.Window().Newest, 1e-9);
-        Assert.All(Paths(playground, 0, 10)[3], point => Assert.InRange(point.T, -3.3, 0.3001));
+        Assert.All(Paths(playground, 0, 10)[3], point => Assert.InRange(point.T, -4.5, 0.3001));
     }
 
     /// <summary>Points of a path are where scrubbing there finds the body, and no bounce is cut off.</summary>
