@@ -72,7 +72,7 @@ public sealed class BotMatch
         {
             PeerLog log = logs[player];
             Bot bot = new(player, players, seed);
-            Hand hand = new(player, players);
+            Hand hand = new(player, players, (byte)player);
             test.Every(1.0 / FramesPerSecond, player, me =>
             {
                 log.Session = me.Session;

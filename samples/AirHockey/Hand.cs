@@ -13,14 +13,18 @@ public sealed class Hand
 {
     private const double GrabAgain = 1; // seconds
     private readonly int player;
+    private readonly byte peer;
     private readonly HandSender sender;
     private SimTime last = SimTime.MinValue;
     private SimTime grabbed = SimTime.MinValue;
     private bool holds;
 
-    public Hand(int player, int players)
+    /// <param name="player">Whose hand it is.</param>
+    /// <param name="players">How many play.</param>
+    /// <param name="peer">The peer that it acts at.</param>
+    public Hand(int player, int players, byte peer)
     {
-        this.player = player;
+        (this.player, this.peer) = (player, peer);
         At = Table.HomeOf(player, players);
         sender = new HandSender(Table.MalletOf(player));
     }
@@ -42,7 +46,7 @@ public sealed class Hand
             return;
         }
 
-        if (!snapshot.TryReadHold(mallet, now, out Hold hold) || hold.Peer != player)
+        if (!snapshot.TryReadHold(mallet, now, out Hold hold) || hold.Peer != peer)
         {
             if (!holds || (now - grabbed).ToSeconds() > GrabAgain)
             {

@@ -27,6 +27,7 @@ public sealed class LiveGame
     private readonly Picture picture = new();
     private Vector3D target; // of the hand
     private StringBuilder? line; // of chat, while it is typed
+    private int player;
     private bool isBot;
     private bool isLeaving;
     private double overSince = double.PositiveInfinity;
@@ -65,16 +66,16 @@ public sealed class LiveGame
         }
 
         Session session = me.Session;
-        int player = session.Peer;
+        player = session.Peer - Table.PeerOf(session.Scene!, 0);
         int players = Table.PlayersOf(session.Scene!);
-        if (player >= players)
+        if (player < 0 || player >= players)
         {
             Console.Error.WriteLine($"The table is full: {players} play.");
             return 3;
         }
 
         me.Refused += (_, _) => { }; // a hand that comes too late: the next keyframe makes up for it
-        Hand hand = new(player, players);
+        Hand hand = new(player, players, session.Peer);
         Bot bot = new(player, players, seed: Environment.TickCount & 0xFFFF);
         OwnMallet mallet = new(session, Table.MalletOf(player));
         target = hand.At;
@@ -112,7 +113,7 @@ public sealed class LiveGame
         hand.Move(snapshot, session.SharedTime.Now, place, speed, action => _ = me.Do(action));
         mallet.Update(snapshot, now, hand.At);
         string keys = isBot ? "a bot plays: B takes over" : "arrows move, B bot, T chat";
-        string status = line is not null ? $"say: {line}_" : $"you are player {session.Peer}   {keys}, R again, Q quit";
+        string status = line is not null ? $"say: {line}_" : $"you are player {player}   {keys}, R again, Q quit";
         picture.Draw(snapshot, now, match, elapsed, match.Phase == Phase.Over ? Screen.Winner(match) : screen.BannerAt(elapsed), status, mallet.Drawn);
         screen.Show(picture);
 
@@ -160,7 +161,7 @@ public sealed class LiveGame
             }
         }
 
-        target = Hand.InReach(me.Session.Peer, target);
+        target = Hand.InReach(player, target);
     }
 
     private void Type(ConsoleKeyInfo key)

@@ -1,6 +1,4 @@
 using System;
-using System.Collections.Generic;
-using System.Linq;
 using System.Runtime.InteropServices.JavaScript;
 using System.Runtime.Versioning;
 using AirHockey;
@@ -13,18 +11,17 @@ namespace LagSim.Play.Browser;
 [SupportedOSPlatform("browser")]
 internal static partial class AirHockeyExports
 {
+    /// <summary>Whose players the panes have: those of the playground, or those of this page in a host's session.</summary>
+    internal static Func<int, AirHockeyPlayer> PlayerOf { get; set; } = pane => PlaygroundExports.Panes[pane].Player!;
+
     /// <summary>The measures of the table, in metres: half its length and width, the radius of a corner and of a post, half a goal's
-    /// mouth, the radius of a puck, and how many goals win; then the number of each pane's player.</summary>
+    /// mouth, the radius of a puck; how many goals win, how many play, and the number of a pane's player.</summary>
     [JSExport]
-    internal static double[] Measures()
-    {
-        IEnumerable<double> numbers = PlaygroundExports.Panes.Select(pane => (double)pane.Player!.Number);
-        return
-        [
-            Table.HalfLength, Table.HalfWidth, Table.CornerRadius, Table.PostRadius, Table.HalfMouth, Table.PuckRadius, Match.GoalsToWin,
-            .. numbers,
-        ];
-    }
+    internal static double[] Measures(int pane) =>
+    [
+        Table.HalfLength, Table.HalfWidth, Table.CornerRadius, Table.PostRadius, Table.HalfMouth, Table.PuckRadius, Match.GoalsToWin,
+        PlayerOf(pane).Players, PlayerOf(pane).Number,
+    ];
 
     /// <summary>Keys of a pane's player are down.</summary>
     [JSExport]
@@ -79,6 +76,4 @@ internal static partial class AirHockeyExports
             _ => throw new InvalidOperationException($"A notice is {news.Kind}."),
         }];
     }
-
-    private static AirHockeyPlayer PlayerOf(int pane) => PlaygroundExports.Panes[pane].Player!;
 }

@@ -7,7 +7,6 @@ using System.Runtime.Versioning;
 using System.Text;
 using System.Text.Json;
 using System.Threading.Tasks;
-using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
@@ -16,7 +15,7 @@ using LagSim.Time;
 
 namespace LagSim.Play.Browser;
 
-/// <summary>What the page of a host calls: one peer of its session.</summary>
+/// <summary>What the page of a host calls: one peer of its session, or two of them where two people share a keyboard.</summary>
 /// <remarks>Everything is on the page's one thread. The session is stepped when a datagram arrives, when something is due, and once a frame,
 /// so that it goes on in a tab that is hidden, where there are no frames.</remarks>
 [SupportedOSPlatform("browser")]
@@ -27,17 +26,16 @@ internal static partial class JoinExports
 
     private static readonly TimeSpan LongestWait = TimeSpan.FromSeconds(1);
 
-    private static JoinedWorld? joined;
-    private static WebSocketClientPort? port;
+    private static readonly List<(JoinedWorld World, WebSocketClientPort Port)> Peers = [];
     private static double[] numbers = [];
 
-    /// <summary>Joins a host's session.</summary>
+    /// <summary>Joins a host's session, with one more peer of this page.</summary>
     /// <param name="address">Of its WebSocket.</param>
     /// <param name="fingerprint">Of the host; empty if its session is not protected.</param>
     /// <param name="key">That the host asks for; empty for none.</param>
     /// <param name="name">What the others are shown.</param>
     /// <param name="pass">Of the player that this one was before; empty for none.</param>
-    /// <returns>A sentence on what cannot be; empty if it asks now.</returns>
+    /// <returns>A sentence on what cannot be; empty if it asks now. Peers are counted from 0 in the other calls.</returns>
     [JSExport]
     internal static string Join(string address, string fingerprint, string key, string name, string pass)
     {
@@ -50,14 +48,14 @@ internal static partial class JoinExports
                 Name = name,
                 Pass = former,
                 Protection = fingerprint.Length == 0 ? null : new SecureClient(Fingerprint(fingerprint)),
-                Rules = BuiltInRules.All,
                 Warmup = false,
             };
-            joined?.Dispose();
-            port = new WebSocketClientPort(new Uri(address));
-            joined = new JoinedWorld(port, WebSocketClientPort.Host, options, new StopwatchClock());
-            port.Arrived += Step;
-            _ = StepWhenDueAsync(joined);
+            WebSocketClientPort port = new(new Uri(address));
+            JoinedWorld world = new(port, WebSocketClientPort.Host, options, new StopwatchClock());
+            Peers.Add((world, port));
+            AirHockeyExports.PlayerOf = peer => Peers[peer].World.Player!;
+            port.Arrived += () => world.Step();
+            _ = StepWhenDueAsync(world);
             return "";
         }
         catch (Exception refused) when (refused is FormatException or ArgumentException or InvalidOperationException)
@@ -66,15 +64,15 @@ internal static partial class JoinExports
         }
     }
 
-    /// <summary>What is drawn, as JSON: the rectangle of the view, what stands still in it, and the bodies; empty until the scene is
-    /// there.</summary>
+    /// <summary>What is drawn of a peer, as JSON: the rectangle of the view, what stands still in it, the bodies, and whether it plays a
+    /// game or only looks on; empty until the scene is there.</summary>
     [JSExport]
-    internal static string Describe() => joined?.View is PlayScene view ? Encoding.UTF8.GetString(Json(json =>
+    internal static string Describe(int peer) => Peers[peer].World.View is not PlayScene view ? "" : Encoding.UTF8.GetString(Json(json =>
     {
-        json.WriteString("scene", view.Scene.Name);
+        json.WriteString("scene", view.IsAirHockey && Peers[peer].World.Player is not null ? AirHockeyGame.Name : view.Scene.Name);
         SceneJson.WriteView(json, view);
         json.WriteStartArray("bodies");
-        foreach (JoinedBody body in joined.Bodies)
+        foreach (JoinedBody body in Peers[peer].World.Bodies)
         {
             json.WriteStartObject();
             json.WriteString("name", body.Body.ToString());
@@ -83,16 +81,17 @@ internal static partial class JoinExports
         }
 
         json.WriteEndArray();
-    })) : "";
+    }));
 
-    /// <summary>How the session stands, as JSON.</summary>
+    /// <summary>How a peer's session stands, as JSON.</summary>
     [JSExport]
-    internal static string Status() => joined is null ? "" : Encoding.UTF8.GetString(Json(json =>
+    internal static string Status(int peer) => Encoding.UTF8.GetString(Json(json =>
     {
-        ClientSession session = joined.Session;
+        (JoinedWorld world, WebSocketClientPort port) = Peers[peer];
+        ClientSession session = world.Session;
         json.WriteString("state", session.State.ToString());
         json.WriteString("end", session.EndReason);
-        json.WriteString("connection", port!.Failure);
+        json.WriteString("connection", port.Failure);
         json.WriteNumber("player", session.Peer);
         json.WriteString("pass", session.Pass?.ToString());
         json.WriteNumber("heals", session.Counters.Heals);
@@ -101,8 +100,8 @@ internal static partial class JoinExports
         json.WriteNumber("lost", session.Counters.EventsLost);
         json.WriteNumber("superseded", port.Superseded);
         json.WriteNumber("round_trip_ms", session.Links is [LinkTraffic link, ..] ? link.RoundTrip.ToMilliseconds() : 0);
-        json.WriteNumber("at", session.Committed is CommittedState last && session.World is LiveWorld world
-            ? (last.Time - world.Simulation.Start).ToSeconds() : 0);
+        json.WriteNumber("at", session.Committed is CommittedState last && session.World is LiveWorld live
+            ? (last.Time - live.Simulation.Start).ToSeconds() : 0);
         json.WriteString("hash", session.Committed?.StateHash.ToString("x16", CultureInfo.InvariantCulture));
         json.WriteStartArray("here");
         foreach (RosterMember one in session.Roster)
@@ -117,12 +116,12 @@ internal static partial class JoinExports
         json.WriteEndArray();
     }));
 
-    /// <summary>The committed states since the last call, each as its time in seconds and its two hashes.</summary>
+    /// <summary>The committed states of a peer since the last call, each as its time in seconds and its two hashes.</summary>
     [JSExport]
-    internal static string[] TakeCommits()
+    internal static string[] TakeCommits(int peer)
     {
         List<string> taken = [];
-        while (joined!.TryTakeCommit(out double seconds, out CommittedState state))
+        while (Peers[peer].World.TryTakeCommit(out double seconds, out CommittedState state))
         {
             taken.Add(string.Create(CultureInfo.InvariantCulture, $"T {seconds} s state {state.StateHash:x16} events {state.EventHash:x16}"));
         }
@@ -130,29 +129,31 @@ internal static partial class JoinExports
         return [.. taken];
     }
 
-    /// <summary>Steps, and gives the page the numbers of the frame.</summary>
+    /// <summary>Steps a peer, and gives the page the numbers of its frame.</summary>
     /// <returns>A number that is another one when there are other bodies than before, which <see cref="Describe"/> then has.</returns>
     [JSExport]
-    internal static int Advance(double realSeconds)
+    internal static int Advance(int peer, double realSeconds)
     {
-        Step();
-        joined!.Draw(realSeconds);
-        IReadOnlyList<JoinedBody> bodies = joined.Bodies;
+        JoinedWorld world = Peers[peer].World;
+        world.Step();
+        world.Draw(realSeconds);
+        IReadOnlyList<JoinedBody> bodies = world.Bodies;
         int length = 1 + NumbersPerPane + (bodies.Count * NumbersPerBody);
         if (numbers.Length != length)
         {
             numbers = new double[length];
         }
 
+        LinkTraffic? link = world.Session.Links is [LinkTraffic only, ..] ? only : null;
         int at = 0;
-        numbers[at++] = joined.Seconds;
+        numbers[at++] = world.Seconds;
         numbers[at++] = 0; // nobody knows here what the world without delay would be
-        numbers[at++] = joined.Session.Counters.Heals;
-        numbers[at++] = joined.EventsRerun;
-        numbers[at++] = joined.BodiesRewound;
-        numbers[at++] = joined.Session.Links is [LinkTraffic link, ..] ? link.BytesSent : 0;
-        numbers[at++] = joined.Session.Links is [LinkTraffic from, ..] ? from.BytesReceived : 0;
-        numbers[at++] = joined.IsHolding ? 1 : 0;
+        numbers[at++] = world.Session.Counters.Heals;
+        numbers[at++] = world.EventsRerun;
+        numbers[at++] = world.BodiesRewound;
+        numbers[at++] = link?.BytesSent ?? 0;
+        numbers[at++] = link?.BytesReceived ?? 0;
+        numbers[at++] = world.IsHolding ? 1 : 0;
         foreach (JoinedBody body in bodies)
         {
             numbers[at++] = 1;
@@ -165,24 +166,25 @@ internal static partial class JoinExports
         }
 
         TakeFrame(numbers);
-        return joined.BodiesVersion;
+        return world.BodiesVersion;
     }
 
-    /// <summary>The person takes a body.</summary>
+    /// <summary>The person at a peer takes a body.</summary>
     [JSExport]
-    internal static bool Grab(double x, double y, double reach) => joined!.Grab(x, y, reach);
+    internal static bool Grab(int peer, double x, double y, double reach) => Peers[peer].World.Grab(x, y, reach);
 
     /// <summary>The hand moves.</summary>
     [JSExport]
-    internal static void MoveHand(double x, double y, double velocityX, double velocityY) => joined!.MoveHand(x, y, velocityX, velocityY);
+    internal static void MoveHand(int peer, double x, double y, double velocityX, double velocityY) =>
+        Peers[peer].World.MoveHand(x, y, velocityX, velocityY);
 
     /// <summary>The hand lets go.</summary>
     [JSExport]
-    internal static void Release(double velocityX, double velocityY) => joined!.Release(velocityX, velocityY);
+    internal static void Release(int peer, double velocityX, double velocityY) => Peers[peer].World.Release(velocityX, velocityY);
 
-    /// <summary>Leaves the session.</summary>
+    /// <summary>All peers of this page leave the session.</summary>
     [JSExport]
-    internal static void Leave() => joined?.Dispose();
+    internal static void Leave() => Peers.ForEach(one => one.World.Dispose());
 
     [JSImport("takeFrame", "page")]
     private static partial void TakeFrame([JSMarshalAs<JSType.MemoryView>] Span<double> frame);
@@ -190,11 +192,9 @@ internal static partial class JoinExports
     private static HostFingerprint Fingerprint(string text) =>
         HostFingerprint.TryParse(text, out HostFingerprint read) ? read : throw new FormatException($"'{text}' is no fingerprint of a host.");
 
-    private static void Step() => joined!.Step();
-
     private static async Task StepWhenDueAsync(JoinedWorld world)
     {
-        while (ReferenceEquals(world, joined) && world.Session.State != SessionState.Ended)
+        while (world.Session.State != SessionState.Ended)
         {
             TimeSpan due = TimeSpan.FromSeconds(Math.Max(0, world.Step().ToSeconds()));
             await Task.Delay(due < LongestWait ? due : LongestWait);

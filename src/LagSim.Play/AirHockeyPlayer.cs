@@ -40,16 +40,23 @@ internal sealed class AirHockeyPlayer
     /// <param name="notices">Those that the session was given.</param>
     /// <param name="act">Does an action in the session; what the session refuses is lost.</param>
     /// <param name="seed">What a bot's luck begins with.</param>
+    /// <exception cref="ArgumentException">The peer has no mallet.</exception>
     internal AirHockeyPlayer(Session session, RuleNotices notices, Action<PlayerAction> act, ulong seed = 1)
     {
-        int players = Table.PlayersOf(session.Scene!);
-        (this.session, this.act, News) = (session, act, new AirHockeyNews(notices, players));
-        hand = new Hand(Number, players);
+        (this.session, this.act) = (session, act);
+        int players = Players;
+        News = new AirHockeyNews(notices, players);
+        Number = AirHockeyGame.PlayerAt(session.Scene!, session.Peer)
+            ?? throw new ArgumentException($"Peer {session.Peer} has no mallet at a table of {players}.", nameof(session));
+        hand = new Hand(Number, players, session.Peer);
         bot = new Bot(Number, players, (int)(seed % (1 << 24)));
     }
 
-    /// <summary>Its number: 0 is the host. Even ones have the left side.</summary>
-    internal int Number => session.Peer;
+    /// <summary>Its number, from 0. Even ones have the left side.</summary>
+    internal int Number { get; }
+
+    /// <summary>How many play.</summary>
+    internal int Players => Table.PlayersOf(session.Scene!);
 
     /// <summary>What the rules have told.</summary>
     internal AirHockeyNews News { get; }

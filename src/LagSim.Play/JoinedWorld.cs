@@ -20,6 +20,7 @@ internal sealed class JoinedWorld : IDisposable
     private const double GlowSeconds = 0.35; // nothing flashes more than three times a second
 
     private readonly IDatagramPort port;
+    private readonly RuleNotices notices = new();
     private readonly Queue<CommittedState> commits = new();
     private readonly List<JoinedBody> bodies = [];
     private readonly Dictionary<BodyId, double> litUntil = [];
@@ -32,11 +33,12 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>Asks to be let in, from the first step on.</summary>
     /// <param name="port">The carrier, which is disposed with it.</param>
     /// <param name="host">The host's address.</param>
-    /// <param name="options">How to take part.</param>
+    /// <param name="options">How to take part; the game's rules and notices are added.</param>
     /// <param name="clock">This machine's clock.</param>
     internal JoinedWorld(IDatagramPort port, PeerAddress host, ClientOptions options, IClock clock)
     {
         this.port = port;
+        options = options with { Rules = AirHockeyGame.AllRules(), RuleNotices = notices };
         Session = new ClientSession(null, port, clock, options, host, Net.Sessions.Session.DrawNumber());
         Session.StateCommitted += Keep;
     }
@@ -47,7 +49,10 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>What is drawn; null until the host has sent its scene.</summary>
     internal PlayScene? View => view;
 
-    /// <summary>The bodies that there are, where they are drawn, in their canonical order.</summary>
+    /// <summary>Its player, in a game of air hockey; null in any other scene, and for who only looks on.</summary>
+    internal AirHockeyPlayer? Player { get; private set; }
+
+    /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the player has the rest), where they are drawn, in their canonical order.</summary>
     internal IReadOnlyList<JoinedBody> Bodies => bodies;
 
     /// <summary>How many events heals have simulated again.</summary>
@@ -82,11 +87,13 @@ internal sealed class JoinedWorld : IDisposable
         }
 
         Watch(world);
+        Player?.Move();
         display!.Update(snapshot, Session.DisplayTime);
+        Player?.Look(display);
         for (int n = 0; n < snapshot.BodyCount; n++)
         {
             BodyId body = snapshot.BodyAt(n);
-            if (!display.TryRead(body, out DrawnBody drawn))
+            if ((view!.IsAirHockey && body.Sequence > 0) || !display.TryRead(body, out DrawnBody drawn))
             {
                 continue;
             }
@@ -175,6 +182,11 @@ internal sealed class JoinedWorld : IDisposable
         view ??= PlayScene.Of(Session.Scene!);
         hand ??= new HandOfPerson(Session, view, () => Session.Step());
         display = new DisplayOffsets(Session.Scene!);
+        if (view.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is not null)
+        {
+            Player ??= new AirHockeyPlayer(Session, notices, action => hand.Do(action));
+        }
+
         litUntil.Clear();
         world.Simulation.Healed += heal =>
         {

@@ -55,16 +55,18 @@ internal sealed class PlayScene
         "break" => new PlayScene(BuiltInScenes.Billiards(breakSpeed: 0), isFromAbove: true, -1.33, -0.7, 1.33, 0.7),
         "cradle" => new PlayScene(BuiltInScenes.Cradle(), isFromAbove: false, -4.8, -0.4, 4.8, 4),
         "orbits" => new PlayScene(Orbits(), isFromAbove: false, -6, -4.5, 6, 4.5),
-        AirHockeyGame.Name => new PlayScene(
-            AirHockeyGame.Build(players, seed), isFromAbove: true, -AirHockeyGame.HalfViewLength, -AirHockeyGame.HalfViewWidth,
-            AirHockeyGame.HalfViewLength, AirHockeyGame.HalfViewWidth)
-        { IsAirHockey = true },
+        AirHockeyGame.Name => OfAirHockey(AirHockeyGame.Build(players, seed)),
         _ => throw new ArgumentException($"There is no scene '{name}'; there are {string.Join(", ", Names)}."),
     };
 
     /// <summary>Any scene, as it is best looked at: from above if its bodies lie on a floor, and so much of it as its bodies are in.</summary>
     internal static PlayScene Of(Scene scene)
     {
+        if (AirHockeyGame.IsOf(scene))
+        {
+            return OfAirHockey(scene);
+        }
+
         foreach (string name in Names)
         {
             if (Named(name) is PlayScene known && known.Scene.Hash == scene.Hash)
@@ -86,6 +88,12 @@ internal sealed class PlayScene
     /// <summary>The place at a point of the view; as deep in the view as <paramref name="like"/>.</summary>
     internal Vector3D FromView(double x, double y, in Vector3D like) =>
         isFromAbove ? new Vector3D(x, like.Y, -y) : new Vector3D(x, y, like.Z);
+
+    private static PlayScene OfAirHockey(Scene table) => new(
+        table, isFromAbove: true, -AirHockeyGame.HalfViewLength, -AirHockeyGame.HalfViewWidth, AirHockeyGame.HalfViewLength, AirHockeyGame.HalfViewWidth)
+    {
+        IsAirHockey = true,
+    };
 
     private static (double Low, double High) Span(Vector3D[] places, Func<Vector3D, double> along, double margin) =>
         places.Length == 0 ? (-margin, margin) : (places.Min(along) - margin, places.Max(along) + margin);

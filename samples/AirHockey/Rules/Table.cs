@@ -86,8 +86,16 @@ public static class Table
         return new Vector3D(SideOf(player) == 0 ? -0.9 : 0.9, 0, isAlone ? 0 : player < 2 ? -0.25 : 0.25);
     }
 
-    /// <summary>The scene for so many players, the first of them the host.</summary>
-    public static Scene Build(int players, GameRules rules, ulong seed)
+    /// <summary>The number of the peer that a player is: the host is the first, or, where nobody plays at it, the first client.</summary>
+    public static byte PeerOf(Scene scene, int player) =>
+        (byte)(player + (scene.Bodies[MalletOf(0).Index].Players == PeerSet.Of(0) ? 0 : 1));
+
+    /// <summary>The scene for so many players.</summary>
+    /// <param name="players">How many play.</param>
+    /// <param name="rules">The game's rules.</param>
+    /// <param name="seed">Of prizes and serves.</param>
+    /// <param name="isDedicated">Whether nobody plays at the host.</param>
+    public static Scene Build(int players, GameRules rules, ulong seed, bool isDedicated = false)
     {
         SceneBuilder table = new SceneBuilder("air hockey")
             .WithRules(rules)
@@ -98,7 +106,7 @@ public static class Table
             .AddBody("puck", PuckSpec, Vector3D.Zero, players: PeerSet.Nobody);
         for (int player = 0; player < players; player++)
         {
-            table.AddBody($"mallet {player}", MalletSpec, HomeOf(player, players), players: PeerSet.Of(player));
+            table.AddBody($"mallet {player}", MalletSpec, HomeOf(player, players), players: PeerSet.Of(player + (isDedicated ? 1 : 0)));
         }
 
         AddWalls(table);

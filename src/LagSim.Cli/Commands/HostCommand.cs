@@ -9,6 +9,7 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Play;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -22,7 +23,7 @@ internal static class HostCommand
         CommonOptions common = new();
         SessionArguments shared = new();
         WebOptions web = new();
-        Option<string> scene = new("--scene") { Description = CommonOptions.SceneText, HelpName = "SCENE", Required = true };
+        Option<string> scene = new("--scene") { Description = $"{CommonOptions.SceneText}, or {AirHockeyGame.Name}, a game for two who join.", HelpName = "SCENE", Required = true };
         Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 picks a free one", 0, 0, 65535);
         Option<string> address = new("--address")
         {
@@ -66,7 +67,7 @@ internal static class HostCommand
         command.SetAction(parsed =>
         {
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
-            Scene loaded = SceneSource.Load(parsed.GetValue(scene)!);
+            Scene loaded = LoadScene(parsed.GetValue(scene)!, parsed.GetValue(common.Seed));
             SessionRequest request = shared.Read(parsed);
             foreach (ScriptedAction action in request.Actions)
             {
@@ -131,6 +132,10 @@ internal static class HostCommand
         });
         return command;
     }
+
+    /// <summary>A scene that all commands know, or the game of two players that has rules of its own, at whose host nobody plays.</summary>
+    private static Scene LoadScene(string text, ulong seed) =>
+        text == AirHockeyGame.Name ? AirHockeyGame.Build(2, seed, isDedicated: true) : SceneSource.Load(text);
 
     private static HostPage OpenPage(SessionDoor door, WebRequest browsers, IPAddress local, ToolConsole console) => HostPage.Start(
         door, new IPEndPoint(local, browsers.Port), ReachableAddresses.Of(local), browsers.Origins, browsers.Certificate, console.Error, console.Stop);

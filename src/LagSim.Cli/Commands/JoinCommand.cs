@@ -8,6 +8,7 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Play;
 
 namespace LagSim.Cli.Commands;
 
@@ -45,7 +46,7 @@ internal static class JoinCommand
         command.SetAction(parsed =>
         {
             SessionRequest request = shared.Read(parsed);
-            ClientOptions options = ClientOptions.From(request.Options) with { Rules = BuiltInRules.All };
+            ClientOptions options = ClientOptions.From(request.Options) with { Rules = AirHockeyGame.AllRules() };
             string? passFile = parsed.GetValue(pass);
             if (passFile is not null)
             {

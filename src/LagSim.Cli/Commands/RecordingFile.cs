@@ -1,7 +1,7 @@
 using System;
 using System.IO;
 using LagSim.Cli.Output;
-using LagSim.Harness.SceneFiles;
+using LagSim.Play;
 using LagSim.Net.Recordings;
 
 namespace LagSim.Cli.Commands;
@@ -14,7 +14,7 @@ internal static class RecordingFile
     {
         try
         {
-            return Recording.Read(name, rules: BuiltInRules.All);
+            return Recording.Read(name, rules: AirHockeyGame.AllRules());
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or ArgumentException)
         {

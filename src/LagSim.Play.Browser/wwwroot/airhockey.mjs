@@ -18,14 +18,13 @@ export class AirHockeyTable {
   constructor(pane, game) {
     this.pane = pane
     this.game = game
-    const [halfLength, halfWidth, corner, post, halfMouth, puck, toWin, ...players] = game.Measures()
-    Object.assign(this, { halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players })
-    this.player = players[pane.number]
+    const [halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player] = game.Measures(pane.number)
+    Object.assign(this, { halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player })
   }
 
   /** Puts the score over the canvas, and what the rules tell on it. */
   build(element, canvas) {
-    const names = this.players.length > 2 ? ['Left', 'Right'] : ['Player 1', 'Player 2']
+    const names = this.players > 2 ? ['Left', 'Right'] : ['Player 1', 'Player 2']
     const board = document.createElement('div')
     board.className = 'board'
     board.innerHTML = `<span class="side first"><i></i>${names[0]}</span>

@@ -1,16 +1,25 @@
-// The page of a host: joins its session as one more peer, beside native ones, and draws the world that all share.
+// The page of a host: joins its session with one more peer, or with two where two people share a keyboard, beside native ones.
 import { dotnet } from './_framework/dotnet.js'
-import { BodyNumbers, HeaderNumbers } from './frame.mjs'
-import { Pane } from './panes.mjs'
+import { JoinedPeer } from './joined.mjs'
+import { SharedKeyboard } from './keyboard.mjs'
 import { Seat } from './seats.mjs'
 
 const LookEvery = 250 // milliseconds
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
-let exports, host, seat, pane, setup, version = -1, frame = new Float64Array(0), last = 0, colours = readColours()
+let exports, host, last = 0, colours, frame = new Float64Array(0)
+const peers = []
 
-// For scripts and tests: the committed states that this peer has told, how it stands, and where it draws a ball, in CSS pixels.
-window.lagsim = { commits: [], status: null, placeOnScreen: ball => pane.placeOnScreen(ball) }
+// Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
+const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
+
+// For scripts and tests: of the first peer, the committed states that it has told, how it stands, and where it draws a ball, in CSS pixels.
+window.lagsim = {
+  peers,
+  get commits() { return peers[0]?.commits ?? [] },
+  get status() { return peers[0]?.status ?? null },
+  placeOnScreen: ball => peers[0].pane.placeOnScreen(ball),
+}
 
 try {
   host = await askHost()
@@ -23,7 +32,8 @@ try {
       view.copyTo(frame)
     },
   })
-  exports = (await getAssemblyExports(getConfig().mainAssemblyName)).LagSim.Play.Browser.JoinExports
+  const { JoinExports, AirHockeyExports } = (await getAssemblyExports(getConfig().mainAssemblyName)).LagSim.Play.Browser
+  exports = { ...JoinExports, airHockey: AirHockeyExports }
   await runMain()
   found('name').value = localStorage.getItem('lagsim name') ?? ''
   found('key-row').hidden = !host.needs_key
@@ -38,12 +48,20 @@ try {
 found('enter').addEventListener('submit', event => {
   event.preventDefault()
   localStorage.setItem('lagsim name', found('name').value)
-  seat ??= new Seat(host.fingerprint ?? location.host)
-  join(seat.pass)
+  if (join(found('name').value.trim())) {
+    found('enter').hidden = true
+    found('session').hidden = false
+    look()
+    setInterval(look, LookEvery)
+    requestAnimationFrame(tick)
+  }
+})
+found('second').addEventListener('click', () => {
+  found('second').hidden = !join(`${found('name').value.trim()} 2`.trim().slice(0, 24))
 })
 found('leave').addEventListener('click', () => exports.Leave())
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = readColours() })
-new ResizeObserver(() => pane?.resize()).observe(found('panes'))
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = null })
+new ResizeObserver(() => peers.forEach(peer => peer.pane?.resize())).observe(found('panes'))
 
 async function askHost() {
   const answer = await fetch('session').catch(() => null)
@@ -53,89 +71,71 @@ async function askHost() {
   return answer.json()
 }
 
-function join(pass) {
+/** One more peer of this page asks to be let in. */
+function join(name) {
   const address = new URL('session', location.href)
   address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:'
-  const wrong = exports.Join(address.href, host.fingerprint ?? '', found('key').value, found('name').value.trim(), pass)
+  const seat = new Seat(host.fingerprint ?? location.host)
+  const wrong = exports.Join(address.href, host.fingerprint ?? '', found('key').value, name, seat.pass)
   say(wrong)
   if (!wrong) {
-    found('enter').hidden = true
-    found('session').hidden = false
-    look()
-    setInterval(look, LookEvery)
-    requestAnimationFrame(tick)
+    peers.push(new JoinedPeer(peers.length, exports, seat))
   }
+  return !wrong
 }
 
 function tick(now) {
   const seconds = Math.max(0, (now - last) / 1000)
   last = now
-  if (lagsim.status?.end) {
-    return
+  for (const peer of peers) {
+    if (!peer.status?.end && peer.advance(seconds, () => frame)) {
+      show()
+    }
+    peer.draw(colours ??= readColours(), isCalm.matches)
   }
-  pane?.send()
-  const other = exports.Advance(seconds)
-  if (other !== version) {
-    version = other
-    describe()
+  if (!peers.every(peer => peer.status?.end)) {
+    requestAnimationFrame(tick)
   }
-  if (pane && frame.length === 1 + HeaderNumbers + BodyNumbers * setup.bodies.length) {
-    pane.draw(frame, colours, isCalm.matches)
-  }
-  requestAnimationFrame(tick)
 }
 
-/** The bodies are others than before, or there were none. */
-function describe() {
-  const text = exports.Describe()
-  if (!text) {
-    return
-  }
-  const read = { ...JSON.parse(text), strategies: [], panes: [] }
-  if (pane) {
-    Object.assign(setup, read)
-    return
-  }
-  setup = read
-  pane = new Pane(0, setup, {
-    Grab: (_, x, y, reach) => exports.Grab(x, y, reach),
-    MoveHand: (_, x, y, vx, vy) => exports.MoveHand(x, y, vx, vy),
-    Release: (_, vx, vy) => exports.Release(vx, vy),
-    speed: () => 1,
-  }, () => {})
-  pane.element.querySelector('h2').textContent = setup.scene
-  pane.canvas.setAttribute('aria-label', `The world, ${setup.scene}`)
-  found('panes').replaceChildren(pane.element)
+/** A peer has a pane now that it had not. */
+function show() {
+  const isGame = peers.some(peer => peer.game)
+  document.documentElement.dataset.scene = isGame ? 'air-hockey' : ''
+  colours = null
+  keyboard.turn(isGame)
+  found('panes').replaceChildren(...peers.filter(peer => peer.pane).map(peer => peer.pane.element))
   found('panes').hidden = false
-  pane.resize()
+  found('panes').dataset.count = peers.length
+  found('second').hidden = !isGame || peers.length > 1
+  peers.forEach(peer => {
+    peer.tellKeys(peers.length === 1 ? 'W A S D or arrow keys' : ['W A S D', 'arrow keys'][peer.index])
+    peer.pane?.resize()
+  })
 }
 
 /** How the session stands. */
 function look() {
-  const status = lagsim.status = JSON.parse(exports.Status())
-  lagsim.commits.push(...exports.TakeCommits())
-  lagsim.commits.splice(0, Math.max(0, lagsim.commits.length - 1000))
-  if (status.pass && status.pass !== seat.pass) {
-    seat.pass = status.pass
-  }
-  const is = { Joining: 'asking to be let in', Waiting: 'waiting for the start', Running: `player ${status.player}`, Rejoining: 'coming back' }
+  peers.forEach(peer => peer.look())
+  const { status } = peers[0]
+  const is = { Joining: 'asking to be let in', Waiting: 'waiting for the others', Running: `player ${status.player}`, Rejoining: 'coming back' }
   set('state', status.end ?? is[status.state] ?? status.state)
   say(status.connection && !status.end && status.state !== 'Running' ? `There is no connection to the host: ${status.connection}` : '')
-  const here = status.here.map(one => `${one.number} ${one.name}`).join()
-  if (found('here').dataset.is !== here + status.here.map(one => one.silent)) {
-    found('here').dataset.is = here + status.here.map(one => one.silent)
+  const own = peers.map(peer => peer.status.player)
+  const here = JSON.stringify([status.here, own])
+  if (found('here').dataset.is !== here) {
+    found('here').dataset.is = here
     found('here').replaceChildren(...status.here.map(one => {
-      const item = document.createElement('li')
+      const item = document.createElement('li'), isOwn = own.includes(one.number)
       const name = one.name || (one.number === 0 ? 'the host' : `player ${one.number}`)
-      item.textContent = one.number === status.player ? `${name} (you)` : one.silent ? `${name}, silent` : name
-      item.classList.toggle('self', one.number === status.player)
+      item.textContent = isOwn ? `${name} (you)` : one.silent ? `${name}, silent` : name
+      item.classList.toggle('self', isOwn)
       item.classList.toggle('silent', one.silent)
       return item
     }))
   }
   set('round-trip', status.round_trip_ms ? `${status.round_trip_ms.toFixed(0)} ms` : '')
   set('states', `${status.agreed} agree, ${status.differed} differ`)
-  pane?.tell(status.hash ?? '', status.differed === 0 ? status.hash : '', status.at.toFixed(2))
 }
 
 function set(id, text) {
