@@ -118,10 +118,10 @@ internal static partial class PlaygroundExports
 
     /// <summary>Gives the page the paths of all bodies over the window: pane by pane, body by body; see <see cref="PathSampler"/>.</summary>
     [JSExport]
-    internal static void SamplePaths(int count)
+    internal static void SamplePaths(int count, bool withBounces)
     {
         paths.Clear();
-        playground!.AppendPaths(count, paths);
+        playground!.AppendPaths(count, withBounces, paths);
 
         TakePaths(CollectionsMarshal.AsSpan(paths));
     }

@@ -140,13 +140,13 @@ internal sealed class Pane
     }
 
     /// <summary>Appends the paths of all bodies of the scene, in their order, over a span of the window; see <see cref="PathSampler.Append"/>.</summary>
-    internal void AppendPaths(SimTime oldest, SimTime newest, SimTime now, int count, List<double> into)
+    internal void AppendPaths(SimTime oldest, SimTime newest, SimTime now, (int Count, bool WithBounces) points, List<double> into)
     {
         for (int n = 0; n < places.Length; n++)
         {
             if (Session.World?.Simulation is Simulation world)
             {
-                PathSampler.Append(world, scene, BodyId.OfScene(n), (oldest, newest), now, count, into);
+                PathSampler.Append(world, scene, BodyId.OfScene(n), (oldest, newest), now, points, into);
             }
             else
             {

@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
@@ -7,7 +6,7 @@ using LagSim.Timelines;
 
 namespace LagSim.Play;
 
-/// <summary>The paths of the bodies of a world, as points of a line: evenly in time, and at each bounce.</summary>
+/// <summary>The paths of the bodies of a world, as points of a line: evenly in time, and at each bounce if asked.</summary>
 /// <remarks>Costs a look into the timelines for every point, so it is for when somebody asks.</remarks>
 internal static class PathSampler
 {
@@ -20,17 +19,21 @@ internal static class PathSampler
     /// <param name="body">The body.</param>
     /// <param name="span">From when to when, within the window.</param>
     /// <param name="now">The moment that times are told from.</param>
-    /// <param name="count">How many instants there are evenly spaced, both ends included; 2 or more.</param>
+    /// <param name="points">How many instants there are evenly spaced, both ends included, 2 or more; and whether bounces are points too. They
+    /// cost a copy of the body's timeline, which is much for a heap.</param>
     /// <param name="into">Gets the number of points, then for each the time in seconds from <paramref name="now"/>, and x and y in metres of
     /// the view. A point whose x and y are not a number breaks the line: the body is not there, or was put elsewhere.</param>
-    internal static void Append(Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now, int count, List<double> into)
+    internal static void Append(
+        Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now, (int Count, bool WithBounces) points,
+        List<double> into)
     {
+        int count = points.Count;
         SimTime oldest = SimTime.Max(span.Oldest, world.HistoryEdge), newest = SimTime.Min(span.Newest, world.Horizon);
         long ticks = (newest - oldest).Ticks, least = ticks / (Corners * count);
-        int head = into.Count, points = 0, next = 0;
+        int head = into.Count, told = 0, next = 0;
         into.Add(0);
         SimTime last = oldest;
-        foreach (TimelineEntry entry in world.Timeline(body, oldest))
+        foreach (TimelineEntry entry in points.WithBounces ? world.Timeline(body, oldest) : [])
         {
             SimTime time = entry.Key.Time;
             bool isBreak = entry.Key.Kind is EventKind.Teleport or EventKind.Grab;
@@ -51,7 +54,7 @@ internal static class PathSampler
         }
 
         AddEvenlyUntil(newest + SimDuration.OneTick);
-        into[head] = points;
+        into[head] = told;
 
         void AddEvenlyUntil(SimTime end)
         {
@@ -70,7 +73,7 @@ internal static class PathSampler
 
         void Add(SimTime time, double x, double y)
         {
-            points++;
+            told++;
             into.Add((time - now).ToSeconds());
             into.Add(x);
             into.Add(y);

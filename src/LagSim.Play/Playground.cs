@@ -164,12 +164,12 @@ internal sealed class Playground
     }
 
     /// <summary>Appends the paths of all bodies over the window, pane by pane; see <see cref="PathSampler.Append"/>.</summary>
-    internal void AppendPaths(int count, List<double> into)
+    internal void AppendPaths(int count, bool withBounces, List<double> into)
     {
         (double oldest, double newest) = Window();
         foreach (Pane pane in panes)
         {
-            pane.AppendPaths(Now + SimDuration.FromSeconds(oldest), Now + SimDuration.FromSeconds(newest), Now, count, into);
+            pane.AppendPaths(Now + SimDuration.FromSeconds(oldest), Now + SimDuration.FromSeconds(newest), Now, (count, withBounces), into);
         }
     }
 

@@ -1,8 +1,8 @@
 // The slider over the window of the worlds: from the oldest instant that is kept to the furthest that is precomputed.
 import { make, set } from './figures.mjs'
 
-const RunningPoints = 32 // of each path, four times a second
-const PausedPoints = 120 // once, as long as nothing changes
+const RunningPoints = 64 // of each path, four times a second, evenly in time
+const PausedPoints = 120 // and each bounce; once, as long as nothing changes
 const Every = 250 // milliseconds
 const OnTheSpot = 0.005 // seconds from now that still are now
 
@@ -80,7 +80,7 @@ export class Scrubber {
       const points = isPaused ? PausedPoints : RunningPoints
       const key = isPaused ? [this.time, ...engine.heals()].join(' ') : ''
       if (isPaused ? key !== this.sampled.key : now - this.sampled.time >= Every) {
-        engine.SamplePaths(points)
+        engine.SamplePaths(points, isPaused)
         this.sampled = { key, at: this.time, time: now }
       }
     }

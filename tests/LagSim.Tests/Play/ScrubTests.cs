@@ -98,6 +98,9 @@ public sealed class ScrubTests
         if (scene == "drop")
         {
             Assert.Contains(paths[0], point => Math.Abs(point.Y - 0.5) < 1e-9); // the very instant at which it touches the floor
+            List<(double T, double X, double Y)> evenly = Paths(playground, 1, 40, isExact: false)[0];
+            Assert.Equal(40, evenly.Count);
+            Assert.DoesNotContain(evenly, point => Math.Abs(point.Y - 0.5) < 1e-9); // the control
         }
     }
 
@@ -113,10 +116,10 @@ public sealed class ScrubTests
         Assert.Contains(Paths(playground, 0, 20)[0], point => double.IsNaN(point.X));
     }
 
-    private static List<List<(double T, double X, double Y)>> Paths(Playground playground, int pane, int count)
+    private static List<List<(double T, double X, double Y)>> Paths(Playground playground, int pane, int count, bool isExact = true)
     {
         List<double> flat = [];
-        playground.AppendPaths(count, flat);
+        playground.AppendPaths(count, isExact, flat);
         List<List<(double T, double X, double Y)>> paths = [];
         for (int at = 0; at < flat.Count;)
         {
