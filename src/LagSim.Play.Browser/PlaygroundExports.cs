@@ -108,7 +108,7 @@ internal static partial class PlaygroundExports
         Show(seconds);
     }
 
-    /// <summary>The instants that every world has: the oldest that is kept and the furthest that is precomputed, in seconds from now.</summary>
+    /// <summary>The instants that every world has: the oldest that is kept and the furthest precomputed, in seconds from now.</summary>
     [JSExport]
     internal static double[] Window()
     {
@@ -116,7 +116,7 @@ internal static partial class PlaygroundExports
         return [oldest, newest];
     }
 
-    /// <summary>Gives the page the paths of all bodies over the window: pane by pane, body by body; see <see cref="PathSampler"/>.</summary>
+    /// <summary>Gives the page all paths over the window, pane by pane, body by body; see <see cref="PathSampler"/>.</summary>
     [JSExport]
     internal static void SamplePaths(int count, bool withBounces)
     {
@@ -135,7 +135,8 @@ internal static partial class PlaygroundExports
     /// <param name="deed">The number of the button.</param>
     /// <returns>Whether all of it could be done.</returns>
     [JSExport]
-    internal static bool Act(string step, int deed) => GuidedSteps.Named(step).Deeds[deed].Strokes.All(stroke => playground!.Strike(stroke));
+    internal static bool Act(string step, int deed) =>
+        GuidedSteps.Named(step).Deeds[deed].Strokes.All(stroke => playground!.Strike(stroke));
 
     /// <summary>A person takes a body.</summary>
     [JSExport]

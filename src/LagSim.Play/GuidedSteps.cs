@@ -24,8 +24,8 @@ internal static class GuidedSteps
             "lift", "Lift a ball", "Fig 3 of the thesis: 25 ms",
             "scene=drop&panes=healing,none&delay=25",
             [
-                "A ball rests, and one player lifts it to 15 m; the other hears of it 25 ms later. The table has every strategy: with 'none' the"
-                    + " worlds stay apart for good, with 'healing' no bit differs once the event is there.",
+                "A ball rests, and one player lifts it to 15 m; the other hears of it 25 ms later. The table has every strategy: with 'none'"
+                    + " the worlds stay apart for good, with 'healing' no bit differs once the event is there.",
                 "Below, lift the ball yourself: player 2 does nothing about late events.",
             ],
             Drop, [], []),
@@ -33,8 +33,8 @@ internal static class GuidedSteps
             "hand", "Hold a ball", "Fig 5 of the thesis: a hand",
             "scene=room&panes=healing,healing",
             [
-                "A hand shakes a ball at random and throws it, and the other player sees that late. The table says how far off the ball is drawn"
-                    + " while it is held, for seven delays, and that both worlds are equal to the bit at the end, whatever the delay.",
+                "A hand shakes a ball at random and throws it, and the other player sees that late. The table says how far off the ball is"
+                    + " drawn while it is held, for seven delays, and that both worlds are equal to the bit at the end, whatever the delay.",
                 "Below, take a ball yourself, and watch it in the other world.",
             ],
             Hold, [], []),
@@ -42,9 +42,9 @@ internal static class GuidedSteps
             "break", "Break at pool", "200 ms, a strategy each",
             "scene=break&panes=full-rollback,healing,latency-forward,none&delay=200",
             [
-                "One player breaks, and the others see it 200 ms late or more. Look at the dashed circles: with 'healing' and 'full-rollback' they"
-                    + " are filled within a moment and the hashes agree. With 'latency-forward' and 'none' a small error at the rack becomes"
-                    + " another game altogether.",
+                "One player breaks, and the others see it 200 ms late or more. Look at the dashed circles: with 'healing' and 'full-rollback'"
+                    + " they are filled within a moment and the hashes agree. With 'latency-forward' and 'none' a small error at the rack"
+                    + " becomes another game altogether.",
                 "Compare 'events re-run': healing rewinds only what the stroke has touched.",
             ],
             null,
@@ -57,8 +57,8 @@ internal static class GuidedSteps
             "loss", "Lose datagrams", "four in ten, ten in a row",
             "scene=room&panes=healing,healing,none&delay=60&jitter=20&loss=40&burst=10",
             [
-                "Four of ten datagrams are lost, on average ten in a row, so that a throw may come half a second late and more. Player 2 rewinds"
-                    + " further then, and agrees all the same; player 3, who does nothing about it, does not.",
+                "Four of ten datagrams are lost, on average ten in a row, so that a throw may come half a second late and more. Player 2"
+                    + " rewinds further then, and agrees all the same; player 3, who does nothing about it, does not.",
             ],
             null,
             [new GuidedDeed("Player 1 throws three balls", [new Stroke(0, 0, 3, 5), new Stroke(0, 5, -3, 6), new Stroke(0, 10, 4, 4)])],
@@ -67,9 +67,10 @@ internal static class GuidedSteps
             "later", "Act a little later", "local lag and look-ahead",
             "scene=room&panes=healing,healing&delay=60&ahead=400&lag=100",
             [
-                "What a player does happens 100 ms later, in its own world too. The event is with the others before that: nothing that anybody has"
-                    + " seen is rewritten. No ring lights up, and 'off by' stays at zero.",
-                "What the heals rewrite is the future. Worlds are computed up to 400 ms ahead: pause, and pull the slider right of now to see it.",
+                "What a player does happens 100 ms later, in its own world too. The event is with the others before that: nothing that anybody"
+                    + " has seen is rewritten. No ring lights up, and 'off by' stays at zero.",
+                "What the heals rewrite is the future. Worlds are computed up to 400 ms ahead: pause, and pull the slider right of now"
+                    + " to see it.",
             ],
             null,
             [new GuidedDeed("Player 1 throws three balls", [new Stroke(0, 0, 3, 5), new Stroke(0, 5, -3, 6), new Stroke(0, 10, 4, 4)])],

@@ -139,8 +139,10 @@ internal sealed class Pane
         }
     }
 
-    /// <summary>Appends the paths of all bodies of the scene, in their order, over a span of the window; see <see cref="PathSampler.Append"/>.</summary>
-    internal void AppendPaths(SimTime oldest, SimTime newest, SimTime now, (int Count, bool WithBounces) points, List<double> into)
+    /// <summary>Appends the paths of all bodies of the scene, in their order, over a span of the window; see
+    /// <see cref="PathSampler.Append"/>.</summary>
+    internal void AppendPaths(
+        SimTime oldest, SimTime newest, SimTime now, (int Count, bool WithBounces) points, List<double> into)
     {
         for (int n = 0; n < places.Length; n++)
         {

@@ -10,7 +10,7 @@ namespace LagSim.Play;
 /// <remarks>Costs a look into the timelines for every point, so it is for when somebody asks.</remarks>
 internal static class PathSampler
 {
-    /// <summary>How many bounces there may be between two of the evenly spaced instants: a heap bounces thousands of times a second.</summary>
+    /// <summary>How many bounces there may be between two evenly spaced instants: a heap has thousands a second.</summary>
     private const int Corners = 2;
 
     /// <summary>Appends a body's path.</summary>
@@ -19,13 +19,13 @@ internal static class PathSampler
     /// <param name="body">The body.</param>
     /// <param name="span">From when to when, within the window.</param>
     /// <param name="now">The moment that times are told from.</param>
-    /// <param name="points">How many instants there are evenly spaced, both ends included, 2 or more; and whether bounces are points too. They
-    /// cost a copy of the body's timeline, which is much for a heap.</param>
-    /// <param name="into">Gets the number of points, then for each the time in seconds from <paramref name="now"/>, and x and y in metres of
-    /// the view. A point whose x and y are not a number breaks the line: the body is not there, or was put elsewhere.</param>
+    /// <param name="points">How many instants there are evenly spaced, both ends included, 2 or more; and whether bounces are points too,
+    /// which cost a copy of the body's timeline, which is much for a heap.</param>
+    /// <param name="into">Gets the number of points, then for each the time in seconds from <paramref name="now"/>, and x and y in metres
+    /// of the view. A point whose x and y are not a number breaks the line: the body is not there, or was put elsewhere.</param>
     internal static void Append(
-        Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now, (int Count, bool WithBounces) points,
-        List<double> into)
+        Simulation world, PlayScene scene, BodyId body, (SimTime Oldest, SimTime Newest) span, SimTime now,
+        (int Count, bool WithBounces) points, List<double> into)
     {
         int count = points.Count;
         SimTime oldest = SimTime.Max(span.Oldest, world.HistoryEdge), newest = SimTime.Min(span.Newest, world.Horizon);
@@ -58,11 +58,13 @@ internal static class PathSampler
 
         void AddEvenlyUntil(SimTime end)
         {
-            for (; next < count && oldest + SimDuration.FromTicks((long)((double)ticks * next / (count - 1))) is SimTime time && time < end; next++)
+            for (; next < count && EvenlyAt(next) < end; next++)
             {
-                Read(time);
+                Read(EvenlyAt(next));
             }
         }
+
+        SimTime EvenlyAt(int n) => oldest + SimDuration.FromTicks((long)((double)ticks * n / (count - 1)));
 
         void Read(SimTime time)
         {

@@ -148,6 +148,7 @@ internal sealed record PlaySetup
                     && (!IsWhole || Math.Floor(value) == value)
                 ? Set(setup, value)
                 : throw new FormatException(string.Create(
-                    CultureInfo.InvariantCulture, $"'{Name}' is '{text}'; it must be a {(IsWhole ? "whole " : "")}number from {Least} to {Most}."));
+                    CultureInfo.InvariantCulture,
+                    $"'{Name}' is '{text}'; it must be a {(IsWhole ? "whole " : "")}number from {Least} to {Most}."));
     }
 }

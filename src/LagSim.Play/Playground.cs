@@ -152,7 +152,7 @@ internal sealed class Playground
         return ((oldest - Now).ToSeconds(), (newest - Now).ToSeconds());
     }
 
-    /// <summary>Finds where all bodies are at another instant of the window; the next <see cref="Advance"/> draws the present again.</summary>
+    /// <summary>Finds where all bodies are at another instant of the window; <see cref="Advance"/> draws the present again.</summary>
     /// <param name="seconds">The instant, in seconds from now. Outside of the window nothing is there.</param>
     internal void Scrub(double seconds)
     {

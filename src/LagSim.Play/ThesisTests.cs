@@ -11,8 +11,8 @@ using LagSim.Harness.Experiments.Peers;
 namespace LagSim.Play;
 
 /// <summary>
-/// The thesis's tests as the page runs them: what <c>lagsim drop --time virtual --strategy all</c> and <c>lagsim hold --time virtual</c> run,
-/// with the same options, and figures of the same names.
+/// The thesis's tests as the page runs them: what <c>lagsim drop --time virtual --strategy all</c> and <c>lagsim hold --time virtual</c>
+/// run, with the same options, and figures of the same names.
 /// </summary>
 /// <remarks>On the thread of the caller, which they keep busy for seconds. The same seed gives the same figures on every runtime.</remarks>
 internal static class ThesisTests
@@ -22,8 +22,8 @@ internal static class ThesisTests
 
     /// <summary>Runs the drop test: both halves as one run, then the lift with each strategy.</summary>
     /// <param name="seed">The seed of links and clocks.</param>
-    /// <param name="report">Gets each run once it is done, as JSON: <c>run</c>, as the tool has it, and <c>points</c> for a chart: seconds, the
-    /// height of the ball as either peer showed it, and their distance, in metres; null where it was not shown.</param>
+    /// <param name="report">Gets each run once it is done, as JSON: <c>run</c>, as the tool has it, and <c>points</c> for a chart: seconds,
+    /// the height of the ball as either peer showed it, and their distance, in metres; null where it was not shown.</param>
     /// <param name="progress">Gets the fraction that is done, up to once for each hundredth.</param>
     /// <exception cref="PeerGroupException">The peers did not connect, or one dropped out.</exception>
     internal static void RunDrop(ulong seed, Action<string> report, Action<double> progress)
@@ -76,7 +76,7 @@ internal static class ThesisTests
         }
     }
 
-    /// <summary>Writes one sample for each column of a chart: that in which the peers are furthest apart, so that no error is lost.</summary>
+    /// <summary>Writes a sample for each column of a chart: the one in which the peers are furthest apart, so that none is lost.</summary>
     private static void WritePoints(Utf8JsonWriter json, DropTrace trace)
     {
         json.WriteStartArray("points");

@@ -12,7 +12,8 @@ public static class DropRunJson
     {
         json.WriteStartObject();
         RunJson.Setting(
-            json, DropNames.Case(run.Case), run.Options.Strategy, MotionNames.Of(run.Options.Motion), DropNames.Time(run.Options), DropNames.Transport(run.Options),
+            json, DropNames.Case(run.Case), run.Options.Strategy, MotionNames.Of(run.Options.Motion), DropNames.Time(run.Options),
+            DropNames.Transport(run.Options),
             run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null, run.Options.DelayMilliseconds, run.Options.Peers);
         RunJson.Figures(json, run, run.CpuCoresAtRest);
         json.WriteEndObject();

@@ -15,7 +15,8 @@ public static class HoldRunJson
     {
         json.WriteStartObject();
         RunJson.Setting(
-            json, "hold", run.Options.Strategy, MotionNames.Of(MotionLaw.RungeKutta4), run.Options.IsVirtual ? "virtual" : "real", run.Options.IsVirtual ? "virtual" : run.Options.Carrier.Name,
+            json, "hold", run.Options.Strategy, MotionNames.Of(MotionLaw.RungeKutta4),
+            run.Options.IsVirtual ? "virtual" : "real", run.Options.IsVirtual ? "virtual" : run.Options.Carrier.Name,
             run.Options.DelayMilliseconds is null ? run.Options.Link.Name : null, run.Options.DelayMilliseconds, run.Options.Peers);
         RunJson.Figures(json, run, run.CpuCoresAtRest);
         json.WriteString("truth_state_hash", JsonValues.Hash(run.TruthStateHash));

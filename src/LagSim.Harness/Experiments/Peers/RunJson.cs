@@ -11,7 +11,8 @@ public static class RunJson
 {
     /// <summary>The keys that every run begins with: what was run.</summary>
     public static void Setting(
-        Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay, int peers)
+        Utf8JsonWriter json, string which, string strategy, string? motion, string time, string transport, string? profile, double? delay,
+        int peers)
     {
         json.WriteString("case", which);
         json.WriteString("strategy", strategy);
