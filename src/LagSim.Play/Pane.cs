@@ -23,6 +23,7 @@ internal sealed class Pane
     private readonly double[] litUntil; // by body, in seconds of a person who looks
     private readonly DrawnPlace[] places;
     private LiveWorld? watched;
+    private HealTotals healed;
     private DisplayOffsets display;
     private double shownSeconds;
 
@@ -52,13 +53,13 @@ internal sealed class Pane
     internal AirHockeyPlayer? Player { get; set; }
 
     /// <summary>How many heals there were.</summary>
-    internal long Heals { get; private set; }
+    internal long Heals => healed.Heals;
 
     /// <summary>How many events they simulated again.</summary>
-    internal long EventsRerun { get; private set; }
+    internal long EventsRerun => healed.Events;
 
     /// <summary>How many bodies they predicted again.</summary>
-    internal long BodiesRewound { get; private set; }
+    internal long BodiesRewound => healed.Bodies;
 
     /// <summary>How far the body that is furthest off is drawn from where it is in truth, in metres. One in the hand of the person at this
     /// pane is where the hand is: of the hand the world knows keyframes.</summary>
@@ -194,11 +195,6 @@ internal sealed class Pane
 
         watched = world;
         display = new DisplayOffsets(scene.Scene);
-        world.Simulation.Healed += heal =>
-        {
-            Heals++;
-            EventsRerun += heal.Events;
-            BodiesRewound += heal.Bodies;
-        };
+        world.Simulation.Healed += heal => healed = healed.And(heal);
     }
 }
