@@ -93,6 +93,7 @@ internal static partial class JoinExports
         json.WriteString("end", session.EndReason);
         json.WriteString("connection", port.Failure);
         json.WriteNumber("player", session.Peer);
+        json.WriteBoolean("looks_on", world.View?.IsAirHockey == true && world.Player is null);
         json.WriteString("pass", session.Pass?.ToString());
         json.WriteNumber("heals", session.Counters.Heals);
         json.WriteNumber("agreed", session.Counters.StatesAgreed);

@@ -118,7 +118,7 @@ function show() {
 function look() {
   peers.forEach(peer => peer.look())
   const { status } = peers[0]
-  const is = { Joining: 'asking to be let in', Waiting: 'waiting for the others', Running: `player ${status.player}`, Rejoining: 'coming back' }
+  const is = { Joining: 'asking to be let in', Waiting: 'waiting for the others', Running: status.looks_on ? 'looking on: both mallets are taken' : `player ${status.player}`, Rejoining: 'coming back' }
   set('state', status.end ?? is[status.state] ?? status.state)
   say(status.connection && !status.end && status.state !== 'Running' ? `There is no connection to the host: ${status.connection}` : '')
   const own = peers.map(peer => peer.status.player)

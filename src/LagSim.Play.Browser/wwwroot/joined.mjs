@@ -45,6 +45,7 @@ export class JoinedPeer {
     this.game = this.setup.scene === 'air-hockey' ? airHockey : null
     this.pane = new Pane(0, this.setup, { ...bound(exports, ['Grab', 'MoveHand', 'Release']), airHockey, speed: () => 1 }, () => {})
     this.pane.element.querySelector('h2').textContent = this.setup.scene.replace('-', ' ')
+    this.pane.element.querySelectorAll('.agrees small')[1].textContent = 'the host\'s'
     this.game || this.pane.canvas.setAttribute('aria-label', `The world, ${this.setup.scene}`)
   }
 
