@@ -3,7 +3,6 @@ using System.CommandLine;
 using System.IO;
 using System.Net;
 using LagSim.Cli.Output;
-using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
