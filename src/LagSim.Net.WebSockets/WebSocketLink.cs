@@ -100,13 +100,18 @@ internal sealed class WebSocketLink
         byte[] next = new byte[IDatagramPort.MaxDatagramBytes];
         try
         {
-            while (!ended.Task.IsCompleted)
+            while (true)
             {
-                while (!ended.Task.IsCompleted && waiting.TryTake(next, out int length, out _))
+                while (waiting.TryTake(next, out int length, out _))
                 {
                     Interlocked.Exchange(ref sendingSince, clock.Now.Ticks);
                     await socket.SendAsync(next.AsMemory(0, length), WebSocketMessageType.Binary, true, CancellationToken.None).ConfigureAwait(false);
                     Interlocked.Exchange(ref sendingSince, long.MaxValue);
+                }
+
+                if (ended.Task.IsCompleted)
+                {
+                    return; // with what was sent before, such as a goodbye
                 }
 
                 await signal.WaitAsync().ConfigureAwait(false);

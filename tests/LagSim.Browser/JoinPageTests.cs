@@ -37,7 +37,7 @@ public sealed class JoinPageTests(ServedPage served)
         JoinedPage.AssertSame(host.States, await again.StatesAsync(), 2);
         await again.Page.GetByRole(AriaRole.Button, new() { Name = "Leave" }).ClickAsync();
         await again.Page.GetByText("This peer left.").WaitForAsync();
-        await host.AfterAsync("peer 1 at 127.0.0.1");
+        await host.SaysAsync(line => line.StartsWith("peer 1 at ", StringComparison.Ordinal) && line.EndsWith(" is gone", StringComparison.Ordinal));
         Assert.Empty(again.Complaints);
     }
 

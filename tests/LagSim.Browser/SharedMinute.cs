@@ -47,7 +47,7 @@ internal static class SharedMinute
             }
         }
 
-        Assert.Equal(0, await native.EndAsync());
+        Assert.Equal((0, 0), (await native.EndAsync(), await host.EndAsync()));
         IReadOnlyDictionary<string, string> states = host.States;
         Assert.True(states.Values.Select(state => state.Split(' ')[4]).Distinct().Count() > Seconds / 2, "The world stood still.");
         JoinedPage.AssertSame(states, native.States, Seconds - 2);

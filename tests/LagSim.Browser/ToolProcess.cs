@@ -49,17 +49,20 @@ internal sealed class ToolProcess : IAsyncDisposable
         lines.Where(line => line.StartsWith("T ", StringComparison.Ordinal)).ToDictionary(line => line.Split(' ')[1]);
 
     /// <summary>Waits for a line that begins so, and returns the rest of it.</summary>
-    internal async Task<string> AfterAsync(string begin)
+    internal async Task<string> AfterAsync(string begin) => (await SaysAsync(line => line.StartsWith(begin, StringComparison.Ordinal)))[begin.Length..];
+
+    /// <summary>Waits for a line, and returns it.</summary>
+    internal async Task<string> SaysAsync(Func<string, bool> isIt)
     {
         Stopwatch waited = Stopwatch.StartNew();
         while (true)
         {
-            if (Lines.FirstOrDefault(line => line.StartsWith(begin, StringComparison.Ordinal)) is string found)
+            if (Lines.FirstOrDefault(isIt) is string found)
             {
-                return found[begin.Length..];
+                return found;
             }
 
-            Assert.True(waited.Elapsed < Patience && !HasEnded, $"lagsim did not say '{begin}': {string.Join('\n', Lines)}");
+            Assert.True(waited.Elapsed < Patience && !HasEnded, $"lagsim did not say it, but: {string.Join('\n', Lines)}");
             await Task.Delay(50);
         }
     }

@@ -269,6 +269,23 @@ public sealed class WebSocketPortTests : IDisposable
     }
 
     [Fact]
+    public async Task Dispose_RightAfterASend_SendsIt()
+    {
+        using Connected one = await ConnectAsync();
+        await MeetAsync(one);
+        for (byte n = 0; n < 20; n++)
+        {
+            one.Port.Send([n], WebSocketClientPort.Host);
+        }
+
+        one.Port.Dispose();
+        for (byte n = 0; n < 20; n++)
+        {
+            Assert.Equal([n], (await TakeAsync(host)).Datagram);
+        }
+    }
+
+    [Fact]
     public async Task Dispose_OfTheHost_TellsClients()
     {
         SocketPair pair = new();
