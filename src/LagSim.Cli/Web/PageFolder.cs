@@ -31,11 +31,18 @@ internal static class PageFolder
         string project = Source()
             ?? throw new InputException(
                 $"The page is not beside this tool ({beside}), and it does not run from a clone, in which it could build it.");
-        string output = Path.Combine(Path.GetDirectoryName(project)!, "bin", "page");
-        await log.WriteLineAsync("building the page; the first time it takes about a minute");
+        string output = Path.Combine(Path.GetDirectoryName(project)!, "bin", "page"), stamp = output + ".built";
         using (await LockAsync(output + ".lock", stop))
         {
-            await PublishAsync(project, output, stop);
+            bool isThere = File.Exists(Path.Combine(output, "wwwroot", "index.html"));
+            if (!isThere || !IsNewerThanSources(stamp, Path.GetFullPath(Path.Combine(Path.GetDirectoryName(project)!, "../.."))))
+            {
+                await log.WriteLineAsync("building the page; the first time it takes about a minute");
+                DateTime began = DateTime.UtcNow;
+                await PublishAsync(project, output, stop);
+                await File.WriteAllTextAsync(stamp, "", stop);
+                File.SetLastWriteTimeUtc(stamp, began);
+            }
         }
 
         return Path.Combine(output, "wwwroot");
@@ -54,6 +61,18 @@ internal static class PageFolder
         }
 
         return null;
+    }
+
+    /// <summary>Whether nothing that a page is made of has changed since it was built. To ask the build itself takes ten seconds each time.</summary>
+    private static bool IsNewerThanSources(string stamp, string root)
+    {
+        DateTime built = File.GetLastWriteTimeUtc(stamp); // long ago if there is none
+        string[] made = ["bin", "obj"];
+        return Directory.EnumerateFiles(Path.Combine(root, "src"), "*", SearchOption.AllDirectories)
+            .Concat(Directory.EnumerateFiles(Path.Combine(root, "samples", "AirHockey"), "*", SearchOption.AllDirectories))
+            .Concat(Directory.EnumerateFiles(root))
+            .Where(file => !Path.GetRelativePath(root, file).Split(Path.DirectorySeparatorChar).Intersect(made).Any())
+            .All(file => File.GetLastWriteTimeUtc(file) < built);
     }
 
     /// <summary>Two processes that build in one folder would break each other's files.</summary>
