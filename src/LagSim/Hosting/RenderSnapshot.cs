@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -14,6 +15,8 @@ namespace LagSim.Hosting;
 /// </remarks>
 public sealed class RenderSnapshot
 {
+    private const int GiveBackEvery = 512; // copies: at 60 a second, and with three snapshots that take turns, some twenty seconds
+
     private RenderTimeline[] timelines = Array.Empty<RenderTimeline>();
     private double[] radii = Array.Empty<double>();
     private ulong[] tags = Array.Empty<ulong>(); // only once some body has one
@@ -23,6 +26,7 @@ public sealed class RenderSnapshot
     private PeriodicBox box;
     private RenderRules? rules; // only in a scene that has some
     private Scene? scene;
+    private int copies;
 
     internal RenderSnapshot()
     {
@@ -138,6 +142,9 @@ public sealed class RenderSnapshot
         return at >= 0;
     }
 
+    /// <summary>How many segments of paths there is room for.</summary>
+    internal int Room => timelines.Sum(timeline => timeline?.Room ?? 0);
+
     private void SetTag(int slot, ulong tag)
     {
         if (tag != 0 && slot >= tags.Length)
@@ -154,6 +161,7 @@ public sealed class RenderSnapshot
     /// <summary>Takes over what changed in the simulation since this render snapshot last showed it.</summary>
     internal void Follow(Simulation simulation, SimTime from, long number)
     {
+        copies = (copies + 1) % GiveBackEvery;
         int count = simulation.Engine.Bodies.SlotCount;
         if (count > timelines.Length)
         {
@@ -179,6 +187,11 @@ public sealed class RenderSnapshot
         {
             timelines[slot] ??= new RenderTimeline();
             timelines[slot].Follow(simulation.Engine.Timelines, slot, from);
+            if ((copies + slot) % GiveBackEvery == 0)
+            {
+                timelines[slot].GiveBack();
+            }
+
             radii[slot] = simulation.Engine.Bodies.Spec(slot).Radius;
             SetTag(slot, simulation.Engine.Bodies.Spec(slot).Tag);
         }

@@ -10,10 +10,14 @@ namespace LagSim.Hosting;
 internal sealed class RenderTimeline
 {
     private const double MinStep = 1e-6; // m; a smaller step between two segments is rounding, or a bounce's height
+    private const int LeastRoom = 32; // entries; less is not given back
 
     private Entry[] entries = Array.Empty<Entry>(); // a body that is known only by name never needs one
     private int first;
     private int end;
+
+    /// <summary>How many entries there is room for.</summary>
+    internal int Room => entries.Length;
 
     /// <summary>Makes this equal to the simulation's timeline of the slot from <paramref name="edge"/> on.</summary>
     internal void Follow(TimelineStore store, int slot, SimTime edge)
@@ -161,6 +165,25 @@ internal sealed class RenderTimeline
         Entry[] target = kept + fresh > entries.Length / 2 ? new Entry[Math.Max(2 * (kept + fresh), 8)] : entries;
         Array.Copy(entries, first, target, 0, kept);
         entries = target;
+        first = 0;
+        end = kept;
+    }
+
+    /// <summary>
+    /// Gives half of the room back if less than a quarter of it is needed. Every snapshot has a timeline of every body, so without this each of
+    /// them would keep for good what the liveliest moment of its body took. To be called now and then: what is given back may be needed again.
+    /// </summary>
+    internal void GiveBack()
+    {
+        int kept = end - first;
+        if (entries.Length <= LeastRoom || kept >= entries.Length / 4)
+        {
+            return;
+        }
+
+        Entry[] smaller = new Entry[Math.Max(entries.Length / 2, LeastRoom)];
+        Array.Copy(entries, first, smaller, 0, kept);
+        entries = smaller;
         first = 0;
         end = kept;
     }
