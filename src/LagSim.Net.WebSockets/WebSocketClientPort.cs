@@ -38,7 +38,7 @@ public sealed class WebSocketClientPort : IDatagramPort
     private long dropped;
     private long superseded;
     private long unconnected;
-    private long reconnections;
+    private long connections;
 
     /// <summary>Begins to connect.</summary>
     /// <param name="server">The address of the WebSocket, <c>ws://</c> or <c>wss://</c>.</param>
@@ -84,7 +84,7 @@ public sealed class WebSocketClientPort : IDatagramPort
     public long Unconnected => Interlocked.Read(ref unconnected);
 
     /// <summary>How often it has connected again.</summary>
-    public long Reconnections => Interlocked.Read(ref reconnections);
+    public long Reconnections => Math.Max(0, Interlocked.Read(ref connections) - 1);
 
     /// <summary>Ends once the port is disposed and its connection closed.</summary>
     internal Task Running { get; }
@@ -177,21 +177,25 @@ public sealed class WebSocketClientPort : IDatagramPort
         TimeSpan next = FirstPause;
         while (!stop.IsCancellationRequested)
         {
+            bool isHeard = false;
             try
             {
                 WebSocketLink open = new(await connect(stop).ConfigureAwait(false), clock);
+                Interlocked.Increment(ref connections);
                 link = open;
-                next = FirstPause;
-                await open.RunAsync(datagram => Take(datagram.Span), stop).ConfigureAwait(false);
+                await open.RunAsync(datagram => { isHeard = true; Take(datagram.Span); }, stop).ConfigureAwait(false);
                 failure = "The connection has ended.";
-                Interlocked.Increment(ref reconnections);
             }
-            catch (Exception failed) when (failed is WebSocketException or IOException or InvalidOperationException or OperationCanceledException)
+            catch (Exception failed) when (failed is WebSocketException or IOException or OperationCanceledException or InvalidOperationException)
             {
                 failure = failed.Message;
             }
+            finally
+            {
+                link = null;
+            }
 
-            link = null;
+            next = isHeard ? FirstPause : next; // who only accepts, and then has no room, is not asked more often
             try
             {
                 await pause(next, stop).ConfigureAwait(false);

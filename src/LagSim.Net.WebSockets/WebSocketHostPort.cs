@@ -1,5 +1,7 @@
 using System;
 using System.Collections.Concurrent;
+using System.Collections.Generic;
+using System.Linq;
 using System.Net;
 using System.Net.WebSockets;
 using System.Threading;
@@ -32,6 +34,10 @@ public sealed class WebSocketHostPort : IDatagramPort
     /// <summary>The most connections that can be asked for.</summary>
     public const int MaxConnections = 4096;
 
+    /// <summary>How long a connection is safe from having to make room for another, though nothing arrives over it: a session's default
+    /// timeout.</summary>
+    public const double SafeSeconds = 10;
+
     /// <summary>For how long a client may take nothing before its connection is ended: half of a session's default timeout.</summary>
     public const double MaxBlockedSeconds = 5;
 
@@ -42,8 +48,8 @@ public sealed class WebSocketHostPort : IDatagramPort
     private readonly DatagramRing ring = new(RingSlots);
     private readonly ConcurrentDictionary<PeerAddress, WebSocketLink> links = new();
     private readonly CancellationTokenSource closing = new();
+    private readonly object adding = new();
     private int lastNumber;
-    private int connections;
     private long dropped;
     private long superseded;
     private long blocked;
@@ -51,8 +57,9 @@ public sealed class WebSocketHostPort : IDatagramPort
     private long refused;
 
     /// <summary>Creates a port without connections.</summary>
-    /// <param name="maxConnections">How many connections there may be at a time, 1 to <see cref="MaxConnections"/>. One more is told to try
-    /// again later.</param>
+    /// <param name="maxConnections">How many connections there may be at a time, 1 to <see cref="MaxConnections"/>, and half of them, or one, from
+    /// one machine. One more takes the place of one over which nothing has arrived for <see cref="SafeSeconds"/>, or is told to try again
+    /// later.</param>
     /// <param name="clock">By which it is told that a client takes nothing; null for this machine's.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="maxConnections"/> is out of range.</exception>
     public WebSocketHostPort(int maxConnections = DefaultMaxConnections, IClock? clock = null)
@@ -74,7 +81,7 @@ public sealed class WebSocketHostPort : IDatagramPort
     public PeerAddress LocalAddress => default;
 
     /// <summary>The number of open connections.</summary>
-    public int Connections => Volatile.Read(ref connections);
+    public int Connections => links.Count;
 
     /// <summary>The number of datagrams that arrived and for which the ring had no room.</summary>
     public long Dropped => Interlocked.Read(ref dropped);
@@ -96,26 +103,31 @@ public sealed class WebSocketHostPort : IDatagramPort
     /// <param name="machine">The IP address of the machine at its other end, as far as the server knows. Behind a proxy that is the address
     /// that the proxy reports; without it all players would be of one machine, for which a host has limits.</param>
     /// <param name="stop">Ends the connection.</param>
-    /// <returns>A task that ends with the connection. It never fails.</returns>
+    /// <returns>A task that ends with the connection. It fails only with what a handler of <see cref="Arrived"/> throws.</returns>
     /// <exception cref="ArgumentNullException">An argument is null.</exception>
     public async Task ServeAsync(WebSocket socket, IPAddress machine, CancellationToken stop = default)
     {
         WebSocketLink link = new(socket ?? throw new ArgumentNullException(nameof(socket)), clock);
         machine = machine ?? throw new ArgumentNullException(nameof(machine));
         using CancellationTokenSource either = CancellationTokenSource.CreateLinkedTokenSource(stop, closing.Token);
-        if (Interlocked.Increment(ref connections) > maxConnections || !TryAdd(machine, link, out PeerAddress address))
+        bool isIn = TryAdd(machine, link, out PeerAddress address);
+        if (!isIn)
         {
             Interlocked.Increment(ref refused);
             link.Close(TryAgainLater, "There is no room for another connection.");
-            await link.RunAsync(_ => { }, either.Token).ConfigureAwait(false);
-        }
-        else
-        {
-            await link.RunAsync(datagram => Take(datagram.Span, address), either.Token).ConfigureAwait(false);
-            links.TryRemove(address, out _);
         }
 
-        Interlocked.Decrement(ref connections);
+        try
+        {
+            await link.RunAsync(datagram => Take(datagram.Span, address, isIn), either.Token).ConfigureAwait(false);
+        }
+        finally
+        {
+            if (isIn)
+            {
+                links.TryRemove(address, out _);
+            }
+        }
     }
 
     /// <inheritdoc/>
@@ -174,23 +186,49 @@ public sealed class WebSocketHostPort : IDatagramPort
     /// <summary>The connection of an address; null if it has ended.</summary>
     internal WebSocketLink? LinkOf(PeerAddress address) => links.TryGetValue(address, out WebSocketLink? link) ? link : null;
 
+    /// <summary>Gives a connection an address, if there is room, or one that has been silent makes room.</summary>
     private bool TryAdd(IPAddress machine, WebSocketLink link, out PeerAddress address)
     {
-        address = default;
-        for (int n = 0; n < maxConnections; n++) // no more numbers than that are taken
+        lock (adding)
         {
-            address = PeerAddress.OfConnection(machine, (ushort)Interlocked.Increment(ref lastNumber));
-            if (links.TryAdd(address, link))
+            address = default;
+            List<KeyValuePair<PeerAddress, WebSocketLink>> ofMachine = [.. links.Where(one => one.Key.ToIPAddress().Equals(machine))];
+            bool isFull = ofMachine.Count >= Math.Max(1, maxConnections / 2)
+                ? !TryMakeRoom(ofMachine)
+                : links.Count >= maxConnections && !TryMakeRoom(links);
+            while (!isFull)
             {
-                return true;
+                address = PeerAddress.OfConnection(machine, (ushort)++lastNumber);
+                if (links.TryAdd(address, link))
+                {
+                    return true;
+                }
             }
-        }
 
-        return false;
+            return false;
+        }
     }
 
-    private void Take(ReadOnlySpan<byte> datagram, PeerAddress from)
+    /// <summary>Ends the connection that has been silent for the longest, if it is not safe.</summary>
+    private bool TryMakeRoom(IEnumerable<KeyValuePair<PeerAddress, WebSocketLink>> among)
     {
+        (PeerAddress address, WebSocketLink silent) = among.OrderByDescending(one => one.Value.SilentFor).First();
+        if (silent.SilentFor <= SimDuration.FromSeconds(SafeSeconds) || !links.TryRemove(address, out _))
+        {
+            return false;
+        }
+
+        silent.Abort();
+        return true;
+    }
+
+    private void Take(ReadOnlySpan<byte> datagram, PeerAddress from, bool isIn)
+    {
+        if (!isIn)
+        {
+            return;
+        }
+
         if (ring.TryPut(datagram, from))
         {
             Arrived?.Invoke();

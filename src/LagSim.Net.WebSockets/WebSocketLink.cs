@@ -28,6 +28,7 @@ internal sealed class WebSocketLink
     private readonly TaskCompletionSource<bool> ended = new(TaskCreationOptions.RunContinuationsAsynchronously);
     private readonly byte[] datagram = new byte[IDatagramPort.MaxDatagramBytes + 1]; // that arrives; one byte more shows that it is too long
     private int received;
+    private long lastArrival; // ticks of the clock
     private long sendingSince = long.MaxValue; // ticks of the clock; the largest while nothing is being sent
     private WebSocketCloseStatus status = WebSocketCloseStatus.NormalClosure;
     private string? reason;
@@ -36,7 +37,11 @@ internal sealed class WebSocketLink
     {
         this.socket = socket;
         this.clock = clock;
+        lastArrival = clock.Now.Ticks;
     }
+
+    /// <summary>How long nothing has arrived.</summary>
+    internal SimDuration SilentFor => clock.Now - SimTime.FromTicks(Interlocked.Read(ref lastArrival));
 
     /// <summary>How long the datagram that is being sent now has waited for the network to take it; zero if none does.</summary>
     internal SimDuration BlockedFor
@@ -89,10 +94,16 @@ internal sealed class WebSocketLink
         // To cancel a send or a receive would break the connection, and the reason would not arrive.
         using CancellationTokenSource patience = new(Goodbye);
         using CancellationTokenRegistration enough = patience.Token.Register(socket.Abort);
-        await sending.ConfigureAwait(false);
-        await SayGoodbyeAsync(patience.Token).ConfigureAwait(false);
-        await receiving.ConfigureAwait(false);
-        socket.Dispose();
+        try
+        {
+            await sending.ConfigureAwait(false);
+            await SayGoodbyeAsync(patience.Token).ConfigureAwait(false);
+            await receiving.ConfigureAwait(false);
+        }
+        finally
+        {
+            socket.Dispose();
+        }
     }
 
     private async Task SendAllAsync()
@@ -117,7 +128,7 @@ internal sealed class WebSocketLink
                 await signal.WaitAsync().ConfigureAwait(false);
             }
         }
-        catch (Exception failure) when (failure is WebSocketException or OperationCanceledException or IOException or ObjectDisposedException)
+        catch (Exception failure) when (IsOfTheConnection(failure))
         {
             End(); // the connection broke
         }
@@ -129,13 +140,14 @@ internal sealed class WebSocketLink
         {
             while (await TryReceiveAsync().ConfigureAwait(false))
             {
+                Interlocked.Exchange(ref lastArrival, clock.Now.Ticks);
                 if (!ended.Task.IsCompleted)
                 {
                     arrived(datagram.AsMemory(0, received));
                 }
             }
         }
-        catch (Exception failure) when (failure is WebSocketException or OperationCanceledException or IOException or ObjectDisposedException)
+        catch (Exception failure) when (IsOfTheConnection(failure))
         {
             // The connection broke, or was ended from here.
         }
@@ -185,11 +197,16 @@ internal sealed class WebSocketLink
                 await socket.CloseOutputAsync(status, reason, patience).ConfigureAwait(false);
             }
         }
-        catch (Exception failure) when (failure is WebSocketException or OperationCanceledException or IOException or ObjectDisposedException)
+        catch (Exception failure) when (IsOfTheConnection(failure))
         {
             // It is gone.
         }
     }
+
+    /// <summary>Whether the connection broke, or was ended, rather than something else. ObjectDisposedException is an InvalidOperationException,
+    /// which browsers' sockets throw, too, when they have closed by themselves.</summary>
+    private static bool IsOfTheConnection(Exception failure) =>
+        failure is WebSocketException or OperationCanceledException or IOException or InvalidOperationException;
 
     private void End()
     {

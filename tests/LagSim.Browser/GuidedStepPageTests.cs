@@ -18,7 +18,6 @@ public sealed class GuidedStepPageTests(ServedPage served)
     [Theory]
     [InlineData("lift", 1)]
     [InlineData("lift", 20_261)]
-    [InlineData("hand", 1)]
     [InlineData("hand", 77)]
     public async Task Figures_OfAThesissTest_AreThoseOfTheTool(string step, int seed)
     {

@@ -1,4 +1,7 @@
 using System;
+using System.IO;
+using System.Security.Cryptography;
+using System.Security.Cryptography.X509Certificates;
 using System.Threading.Tasks;
 using Microsoft.Playwright;
 using Xunit;
@@ -9,9 +12,6 @@ namespace LagSim.Browser;
 [Trait("Time", "real")]
 public sealed class JoinPageTests(ServedPage served)
 {
-    [Fact]
-    public Task World_OfAHostAPeerOverUdpAndTwoTabs_IsTheSameAtEveryTime() => SharedMinute.PlayAsync(served, webPort: 0, () => { });
-
     [Fact]
     public async Task Tab_ClosedAndOpenedAgain_GoesOnAsTheSamePlayer()
     {
@@ -50,8 +50,40 @@ public sealed class JoinPageTests(ServedPage served)
         JoinedPage joined = await JoinedPage.OpenAsync(context, address);
         await joined.AskAsync("Ann", "open rye");
         IPage page = joined.Page;
-        await page.WaitForFunctionAsync("() => window.lagsim.status?.end", null, new() { Timeout = 30_000 });
+        await page.GetByRole(AriaRole.Button, new() { Name = "Join again" }).WaitForAsync();
         Assert.Contains("key", await page.Locator("#state").InnerTextAsync(), StringComparison.Ordinal);
+        await page.GetByRole(AriaRole.Button, new() { Name = "Join again" }).ClickAsync();
+        Assert.Equal("key", await page.EvaluateAsync<string>("() => document.activeElement.id"));
+        await joined.AskAsync("Ann", "open sesame");
+        await joined.RunningAsync();
+    }
+
+    /// <summary>A page in a browser that keeps nothing, and over HTTPS.</summary>
+    [Fact]
+    public async Task Page_OverHttpsInABrowserThatKeepsNothing_Joins()
+    {
+        using RSA key = RSA.Create(2048);
+        CertificateRequest request = new("CN=localhost", key, HashAlgorithmName.SHA256, RSASignaturePadding.Pkcs1);
+        using X509Certificate2 certificate = request.CreateSelfSigned(DateTimeOffset.UtcNow.AddDays(-1), DateTimeOffset.UtcNow.AddDays(1));
+        string file = Path.GetTempFileName();
+        try
+        {
+            await File.WriteAllTextAsync(file, $"{certificate.ExportCertificatePem()}\n{key.ExportPkcs8PrivateKeyPem()}", TestContext.Current.CancellationToken);
+            await using ToolProcess host = new("host", "--scene", "billiards", "--web", "0", "--web-certificate", file);
+            string address = await host.AfterAsync("browsers join at ");
+            Assert.StartsWith("https://", address, StringComparison.Ordinal);
+            await using IBrowserContext context = await served.Browser.NewContextAsync(new() { IgnoreHTTPSErrors = true });
+            await context.AddInitScriptAsync(
+                "Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('Access is denied') } })");
+            JoinedPage ann = await JoinedPage.JoinAsync(context, address, "Ann");
+            await ann.Page.WaitForFunctionAsync("() => window.lagsim.status.agreed >= 1", null, new() { Timeout = 20_000 });
+            Assert.Contains("the host's", await ann.Page.Locator(".agrees span").InnerTextAsync(), StringComparison.Ordinal);
+            Assert.Empty(ann.Complaints);
+        }
+        finally
+        {
+            File.Delete(file);
+        }
     }
 
     [Fact]

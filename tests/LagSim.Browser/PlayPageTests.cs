@@ -118,6 +118,34 @@ public sealed class PlayPageTests(ServedPage served)
         await page.AgreeAsync(2);
     }
 
+    /// <summary>Where the worlds begin anew, the slider under the hand stays, and so does who came by keys.</summary>
+    [Fact]
+    public async Task Slider_OfTheWorlds_KeepsTheHandAndTheFocus()
+    {
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "");
+        ILocator ahead = page.Page.Locator("input[name=ahead]");
+        await ahead.FocusAsync();
+        for (int n = 0; n < 3; n++)
+        {
+            await page.Page.Keyboard.PressAsync("ArrowRight");
+        }
+
+        Assert.Equal("350", await ahead.InputValueAsync());
+        Assert.Contains("ahead=350", page.Page.Url, StringComparison.Ordinal);
+        LocatorBoundingBoxResult box = (await ahead.BoundingBoxAsync())!;
+        await page.Page.Mouse.MoveAsync(box.X + (0.3f * box.Width), box.Y + (box.Height / 2));
+        await page.Page.Mouse.DownAsync();
+        await page.Page.Mouse.MoveAsync(box.X + (0.6f * box.Width), box.Y + (box.Height / 2), new() { Steps = 5 });
+        await page.Page.Mouse.MoveAsync(box.X + box.Width + 5, box.Y + (box.Height / 2), new() { Steps = 5 });
+        await page.Page.Mouse.UpAsync();
+        Assert.Equal("1000", await ahead.InputValueAsync());
+        ILocator strategy = page.Page.Locator(".pane").Nth(1).Locator("select");
+        await strategy.FocusAsync();
+        await page.Page.Keyboard.PressAsync("ArrowDown");
+        Assert.Equal("What player 2 does with late events", await page.Page.EvaluateAsync<string>("() => document.activeElement.getAttribute('aria-label')"));
+        await page.AgreeAsync(2);
+    }
+
     [Fact]
     public async Task Strategy_ChosenInAPane_IsThatPanes()
     {

@@ -14,12 +14,12 @@ internal sealed record CarrierInUse(IDatagramPort Port, Func<IEnumerable<(string
 
     /// <summary>A WebSocket to a host.</summary>
     internal static CarrierInUse Of(WebSocketClientPort port) =>
-        new(port, () => CountsOf(port.Dropped, port.Unconnected, port.Reconnections, port.Superseded));
+        new(port, () => CountsOf(port.Dropped, port.Unconnected, 0, port.Superseded));
 
     /// <summary>UDP, and WebSockets beside it.</summary>
     internal static CarrierInUse Of(UdpPort udp, WebSocketHostPort web) =>
         new(new MultiplexPort(udp, web), () => CountsOf(
-            udp.Dropped + web.Dropped, udp.SendFailures + web.Unconnected, udp.ReceiveFailures + web.Blocked, web.Superseded));
+            udp.Dropped + web.Dropped, udp.SendFailures + web.Unconnected, udp.ReceiveFailures, web.Superseded));
 
     private static IEnumerable<(string Name, long Count)> CountsOf(long dropped, long unsent, long broken, long superseded) =>
     [

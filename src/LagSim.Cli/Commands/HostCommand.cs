@@ -74,6 +74,12 @@ internal static class HostCommand
                 action.ActionIn(loaded, self: 0);
             }
 
+            WebRequest? browsers = web.Read(parsed);
+            if (browsers is not null && parsed.GetValue(tokens) is not null)
+            {
+                throw new UsageException("--web contradicts --tokens: the page has no token to show. Use a --key instead.");
+            }
+
             using HostIdentity? self = Identity(parsed.GetValue(unprotected), parsed.GetValue(identity), parsed.GetValue(tokens));
             HostOptions options = HostOptions.From(request.Options) with
             {
@@ -90,7 +96,6 @@ internal static class HostCommand
 
             request = request with { Options = options };
             using UdpPort udp = new(new IPEndPoint(local, parsed.GetValue(port)));
-            WebRequest? browsers = web.Read(parsed);
             using WebSocketHostPort? sockets = browsers is null ? null : new WebSocketHostPort();
             CarrierInUse carrier = sockets is null ? CarrierInUse.Of(udp) : CarrierInUse.Of(udp, sockets);
             HostSession session = Open(loaded, carrier.Port, options);

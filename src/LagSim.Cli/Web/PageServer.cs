@@ -7,9 +7,11 @@ using System.Security.Cryptography.X509Certificates;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
+using LagSim.Net.Carriers;
 using Microsoft.AspNetCore.Builder;
 using Microsoft.AspNetCore.Hosting;
 using Microsoft.AspNetCore.Http;
+using Microsoft.AspNetCore.Server.Kestrel.Core;
 using Microsoft.AspNetCore.Server.Kestrel.Transport.Sockets;
 using Microsoft.AspNetCore.StaticFiles;
 using Microsoft.Extensions.DependencyInjection;
@@ -31,6 +33,9 @@ internal sealed class PageServer : IAsyncDisposable
     /// <summary>How much may wait in the server and the system for a client that is slow: what waits is old when it arrives, and a newer
     /// datagram would have said the same. A megabit a second takes that in a quarter of one.</summary>
     private const int MaxWaitingBytes = 32 << 10;
+
+    /// <summary>How many connections there may be: twice those that a session takes, since a browser opens six for the files of the page.</summary>
+    private const int MaxConnections = 2 * WebSocketHostPort.DefaultMaxConnections;
 
     private const string Compressed = ".br";
 
@@ -72,8 +77,11 @@ internal sealed class PageServer : IAsyncDisposable
         {
             kestrel.AddServerHeader = false;
             kestrel.Limits.MaxRequestBodySize = 0;
+            kestrel.Limits.MaxConcurrentConnections = MaxConnections;
+            kestrel.Limits.MaxConcurrentUpgradedConnections = MaxConnections / 2;
             kestrel.Listen(local, listening =>
             {
+                listening.Protocols = HttpProtocols.Http1; // over HTTP/2 a WebSocket would be another method than GET
                 if (certificate is not null)
                 {
                     listening.UseHttps(certificate);

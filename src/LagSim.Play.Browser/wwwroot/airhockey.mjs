@@ -28,7 +28,7 @@ export class AirHockeyTable {
     const board = document.createElement('div')
     board.className = 'board'
     board.innerHTML = `<span class="side first"><i></i>${names[0]}</span>
-      <output aria-label="Score"><b></b><small></small></output>
+      <div class="score" role="group" aria-label="Score and time left"><b></b><small></small></div>
       <span class="side second">${names[1]}<i></i></span>`
     const news = document.createElement('div')
     news.className = 'news'
@@ -59,14 +59,23 @@ export class AirHockeyTable {
       const { x, y } = this.pane.toView(event)
       this.game.Aim(this.pane.number, x, y)
     }
+    let hand = null
     canvas.addEventListener('pointerdown', event => {
+      if (hand !== null) {
+        return // another finger
+      }
+      hand = event.pointerId
       canvas.setPointerCapture(event.pointerId)
       canvas.classList.add('holding')
       aim(event)
     })
-    canvas.addEventListener('pointermove', event => canvas.hasPointerCapture(event.pointerId) && aim(event))
+    canvas.addEventListener('pointermove', event => event.pointerId === hand && aim(event))
     for (const end of ['pointerup', 'pointercancel']) {
-      canvas.addEventListener(end, () => {
+      canvas.addEventListener(end, event => {
+        if (event.pointerId !== hand) {
+          return
+        }
+        hand = null
         canvas.classList.remove('holding')
         this.game.EndAim(this.pane.number)
       })

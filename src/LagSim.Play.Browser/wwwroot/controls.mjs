@@ -41,6 +41,7 @@ export class Controls {
   /** Builds the form for what the engine offers. */
   build(setup) {
     this.values = new URLSearchParams(setup.query)
+    const focused = this.form.contains(document.activeElement) ? document.activeElement : null
     this.form.replaceChildren()
     this.heading('World')
     this.choice('scene', 'Scene', setup.scenes, setup.scene, name => this.begin('scene', name))
@@ -51,8 +52,8 @@ export class Controls {
       this.range(name, value => this.link(name, String(value), String(Ranges[name].usual)))
     }
     this.heading('What players do about it')
-    this.range('ahead', value => this.begin('ahead', String(value)))
-    this.range('lag', value => this.begin('lag', String(value)))
+    this.range('ahead', value => this.begin('ahead', String(value)), 'change')
+    this.range('lag', value => this.begin('lag', String(value)), 'change')
     this.tick('smooth', 'Corrections glide', (this.values.get('smooth') ?? '1') !== '0', on => this.begin('smooth', on ? '1' : '0'))
     this.heading('Time')
     this.choice('speed', 'Speed', ['1', '0.5', '0.25', '0.1'], this.values.get('speed') ?? '1', value => this.setSpeed(value))
@@ -66,6 +67,10 @@ export class Controls {
     share.className = 'buttons'
     const copy = this.button(share, 'Copy a link to this set-up', () => this.copy(copy), 'main')
     this.form.append(share)
+    this.pauseButton.textContent = this.isPaused ? 'Go on' : 'Pause'
+    this.pauseButton.setAttribute('aria-pressed', String(this.isPaused))
+    const same = [...this.form.elements].find(one => focused?.name ? one.name === focused.name : one.textContent === focused?.textContent)
+    focused && same?.focus() // who goes through the form by keys stays where they are
     this.remember()
   }
 
@@ -141,7 +146,8 @@ export class Controls {
     this.form.append(label)
   }
 
-  range(name, changed) {
+  /** A slider. `when` it has changed: while it is pulled, or once it is let go, where the worlds begin anew. */
+  range(name, changed, when = 'input') {
     const { text, unit, min, max, step, usual } = Ranges[name]
     const label = document.createElement('label')
     label.append(text)
@@ -151,7 +157,8 @@ export class Controls {
     const output = document.createElement('output')
     const show = () => { output.textContent = `${input.value} ${unit}`.trim() }
     show()
-    input.addEventListener('input', () => { show(); changed(Number(input.value)) })
+    input.addEventListener('input', show)
+    input.addEventListener(when, () => changed(Number(input.value)))
     label.append(input, output)
     this.form.append(label)
   }

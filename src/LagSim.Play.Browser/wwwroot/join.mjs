@@ -3,12 +3,14 @@ import { dotnet } from './_framework/dotnet.js'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { Seat } from './seats.mjs'
+import { store } from './store.mjs'
 
 const LookEvery = 250 // milliseconds
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
 let exports, host, last = 0, colours, frame = new Float64Array(0)
 const peers = []
+let joined = 0, looking = 0, isLost = false
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
 const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
@@ -35,7 +37,7 @@ try {
   const { JoinExports, AirHockeyExports } = (await getAssemblyExports(getConfig().mainAssemblyName)).LagSim.Play.Browser
   exports = { ...JoinExports, airHockey: AirHockeyExports }
   await runMain()
-  found('name').value = localStorage.getItem('lagsim name') ?? ''
+  found('name').value = store.read('lagsim name')
   found('key-row').hidden = !host.needs_key
   found('loading').hidden = true
   found('enter').hidden = false
@@ -47,14 +49,19 @@ try {
 
 found('enter').addEventListener('submit', event => {
   event.preventDefault()
-  localStorage.setItem('lagsim name', found('name').value)
+  store.write('lagsim name', found('name').value)
   if (join(found('name').value.trim())) {
-    found('enter').hidden = true
-    found('session').hidden = false
+    found('enter').hidden = found('again').hidden = true
+    found('session').hidden = found('leave').hidden = false
     look()
-    setInterval(look, LookEvery)
+    looking = setInterval(look, LookEvery)
     requestAnimationFrame(tick)
   }
+})
+found('again').addEventListener('click', () => {
+  found('session').hidden = found('panes').hidden = true
+  found('enter').hidden = false
+  found(host.needs_key ? 'key' : 'name').focus()
 })
 found('second').addEventListener('click', () => {
   found('second').hidden = !join(`${found('name').value.trim()} 2`.trim().slice(0, 24))
@@ -79,7 +86,9 @@ function join(name) {
   const wrong = exports.Join(address.href, host.fingerprint ?? '', found('key').value, name, seat.pass)
   say(wrong)
   if (!wrong) {
-    peers.push(new JoinedPeer(peers.length, exports, seat))
+    peers.push(new JoinedPeer(joined++, exports, seat))
+  } else {
+    seat.leave()
   }
   return !wrong
 }
@@ -87,15 +96,31 @@ function join(name) {
 function tick(now) {
   const seconds = Math.max(0, (now - last) / 1000)
   last = now
-  for (const peer of peers) {
-    if (!peer.status?.end && peer.advance(seconds, () => frame)) {
-      show()
+  try {
+    for (const peer of peers) {
+      if (!peer.status?.end && peer.advance(seconds, () => frame)) {
+        show()
+      }
+      peer.draw(colours ??= readColours(), isCalm.matches)
     }
-    peer.draw(colours ??= readColours(), isCalm.matches)
+  } catch (failure) {
+    say(`This page cannot go on: ${failure.message ?? failure}. Load it again to come back.`)
+    throw failure
   }
-  if (!peers.every(peer => peer.status?.end)) {
+  if (peers.length > 0) {
     requestAnimationFrame(tick)
   }
+}
+
+/** All have left, or were ended: the form is one click away. */
+function end() {
+  clearInterval(looking)
+  peers.forEach(peer => peer.seat.leave())
+  peers.length = 0
+  keyboard.turn(false)
+  found('leave').hidden = found('second').hidden = true
+  found('again').hidden = false
+  found('again').focus()
 }
 
 /** A peer has a pane now that it had not. */
@@ -108,10 +133,13 @@ function show() {
   found('panes').hidden = false
   found('panes').dataset.count = peers.length
   found('second').hidden = !isGame || peers.length > 1
-  peers.forEach(peer => {
-    peer.tellKeys(peers.length === 1 ? 'W A S D or arrow keys' : ['W A S D', 'arrow keys'][peer.index])
+  peers.forEach((peer, n) => {
+    peer.tellKeys(peers.length === 1 ? 'W A S D or arrow keys' : ['W A S D', 'arrow keys'][n])
     peer.pane?.resize()
   })
+  if (document.activeElement === document.body) {
+    isGame || peers[0].pane?.canvas.focus({ preventScroll: true }) // the button that was pressed is gone
+  }
 }
 
 /** How the session stands. */
@@ -120,7 +148,11 @@ function look() {
   const { status } = peers[0]
   const is = { Joining: 'asking to be let in', Waiting: 'waiting for the others', Running: status.looks_on ? 'looking on: both mallets are taken' : `player ${status.player}`, Rejoining: 'coming back' }
   set('state', status.end ?? is[status.state] ?? status.state)
-  say(status.connection && !status.end && status.state !== 'Running' ? `There is no connection to the host: ${status.connection}` : '')
+  const lost = status.connection && !status.end && status.state !== 'Running'
+  if (lost || isLost) {
+    say(lost ? `There is no connection to the host (${status.connection}). Trying again.` : '')
+  }
+  isLost = lost
   const own = peers.map(peer => peer.status.player)
   const here = JSON.stringify([status.here, own])
   if (found('here').dataset.is !== here) {
@@ -136,6 +168,9 @@ function look() {
   }
   set('round-trip', status.round_trip_ms ? `${status.round_trip_ms.toFixed(0)} ms` : '')
   set('states', `${status.agreed} agree, ${status.differed} differ`)
+  if (peers.every(peer => peer.status.end)) {
+    end()
+  }
 }
 
 function set(id, text) {

@@ -1,4 +1,5 @@
 // One peer of this page in a host's session: what it sees, and how it stands.
+import { set } from './figures.mjs'
 import { BodyNumbers, HeaderNumbers } from './frame.mjs'
 import { Pane } from './panes.mjs'
 
@@ -45,7 +46,7 @@ export class JoinedPeer {
     this.game = this.setup.scene === 'air-hockey' ? airHockey : null
     this.pane = new Pane(0, this.setup, { ...bound(exports, ['Grab', 'MoveHand', 'Release']), airHockey, speed: () => 1 }, () => {})
     this.pane.element.querySelector('h2').textContent = this.setup.scene.replace('-', ' ')
-    this.pane.element.querySelectorAll('.agrees small')[1].textContent = 'the host\'s'
+    this.pane.element.querySelectorAll('.agrees p')[1].remove() // the host's hash is not sent to the page, but what came of comparing is
     this.game || this.pane.canvas.setAttribute('aria-label', `The world, ${this.setup.scene}`)
   }
 
@@ -63,6 +64,17 @@ export class JoinedPeer {
     }
   }
 
+  /** Shows its newest hash, and what came of holding hashes against the host's, which each second brings. */
+  tell() {
+    const { hash, agreed, differed, at } = this.status, agrees = this.pane?.agrees
+    if (agrees) {
+      agrees.classList.toggle('differs', differed > 0)
+      set(agrees.querySelector('code'), hash ?? '…')
+      set(agrees.querySelector('span'), differed > 0 ? `differed from the host's ${differed} times` : agreed > 0 ? `the host's, ${agreed} times` : 'not compared yet')
+      agrees.title = `at ${at.toFixed(2)} s`
+    }
+  }
+
   /** How the session stands. */
   look() {
     this.status = JSON.parse(this.exports.Status(this.index))
@@ -71,7 +83,6 @@ export class JoinedPeer {
     if (this.status.pass && this.status.pass !== this.seat.pass) {
       this.seat.pass = this.status.pass
     }
-    const { hash, differed, at } = this.status
-    this.pane?.tell(hash ?? '', differed === 0 ? hash ?? '' : '', at.toFixed(2))
+    this.tell()
   }
 }

@@ -125,7 +125,9 @@ function begin(query) {
   document.documentElement.dataset.scene = setup.scene
   colours = readColours()
   keyboard.turn(setup.scene === 'air-hockey')
+  const focused = found('panes').contains(document.activeElement) ? document.activeElement.getAttribute('aria-label') : null
   found('panes').replaceChildren(...panes.map(pane => pane.element))
+  focused && found('panes').querySelector(`[aria-label="${focused}"]`)?.focus()
   found('panes').hidden = found('controls').hidden = found('scrubber').hidden = false
   scrubber.reset()
   controls.build(setup)

@@ -85,11 +85,13 @@ export class Pane {
       if (this.engine.Grab(this.number, at.x, at.y, reach)) {
         canvas.setPointerCapture(event.pointerId)
         this.take(at)
+        this.held.pointer = event.pointerId
       }
     })
-    canvas.addEventListener('pointermove', event => this.held && this.held.pointer !== false && this.move(this.toView(event)))
-    canvas.addEventListener('pointerup', () => this.release())
-    canvas.addEventListener('pointercancel', () => this.release(true))
+    const isHand = event => this.held && this.held.pointer === event.pointerId // another finger is another matter
+    canvas.addEventListener('pointermove', event => isHand(event) && this.move(this.toView(event)))
+    canvas.addEventListener('pointerup', event => isHand(event) && this.release())
+    canvas.addEventListener('pointercancel', event => isHand(event) && this.release(true))
     canvas.addEventListener('keydown', event => this.press(event))
     canvas.addEventListener('blur', () => this.held?.pointer === false && this.release(true))
   }

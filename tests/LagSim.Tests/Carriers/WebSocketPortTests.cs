@@ -23,7 +23,7 @@ public sealed class WebSocketPortTests : IDisposable
     private readonly ManualClock clock = new();
     private readonly WebSocketHostPort host;
 
-    public WebSocketPortTests() => host = new WebSocketHostPort(maxConnections: 3, clock);
+    public WebSocketPortTests() => host = new WebSocketHostPort(maxConnections: 6, clock);
 
     public void Dispose() => host.Dispose();
 
@@ -195,7 +195,7 @@ public sealed class WebSocketPortTests : IDisposable
     }
 
     [Fact]
-    public async Task Connect_OneMoreThanThereIsRoomFor_IsToldToTryAgainLater()
+    public async Task Connect_OneMoreThanThereIsRoomForOfAMachine_IsToldToTryAgainLater()
     {
         using Connected a = await ConnectAsync(), b = await ConnectAsync();
         Connected c = await ConnectAsync();
@@ -212,6 +212,31 @@ public sealed class WebSocketPortTests : IDisposable
         using Connected again = await ConnectAsync();
         await MeetAsync(again);
         await MeetAsync(a);
+    }
+
+    /// <summary>A machine that opens connections and says nothing cannot keep others out for long, nor who is heard lose its place to it.</summary>
+    [Fact]
+    public async Task Connect_WhileOthersAreSilent_TakesThePlaceOfTheOneThatWasSilentForLongest()
+    {
+        using Connected silent = await ConnectAsync();
+        clock.Now += SimDuration.FromSeconds(1);
+        using Connected heard = await ConnectAsync(), newest = await ConnectAsync();
+        clock.Now += SimDuration.FromSeconds(WebSocketHostPort.SafeSeconds - 1);
+        SocketPair early = new();
+        Task refused = host.ServeAsync(early.Server, Machine, TestContext.Current.CancellationToken);
+        Assert.Equal(1013, (int)(await early.Client.ReceiveAsync(new byte[8], TestContext.Current.CancellationToken)).CloseStatus!);
+        early.Client.Abort();
+        await refused.WaitAsync(Deadline, TestContext.Current.CancellationToken);
+
+        await MeetAsync(heard);
+        clock.Now += SimDuration.FromMilliseconds(1);
+        using Connected late = await ConnectAsync();
+        await MeetAsync(late);
+        await MeetAsync(heard);
+        await UntilAsync(() => !silent.Port.IsConnected);
+        Assert.Equal(3, host.Connections);
+        PeerAddress elsewhere = await MeetAsync(await ConnectAsync(IPAddress.Parse("192.0.2.8"))); // another machine has room of its own
+        Assert.Equal("192.0.2.8", elsewhere.ToIPAddress().ToString());
     }
 
     [Fact]
@@ -394,10 +419,10 @@ public sealed class WebSocketPortTests : IDisposable
         return from;
     }
 
-    private async Task<Connected> ConnectAsync()
+    private async Task<Connected> ConnectAsync(IPAddress? machine = null)
     {
         SocketPair pair = new();
-        _ = host.ServeAsync(pair.Server, Machine, TestContext.Current.CancellationToken);
+        _ = host.ServeAsync(pair.Server, machine ?? Machine, TestContext.Current.CancellationToken);
         WebSocketClientPort port = new(
             _ => Task.FromResult(pair.Client), (_, stop) => Task.Delay(Timeout.Infinite, stop), clock);
         await UntilAsync(() => port.IsConnected);

@@ -36,6 +36,7 @@ public sealed class SessionUsageTests
     [InlineData("host --scene drop --web-certificate some.pem", "--web-certificate says nothing without --web PORT.")]
     [InlineData("host --scene drop --web 0 --web-origin example.org", "--web-origin is 'example.org'; it must be a scheme and a host")]
     [InlineData("host --scene drop --web 0 --web-origin https://example.org/path", "--web-origin is 'https://example.org/path'")]
+    [InlineData("host --scene drop --web 0 --tokens 0123", "--web contradicts --tokens: the page has no token to show.")]
     [InlineData("join ws://", "'ws://' does not say where the host is: write ws://ADDRESS:PORT")]
     [InlineData("join ws://127.0.0.1:8080#1234", "'ws://127.0.0.1:8080#1234' has no fingerprint after '#'")]
     [InlineData("join", "'join'")]

@@ -1,6 +1,5 @@
 using LagSim.Events;
 using LagSim.Hosting;
-using LagSim.Scenes;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

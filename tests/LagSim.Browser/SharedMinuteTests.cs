@@ -1,6 +1,9 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
+using System.Globalization;
 using System.Linq;
+using System.Text.RegularExpressions;
 using System.Threading.Tasks;
 using Microsoft.Playwright;
 using Xunit;
@@ -8,16 +11,32 @@ using Xunit;
 namespace LagSim.Browser;
 
 /// <summary>A minute of play by a native host, a native peer over UDP and two tabs, and the same committed hash at every time in all
-/// four.</summary>
-internal static class SharedMinute
+/// four; at the same time in another session while packets of its page are lost, where TCP sends them again, and what is old by then is not
+/// sent.</summary>
+[Trait("Time", "real")]
+public sealed class SharedMinuteTests(ServedPage served)
 {
     private const int Seconds = 60;
+    private const int LossyPort = 8199;
+    private const int LostPercent = 5; // each way
 
-    /// <summary>Plays it.</summary>
-    /// <param name="served">Has the browser.</param>
-    /// <param name="webPort">The port of the page; 0 for any.</param>
-    /// <param name="worsen">Makes the network worse, once the host is there.</param>
-    internal static async Task PlayAsync(ServedPage served, int webPort, Action worsen)
+    [Fact]
+    public async Task World_OfAHostAPeerOverUdpAndTwoTabs_IsTheSameAtEveryTime()
+    {
+        bool isOwnNetwork = Environment.GetEnvironmentVariable("LAGSIM_OWN_NETWORK") == "1";
+        TestContext.Current.TestOutputHelper?.WriteLine(
+            isOwnNetwork ? "with a second session whose packets are lost by nftables" : "without losses: .ci/browser makes a network of its own for them, as root");
+        await Task.WhenAll(PlayAsync(webPort: 0, () => { }), isOwnNetwork ? PlayLossyAsync() : Task.CompletedTask);
+    }
+
+    private async Task PlayLossyAsync()
+    {
+        await PlayAsync(LossyPort, () => Nft("-f", "-"));
+        int[] lost = [.. Regex.Matches(Nft("list", "table", "inet", "lagsim"), @"counter packets (\d+)").Select(match => int.Parse(match.Groups[1].Value, CultureInfo.InvariantCulture))];
+        Assert.True(lost.Length == 2 && lost.Min() > 10, $"Lost were only {string.Join(" and ", lost)} packets.");
+    }
+
+    private async Task PlayAsync(int webPort, Action worsen)
     {
         await using ToolProcess host = new(
             "host", "--scene", "billiards", "--joiners", "3", "--per-address", "8", "--history-s", "1.5", "--for-s", $"{Seconds}", "--web", $"{webPort}");
@@ -68,5 +87,22 @@ internal static class SharedMinute
         JoinedPage joined = await JoinedPage.OpenAsync(context, address);
         await joined.AskAsync(name);
         return joined;
+    }
+
+    private static string Nft(params string[] arguments)
+    {
+        string rules = string.Create(CultureInfo.InvariantCulture, $$"""
+            add table inet lagsim
+            add chain inet lagsim page { type filter hook input priority 0; }
+            add rule inet lagsim page tcp dport {{LossyPort}} numgen random mod 100 < {{LostPercent}} counter drop
+            add rule inet lagsim page tcp sport {{LossyPort}} numgen random mod 100 < {{LostPercent}} counter drop
+            """);
+        using Process nft = Process.Start(new ProcessStartInfo("nft", arguments) { RedirectStandardInput = true, RedirectStandardOutput = true })!;
+        nft.StandardInput.Write(rules);
+        nft.StandardInput.Close();
+        string said = nft.StandardOutput.ReadToEnd();
+        nft.WaitForExit();
+        Assert.Equal(0, nft.ExitCode);
+        return said;
     }
 }
