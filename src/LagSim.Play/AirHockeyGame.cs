@@ -13,6 +13,9 @@ internal static class AirHockeyGame
     /// <summary>The scene's name, as a link to the page has it.</summary>
     internal const string Name = "air-hockey";
 
+    /// <summary>How many play at a host of the tool, where nobody sits: it waits for them.</summary>
+    internal const int Players = 2;
+
     /// <summary>Half of what is seen of the table's length, in metres: a goal is behind each end.</summary>
     internal const double HalfViewLength = Table.HalfLength + 0.17;
 

@@ -27,7 +27,7 @@ internal sealed record PlaySetup
         new(
             "clock", -3.6e6, 3.6e6, s => s.Link.ClockOffsetMilliseconds,
             (s, v) => s with { Link = s.Link with { ClockOffsetMilliseconds = v } }),
-        new("ahead", 20, 2000, s => s.LookAheadMilliseconds, (s, v) => s with { LookAheadMilliseconds = v }),
+        new("ahead", 20, 1000, s => s.LookAheadMilliseconds, (s, v) => s with { LookAheadMilliseconds = v }),
         new("lag", 0, 500, s => s.LocalLagMilliseconds, (s, v) => s with { LocalLagMilliseconds = v }),
         new("smooth", 0, 1, s => s.IsSmooth ? 1 : 0, (s, v) => s with { IsSmooth = v != 0 }),
         new("speed", 0.05, 2, s => s.Speed, (s, v) => s with { Speed = v }),
@@ -45,7 +45,7 @@ internal sealed record PlaySetup
     /// <summary>The seed of the links.</summary>
     internal ulong Seed { get; init; } = 1;
 
-    /// <summary>How far ahead each world is simulated, in milliseconds, 20 to 2,000.</summary>
+    /// <summary>How far ahead each world is simulated, in milliseconds, 20 to 1,000, and no less than the local lag.</summary>
     internal double LookAheadMilliseconds { get; init; } = 200;
 
     /// <summary>How much later than now what a person does happens, in milliseconds, 0 to 500.</summary>
@@ -127,6 +127,13 @@ internal sealed record PlaySetup
                 CultureInfo.InvariantCulture,
                 $"'asymmetry' is {Link.AsymmetryMilliseconds} ms; with a delay of {Link.DelayMilliseconds} ms it can be"
                     + $" {2 * Link.DelayMilliseconds} ms at most, either way."));
+        }
+
+        if (LocalLagMilliseconds > LookAheadMilliseconds)
+        {
+            throw new FormatException(string.Create(
+                CultureInfo.InvariantCulture,
+                $"'lag' is {LocalLagMilliseconds} ms; with a look-ahead of {LookAheadMilliseconds} ms ('ahead') it can be that at most."));
         }
 
         try

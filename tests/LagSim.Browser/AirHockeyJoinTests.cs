@@ -17,7 +17,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
     [Fact]
     public async Task Match_OnTwoPhones_HasOneScoreAndOneWorld()
     {
-        await using ToolProcess host = new("host", "--scene", "air-hockey", "--joiners", "2", "--per-address", "8", "--web", "0", "--seed", "5");
+        await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0", "--seed", "5");
         string address = await host.AfterAsync("browsers join at ");
         await using IBrowserContext one = await served.Browser.NewContextAsync(Phone), other = await served.Browser.NewContextAsync(Phone);
         JoinedPage[] phones = [await JoinedPage.OpenAsync(one, address), await JoinedPage.OpenAsync(other, address)];
@@ -56,7 +56,9 @@ public sealed class AirHockeyJoinTests(ServedPage served)
     {
         await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0");
         await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
-        JoinedPage tab = await JoinedPage.JoinAsync(context, await host.AfterAsync("browsers join at "), "Ann");
+        JoinedPage tab = await JoinedPage.OpenAsync(context, await host.AfterAsync("browsers join at "));
+        await tab.AskAsync("Ann");
+        await tab.Page.GetByText("waiting for the others").WaitForAsync();
         await tab.Page.GetByRole(AriaRole.Button, new() { Name = "A second player at this keyboard" }).ClickAsync();
         await tab.Page.WaitForFunctionAsync("() => document.querySelectorAll('.pane').length === 2 && lagsim.peers[1].status.state === 'Running'", null, new() { Timeout = 30_000 });
         (double x, double y) left = await MalletAsync(tab.Page, 1, 0), right = await MalletAsync(tab.Page, 0, 1);
@@ -75,6 +77,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
 
         await using IBrowserContext another = await served.Browser.NewContextAsync(JoinedPage.Screen);
         JoinedPage third = await JoinedPage.JoinAsync(another, await host.AfterAsync("browsers join at "), "Cas");
+        Assert.False(await third.Page.Locator("#second").IsVisibleAsync(), "There is a second place for who has not even one.");
         await third.Page.GetByText("looking on: both mallets are taken").WaitForAsync();
         Assert.Empty(tab.Complaints);
         Assert.Empty(third.Complaints);

@@ -86,7 +86,7 @@ internal static class HostCommand
                 Protection = self is null ? null : new SecureHost(self, Key(parsed.GetValue(tokens))),
                 PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget)),
                 ConfirmsEarly = parsed.GetValue(early),
-                ExpectedClients = parsed.GetValue(clients),
+                ExpectedClients = AirHockeyGame.IsOf(loaded) && parsed.GetResult(clients)?.Implicit != false ? AirHockeyGame.Players : parsed.GetValue(clients),
                 Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
             };
             if (parsed.GetValue(perAddress) is int most and > 0)
@@ -141,7 +141,7 @@ internal static class HostCommand
 
     /// <summary>A scene that all commands know, or the game of two players that has rules of its own, at whose host nobody plays.</summary>
     private static Scene LoadScene(string text, ulong seed) =>
-        text == AirHockeyGame.Name ? AirHockeyGame.Build(2, seed, isDedicated: true) : SceneSource.Load(text);
+        text == AirHockeyGame.Name ? AirHockeyGame.Build(AirHockeyGame.Players, seed, isDedicated: true) : SceneSource.Load(text);
 
     private static HostPage OpenPage(SessionDoor door, WebRequest browsers, IPAddress local, ToolConsole console) => HostPage.Start(
         door, new IPEndPoint(local, browsers.Port), ReachableAddresses.Of(local), browsers.Origins, browsers.Certificate, console.Error, console.Stop);

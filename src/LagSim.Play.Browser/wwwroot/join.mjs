@@ -54,6 +54,7 @@ found('enter').addEventListener('submit', event => {
     found('enter').hidden = found('again').hidden = true
     found('session').hidden = found('leave').hidden = false
     look()
+    offerSecond()
     looking = setInterval(look, LookEvery)
     requestAnimationFrame(tick)
   }
@@ -123,6 +124,11 @@ function end() {
   found('again').focus()
 }
 
+/** Two may share the keyboard where the game is one for two, as long as one of its mallets may be free. */
+function offerSecond() {
+  found('second').hidden = host.scene !== 'air hockey' || peers.length !== 1 || peers[0].status?.looks_on === true
+}
+
 /** A peer has a pane now that it had not. */
 function show() {
   const isGame = peers.some(peer => peer.game)
@@ -132,7 +138,7 @@ function show() {
   found('panes').replaceChildren(...peers.filter(peer => peer.pane).map(peer => peer.pane.element))
   found('panes').hidden = false
   found('panes').dataset.count = peers.length
-  found('second').hidden = !isGame || peers.length > 1
+  offerSecond()
   peers.forEach((peer, n) => {
     peer.tellKeys(peers.length === 1 ? 'W A S D or arrow keys' : ['W A S D', 'arrow keys'][n])
     peer.pane?.resize()
@@ -165,6 +171,9 @@ function look() {
       item.classList.toggle('silent', one.silent)
       return item
     }))
+  }
+  if (status.looks_on) {
+    offerSecond()
   }
   set('round-trip', status.round_trip_ms ? `${status.round_trip_ms.toFixed(0)} ms` : '')
   set('states', `${status.agreed} agree, ${status.differed} differ`)

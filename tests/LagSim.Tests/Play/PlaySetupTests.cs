@@ -29,6 +29,8 @@ public sealed class PlaySetupTests
     [InlineData("scene=moon", "'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits, air-hockey.")]
     [InlineData("panes=healing", "'panes' names 1 strategies; there are 2 to 4 panes.")]
     [InlineData("panes=healing,magic", "'panes' is 'magic'; it must be one of none, latency-forward, interpolation, full-rollback, healing.")]
+    [InlineData("ahead=1001", "'ahead' is '1001'; it must be a number from 20 to 1000.")]
+    [InlineData("ahead=20&lag=21", "'lag' is 21 ms; with a look-ahead of 20 ms ('ahead') it can be that at most.")]
     [InlineData("delay=2001", "'delay' is '2001'; it must be a number from 0 to 2000.")]
     [InlineData("delay=NaN", "'delay' is 'NaN'")]
     [InlineData("delay", "'delay' is ''")]
