@@ -10,7 +10,7 @@ const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
 let exports, host, last = 0, colours, frame = new Float64Array(0)
 const peers = []
-let joined = 0, looking = 0, isLost = false
+let joined = 0, looking = 0, isLost = false, gone = null
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
 const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
@@ -18,8 +18,8 @@ const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]
 // For scripts and tests: of the first peer, the committed states that it has told, how it stands, and where it draws a ball, in CSS pixels.
 window.lagsim = {
   peers,
-  get commits() { return peers[0]?.commits ?? [] },
-  get status() { return peers[0]?.status ?? null },
+  get commits() { return (peers[0] ?? gone)?.commits ?? [] },
+  get status() { return (peers[0] ?? gone)?.status ?? null },
   placeOnScreen: ball => peers[0].pane.placeOnScreen(ball),
 }
 
@@ -117,6 +117,7 @@ function tick(now) {
 function end() {
   clearInterval(looking)
   peers.forEach(peer => peer.seat.leave())
+  gone = peers[0]
   peers.length = 0
   keyboard.turn(false)
   found('leave').hidden = found('second').hidden = true
