@@ -61,7 +61,7 @@ public sealed class WebSocketClientPort : IDatagramPort
     /// <inheritdoc/>
     public event Action? Arrived;
 
-    /// <summary>The address to give to a <see cref="Sessions.ClientSession"/>: whoever is at the other end.</summary>
+    /// <summary>The host's address, for a <see cref="Sessions.ClientSession"/>. A client has one connection, so it is the same for every host.</summary>
     public static PeerAddress Host { get; } = PeerAddress.Virtual(0);
 
     /// <summary>None: a client is at the end of its connection.</summary>
@@ -93,12 +93,7 @@ public sealed class WebSocketClientPort : IDatagramPort
     /// <exception cref="ObjectDisposedException">The port is closed.</exception>
     public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
     {
-        if (datagram.Length is 0 or > IDatagramPort.MaxDatagramBytes)
-        {
-            throw new ArgumentException(
-                $"A datagram has 1 to {IDatagramPort.MaxDatagramBytes} bytes; this one has {datagram.Length}.", nameof(datagram));
-        }
-
+        DatagramArguments.ThrowIfNoDatagram(datagram);
         if (to != Host)
         {
             throw new ArgumentException($"This port reaches its host alone, '{Host}', and not '{to}'.", nameof(to));
@@ -127,11 +122,7 @@ public sealed class WebSocketClientPort : IDatagramPort
     /// <exception cref="ArgumentException"><paramref name="buffer"/> is too short.</exception>
     public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from)
     {
-        if (buffer.Length < IDatagramPort.MaxDatagramBytes)
-        {
-            throw new ArgumentException($"{buffer.Length} bytes may be too few: {IDatagramPort.MaxDatagramBytes} are needed.", nameof(buffer));
-        }
-
+        DatagramArguments.ThrowIfTooShort(buffer);
         return ring.TryTake(buffer, out length, out from);
     }
 

@@ -134,12 +134,7 @@ public sealed class WebSocketHostPort : IDatagramPort
     /// <exception cref="ObjectDisposedException">The port is closed.</exception>
     public void Send(ReadOnlySpan<byte> datagram, PeerAddress to)
     {
-        if (datagram.Length is 0 or > IDatagramPort.MaxDatagramBytes)
-        {
-            throw new ArgumentException(
-                $"A datagram has 1 to {IDatagramPort.MaxDatagramBytes} bytes; this one has {datagram.Length}.", nameof(datagram));
-        }
-
+        DatagramArguments.ThrowIfNoDatagram(datagram);
         if (!to.IsConnection)
         {
             throw new ArgumentException($"WebSockets do not reach '{to}': it is no connection.", nameof(to));
@@ -172,11 +167,7 @@ public sealed class WebSocketHostPort : IDatagramPort
     /// <exception cref="ArgumentException"><paramref name="buffer"/> is too short.</exception>
     public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from)
     {
-        if (buffer.Length < IDatagramPort.MaxDatagramBytes)
-        {
-            throw new ArgumentException($"{buffer.Length} bytes may be too few: {IDatagramPort.MaxDatagramBytes} are needed.", nameof(buffer));
-        }
-
+        DatagramArguments.ThrowIfTooShort(buffer);
         return ring.TryTake(buffer, out length, out from);
     }
 

@@ -11,7 +11,6 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Time;
 
 namespace LagSim.Play.Browser;
 
@@ -21,13 +20,10 @@ namespace LagSim.Play.Browser;
 [SupportedOSPlatform("browser")]
 internal static partial class JoinExports
 {
-    private const int NumbersPerPane = 7; // as a pane of the playground, of which this is the only one
-    private const int NumbersPerBody = 7;
-
     private static readonly TimeSpan LongestWait = TimeSpan.FromSeconds(1);
 
     private static readonly List<(JoinedWorld World, WebSocketClientPort Port)> Peers = [];
-    private static double[] numbers = [];
+    private static readonly FrameWriter Frame = new();
 
     /// <summary>Joins a host's session, with one more peer of this page.</summary>
     /// <param name="address">Of its WebSocket.</param>
@@ -139,34 +135,16 @@ internal static partial class JoinExports
         world.Step();
         world.Draw(realSeconds);
         IReadOnlyList<JoinedBody> bodies = world.Bodies;
-        int length = 1 + NumbersPerPane + (bodies.Count * NumbersPerBody);
-        if (numbers.Length != length)
-        {
-            numbers = new double[length];
-        }
-
         LinkTraffic? link = world.Session.Links is [LinkTraffic only, ..] ? only : null;
-        int at = 0;
-        numbers[at++] = world.Seconds;
-        numbers[at++] = 0; // nobody knows here what the world without delay would be
-        numbers[at++] = world.Session.Counters.Heals;
-        numbers[at++] = world.EventsRerun;
-        numbers[at++] = world.BodiesRewound;
-        numbers[at++] = link?.BytesSent ?? 0;
-        numbers[at++] = link?.BytesReceived ?? 0;
-        numbers[at++] = world.IsHolding ? 1 : 0;
+        Frame.Begin(panes: 1, bodies.Count, world.Seconds);
+        Frame.WritePane(
+            error: 0, world.Session.Counters.Heals, world.EventsRerun, world.BodiesRewound, link?.BytesSent ?? 0, link?.BytesReceived ?? 0, world.IsHolding);
         foreach (JoinedBody body in bodies)
         {
-            numbers[at++] = 1;
-            numbers[at++] = body.Place.X;
-            numbers[at++] = body.Place.Y;
-            numbers[at++] = body.Place.X;
-            numbers[at++] = body.Place.Y;
-            numbers[at++] = body.Glow;
-            numbers[at++] = body.IsInHand ? 1 : 0;
+            Frame.WriteBody(new DrawnPlace(true, body.Place, body.Place, body.Glow, body.IsInHand)); // nobody knows here where it is without delay
         }
 
-        TakeFrame(numbers);
+        Frame.Show();
         return world.BodiesVersion;
     }
 
@@ -186,9 +164,6 @@ internal static partial class JoinExports
     /// <summary>All peers of this page leave the session.</summary>
     [JSExport]
     internal static void Leave() => Peers.ForEach(one => one.World.Dispose());
-
-    [JSImport("takeFrame", "page")]
-    private static partial void TakeFrame([JSMarshalAs<JSType.MemoryView>] Span<double> frame);
 
     private static HostFingerprint Fingerprint(string text) =>
         HostFingerprint.TryParse(text, out HostFingerprint read) ? read : throw new FormatException($"'{text}' is no fingerprint of a host.");

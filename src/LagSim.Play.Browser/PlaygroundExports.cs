@@ -15,13 +15,11 @@ namespace LagSim.Play.Browser;
 [SupportedOSPlatform("browser")]
 internal static partial class PlaygroundExports
 {
-    private const int NumbersPerBody = 7;
-    private const int NumbersPerPane = 7;
+    private static readonly FrameWriter Frame = new();
 
     private static Playground? playground;
     private static readonly List<double> paths = [];
 
-    private static double[] numbers = [];
 
     /// <summary>The panes that are shown.</summary>
     internal static IReadOnlyList<Pane> Panes => playground!.Panes;
@@ -34,8 +32,6 @@ internal static partial class PlaygroundExports
         try
         {
             playground = new Playground(PlaySetup.Parse(query));
-            int bodies = playground.Scene.Scene.Bodies.Count;
-            numbers = new double[1 + (playground.Panes.Count * (NumbersPerPane + (bodies * NumbersPerBody)))];
             return "";
         }
         catch (Exception refused) when (refused is FormatException or InvalidOperationException)
@@ -164,34 +160,19 @@ internal static partial class PlaygroundExports
 
     private static void Show(double seconds)
     {
-        int at = 0;
-        numbers[at++] = playground!.Seconds + seconds;
+        Frame.Begin(playground!.Panes.Count, playground.Scene.Scene.Bodies.Count, playground.Seconds + seconds);
         foreach (Pane pane in playground.Panes)
         {
-            numbers[at++] = pane.Error;
-            numbers[at++] = pane.Heals;
-            numbers[at++] = pane.EventsRerun;
-            numbers[at++] = pane.BodiesRewound;
-            numbers[at++] = playground.BytesSent(pane.Number);
-            numbers[at++] = playground.BytesReceived(pane.Number);
-            numbers[at++] = pane.IsHolding ? 1 : 0;
+            Frame.WritePane(
+                pane.Error, pane.Heals, pane.EventsRerun, pane.BodiesRewound, playground.BytesSent(pane.Number), playground.BytesReceived(pane.Number), pane.IsHolding);
             foreach (DrawnPlace place in pane.Places)
             {
-                numbers[at++] = place.IsThere ? 1 : 0;
-                numbers[at++] = place.Drawn.X;
-                numbers[at++] = place.Drawn.Y;
-                numbers[at++] = place.Real.X;
-                numbers[at++] = place.Real.Y;
-                numbers[at++] = place.Glow;
-                numbers[at++] = place.IsInHand ? 1 : 0;
+                Frame.WriteBody(place);
             }
         }
 
-        TakeFrame(numbers);
+        Frame.Show();
     }
-
-    [JSImport("takeFrame", "page")]
-    private static partial void TakeFrame([JSMarshalAs<JSType.MemoryView>] Span<double> frame);
 
     [JSImport("takePaths", "page")]
     private static partial void TakePaths([JSMarshalAs<JSType.MemoryView>] Span<double> paths);

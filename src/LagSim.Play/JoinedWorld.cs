@@ -17,13 +17,11 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>How many committed states wait to be taken; older ones are lost.</summary>
     internal const int MaxCommits = 1024;
 
-    private const double GlowSeconds = 0.35; // nothing flashes more than three times a second
-
     private readonly IDatagramPort port;
     private readonly RuleNotices notices = new();
     private readonly Queue<CommittedState> commits = new();
     private readonly List<JoinedBody> bodies = [];
-    private readonly Dictionary<BodyId, double> litUntil = [];
+    private readonly RewrittenGlow glow = new();
     private PlayScene? view;
     private HandOfPerson? hand;
     private DisplayOffsets? display;
@@ -98,13 +96,8 @@ internal sealed class JoinedWorld : IDisposable
                 continue;
             }
 
-            if (drawn.Jump > 0)
-            {
-                litUntil[body] = shownSeconds + GlowSeconds;
-            }
-
-            double glow = litUntil.TryGetValue(body, out double until) ? Math.Clamp((until - shownSeconds) / GlowSeconds, 0, 1) : 0;
-            bodies.Add(new JoinedBody(body, view!.ToView(drawn.Position), snapshot.RadiusOf(body), glow, drawn.IsInHand));
+            double shine = glow.Of(body, drawn.Jump > 0, shownSeconds);
+            bodies.Add(new JoinedBody(body, view!.ToView(drawn.Position), snapshot.RadiusOf(body), shine, drawn.IsInHand));
         }
 
         BodiesVersion += Identity() == before ? 0 : 1;
@@ -187,7 +180,7 @@ internal sealed class JoinedWorld : IDisposable
             Player ??= new AirHockeyPlayer(Session, notices, action => hand.Do(action));
         }
 
-        litUntil.Clear();
+        glow.Clear();
         world.Simulation.Healed += heal =>
         {
             EventsRerun += heal.Events;

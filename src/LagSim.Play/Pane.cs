@@ -14,13 +14,10 @@ namespace LagSim.Play;
 /// <remarks>Not thread-safe.</remarks>
 internal sealed class Pane
 {
-    /// <summary>How long a body glows whose path was rewritten: long enough that nothing flashes more than three times a second.</summary>
-    private const double GlowSeconds = 0.35;
-
     private readonly PlayScene scene;
     private readonly bool isSmooth;
     private readonly HandOfPerson hand;
-    private readonly double[] litUntil; // by body, in seconds of a person who looks
+    private readonly RewrittenGlow glow = new();
     private readonly DrawnPlace[] places;
     private LiveWorld? watched;
     private HealTotals healed;
@@ -35,7 +32,6 @@ internal sealed class Pane
         this.scene = scene;
         this.isSmooth = isSmooth;
         hand = new HandOfPerson(session, scene, wake);
-        litUntil = new double[scene.Scene.Bodies.Count];
         places = new DrawnPlace[scene.Scene.Bodies.Count];
         display = new DisplayOffsets(scene.Scene);
     }
@@ -92,13 +88,8 @@ internal sealed class Pane
             bool isThere = display.TryRead(BodyId.OfScene(n), out DrawnBody drawn);
             truth.TryRead(BodyId.OfScene(n), now, out BodyState real);
             Vector3D shown = isSmooth || drawn.IsInHand ? drawn.Position : drawn.State.Position;
-            if (drawn.Jump > 0)
-            {
-                litUntil[n] = shownSeconds + GlowSeconds;
-            }
-
-            double glow = Math.Clamp((litUntil[n] - shownSeconds) / GlowSeconds, 0, 1);
-            places[n] = new DrawnPlace(isThere, scene.ToView(shown), scene.ToView(real.Position), glow, drawn.IsInHand);
+            double shine = glow.Of(BodyId.OfScene(n), drawn.Jump > 0, shownSeconds);
+            places[n] = new DrawnPlace(isThere, scene.ToView(shown), scene.ToView(real.Position), shine, drawn.IsInHand);
             Error = Math.Max(Error, isThere && !drawn.IsInHand ? (shown - real.Position).Length : 0);
         }
     }

@@ -118,7 +118,7 @@ public sealed class PlayPageTests(ServedPage served)
         await page.AgreeAsync(2);
     }
 
-    /// <summary>Where the worlds begin anew, the slider under the hand stays, and so does who came by keys.</summary>
+    /// <summary>A slider that starts the worlds again can still be pulled to its end, and keeps the focus.</summary>
     [Fact]
     public async Task Slider_OfTheWorlds_KeepsTheHandAndTheFocus()
     {

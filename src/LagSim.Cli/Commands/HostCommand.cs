@@ -101,7 +101,6 @@ internal static class HostCommand
             HostSession session = Open(loaded, carrier.Port, options);
             using HostPage? page = browsers is null ? null
                 : OpenPage(new SessionDoor(sockets!, loaded, self?.Fingerprint, options.ConnectKey.Length > 0), browsers, local, console);
-            using WebSocketHostPort? closedFirst = sockets; // the server of the page would wait for those who are connected
             bool json = parsed.GetValue(common.Json);
             int udpPort = udp.LocalAddress.ToEndPoint().Port;
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)

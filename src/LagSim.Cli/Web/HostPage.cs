@@ -14,12 +14,14 @@ namespace LagSim.Cli.Web;
 /// <summary>The page of a host, at which browsers join its session, and the address that people open.</summary>
 internal sealed class HostPage : IDisposable
 {
+    private readonly SessionDoor door;
     private readonly PageServer server;
     private readonly CancellationTokenSource stopping;
     private readonly Task building;
 
-    private HostPage(PageServer server, string address, CancellationTokenSource stopping, Task building)
+    private HostPage(SessionDoor door, PageServer server, string address, CancellationTokenSource stopping, Task building)
     {
+        this.door = door;
         this.server = server;
         Address = address;
         this.stopping = stopping;
@@ -30,7 +32,7 @@ internal sealed class HostPage : IDisposable
     internal string Address { get; }
 
     /// <summary>Begins to serve. The page itself may come later: in a clone it has to be built first.</summary>
-    /// <param name="door">The way into the session.</param>
+    /// <param name="door">The way into the session; closed with the page.</param>
     /// <param name="local">Where to listen.</param>
     /// <param name="reachable">The addresses at which others reach that.</param>
     /// <param name="origins">Where other pages may come from.</param>
@@ -48,7 +50,7 @@ internal sealed class HostPage : IDisposable
             .Select(address => Origin(scheme, address.ToString(), server.Port)).Append(Origin(scheme, "localhost", server.Port)).Distinct()];
         server.Open(door, own.Concat(origins));
         CancellationTokenSource stopping = CancellationTokenSource.CreateLinkedTokenSource(stop);
-        return new HostPage(server, own[0] + "/", stopping, ServeAsync(server, log, stopping.Token));
+        return new HostPage(door, server, own[0] + "/", stopping, ServeAsync(server, log, stopping.Token));
     }
 
     /// <summary>The address as a picture that a phone reads, in lines of text, or none if only this machine reaches it.</summary>
@@ -66,6 +68,7 @@ internal sealed class HostPage : IDisposable
 
     public void Dispose()
     {
+        door.Dispose(); // the server would wait for those who are connected
         stopping.Cancel();
         building.GetAwaiter().GetResult();
         server.DisposeAsync().AsTask().GetAwaiter().GetResult();

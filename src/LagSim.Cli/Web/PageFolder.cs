@@ -64,7 +64,7 @@ internal static class PageFolder
     }
 
     /// <summary>Whether nothing that a page is made of has changed since it was built. To ask the build itself takes ten seconds each time.</summary>
-    private static bool IsNewerThanSources(string stamp, string root)
+    internal static bool IsNewerThanSources(string stamp, string root)
     {
         DateTime built = File.GetLastWriteTimeUtc(stamp); // long ago if there is none
         string[] made = ["bin", "obj"];

@@ -16,10 +16,10 @@ using Microsoft.AspNetCore.Http;
 namespace LagSim.Cli.Web;
 
 /// <summary>The way for browsers into a host's session: what a page has to know of it, and the WebSocket that it joins by.</summary>
-/// <remarks>A page of another site could open a WebSocket to a host on its visitor's own machine or network, so the browser's word on where
-/// the page comes from has to be one of the origins that are allowed. It has to be a name of ours even where the page and the socket have
-/// the same one, since whoever owns a name can have it point here.</remarks>
-internal sealed class SessionDoor
+/// <remarks>A page of another site could open a WebSocket to a host on its visitor's own machine or network. So a browser is let in only if
+/// its page comes from an origin in the list. That a page and the socket have the same origin is not enough: anybody can make a name of
+/// their own point to this machine (DNS rebinding).</remarks>
+internal sealed class SessionDoor : IDisposable
 {
     /// <summary>The path of both: a plain request gets what there is to know, one for a WebSocket joins.</summary>
     internal const string Path = "/session";
@@ -29,7 +29,7 @@ internal sealed class SessionDoor
     private readonly WebSocketHostPort port;
     private readonly byte[] description;
 
-    /// <param name="port">Carries what comes.</param>
+    /// <param name="port">Carries what comes; closed with the door.</param>
     /// <param name="scene">The scene of the session.</param>
     /// <param name="fingerprint">Of the host; null if the session is not protected.</param>
     /// <param name="needsKey">Whether a client has to present a key.</param>
@@ -55,6 +55,9 @@ internal sealed class SessionDoor
         pipeline.Run(AnswerAsync);
         return pipeline.Build();
     }
+
+    /// <summary>Ends the connections of all who came in.</summary>
+    public void Dispose() => port.Dispose();
 
     private static byte[] Describe(Scene scene, HostFingerprint? fingerprint, bool needsKey)
     {

@@ -1,5 +1,6 @@
 // The page of a host: joins its session with one more peer, or with two where two people share a keyboard, beside native ones.
 import { dotnet } from './_framework/dotnet.js'
+import { readColours } from './colours.mjs'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { Seat } from './seats.mjs'
@@ -192,10 +193,4 @@ function set(id, text) {
 function say(sentence) {
   set('problem', sentence)
   found('problem').hidden = sentence === ''
-}
-
-function readColours() {
-  const style = getComputedStyle(document.documentElement)
-  const read = name => style.getPropertyValue(`--${name}`).trim()
-  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), accent: read('accent') }
 }

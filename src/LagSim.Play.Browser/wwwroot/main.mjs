@@ -1,5 +1,6 @@
 // The page: loads the worlds, lets time pass in them once a frame, and draws what each player sees.
 import { dotnet } from './_framework/dotnet.js'
+import { readColours } from './colours.mjs'
 import { Controls } from './controls.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { Pane } from './panes.mjs'
@@ -168,10 +169,4 @@ function advance(virtual, real) {
     const [at, ...hashes] = engine.Hashes()
     panes.forEach(pane => pane.tell(hashes[pane.number], hashes[hashes.length - 1], at))
   }
-}
-
-function readColours() {
-  const style = getComputedStyle(document.documentElement)
-  const read = name => style.getPropertyValue(`--${name}`).trim()
-  return { ball: read('ball'), ballEdge: read('ball-edge'), real: read('real'), glow: read('glow'), floor: read('floor'), soft: read('soft'), path: read('path'), future: read('future'), accent: read('accent') }
 }
