@@ -111,21 +111,30 @@ internal sealed class CollisionPredictor(
             from, segment.End, out contact);
     }
 
-    /// <summary>Whether another body can be met on its newest segment alone: it is not ahead of the heal, be it by a round of the same
-    /// tick.</summary>
-    internal bool MeetsNewest(int slot, int other) => timelines.IsKnown(other) && view.SegmentFrom(slot, other) == timelines.Last(other);
+    /// <summary>The first segment of another body that a body's newest segment can still meet: the newest, unless that body is ahead of the
+    /// heal, be it by a round of the same tick.</summary>
+    internal int FirstPiece(int slot, int other) => view.SegmentFrom(slot, other);
 
     /// <summary>
-    /// The next contact of a body's newest segment with another body's path: with its newest segment or, where that body is ahead of the
-    /// heal, with the first segment until then that is touched before it ended.
+    /// The next contact until some time of a body's newest segment with another body's path, from a segment on: the first segment that is
+    /// touched before it ended.
     /// </summary>
-    internal bool TryMeet(int slot, int other, SimTime until, out int piece, out ContactTime contact, out uint round)
+    /// <param name="slot">The body.</param>
+    /// <param name="other">The other body.</param>
+    /// <param name="until">How far to look; a contact later than that may be found or not.</param>
+    /// <param name="piece">The first segment, see <see cref="FirstPiece"/>; then the one that is touched.</param>
+    /// <param name="contact">When they touch.</param>
+    /// <param name="round">In which round of that tick.</param>
+    internal bool TryMeet(int slot, int other, SimTime until, ref int piece, out ContactTime contact, out uint round)
     {
-        piece = view.SegmentFrom(slot, other);
+        contact = default;
+        round = 0;
         while (true)
         {
             int next = timelines.Next(piece);
-            if (TryTouchBody(slot, other, piece, out contact, out round)
+            SimTime end = next == TimelineStore.None ? until : SimTime.Min(until, timelines.Key(next).Time);
+            if (!StayApart(slot, other, piece, end)
+                && TryTouchBody(slot, other, piece, out contact, out round)
                 && (next == TimelineStore.None || EventKey.Compare(timelines.Key(next), EventKey.BeforeImpacts(contact.Tick, round)) >= 0))
             {
                 return true;
@@ -138,6 +147,18 @@ internal sealed class CollisionPredictor(
 
             piece = next;
         }
+    }
+
+    /// <summary>Whether a body's newest segment surely touches nothing of a segment of another body until some time.</summary>
+    private bool StayApart(int slot, int other, int piece, SimTime until)
+    {
+        int mine = timelines.Last(slot);
+        SimTime from = SimTime.Max(timelines.Key(mine).Time, timelines.Key(piece).Time);
+        return !box.Exists
+            && (until < from
+                || PathSeparation.AreApart(
+                    timelines.Segment(mine), timelines.Dense(mine), timelines.Segment(piece), timelines.Dense(piece),
+                    bodies.Spec(slot).Radius + bodies.Spec(other).Radius + scale.Length, from, until));
     }
 
     /// <summary>

@@ -33,7 +33,8 @@ internal class CollisionSearch(
                 first = approaches[i].Seconds < approaches[first].Seconds ? i : first;
             }
 
-            if (FreeFlights.IsLater(approaches[first].Seconds, from, next.Horizon(from, until)))
+            SimTime horizon = next.Horizon(from, until);
+            if (FreeFlights.IsLater(approaches[first].Seconds, from, horizon))
             {
                 break;
             }
@@ -41,7 +42,7 @@ internal class CollisionSearch(
             int other = approaches[first].Slot;
             bool isClose = approaches[first].Seconds == 0;
             approaches[first] = approaches[--count];
-            ConsiderFlights(slot, other, isClose, until, ref next);
+            ConsiderFlights(slot, other, isClose, horizon, ref next);
         }
 
         for (int surface = 0; surface < surfaces.Count; surface++)
@@ -65,10 +66,16 @@ internal class CollisionSearch(
         SimTime end = SimTime.Min(until, timelines.Segment(timelines.Last(slot)).End);
         foreach (int other in candidates)
         {
-            if (!(isOfStep && stepMarks.Has(other))
-                && !(predictor.MeetsNewest(slot, other) && flights.AreApart(slot, other, from, SimTime.Max(from, next.Horizon(from, end)))))
+            if (!timelines.IsKnown(other) || (isOfStep && stepMarks.Has(other)))
             {
-                ConsiderMeeting(slot, other, until, ref next);
+                continue;
+            }
+
+            int piece = predictor.FirstPiece(slot, other);
+            SimTime horizon = SimTime.Max(from, next.Horizon(from, end));
+            if (piece != timelines.Last(other) || !flights.AreApart(slot, other, from, horizon))
+            {
+                ConsiderMeeting(slot, other, piece, horizon, ref next);
             }
         }
     }
@@ -86,9 +93,9 @@ internal class CollisionSearch(
         }
     }
 
-    private void ConsiderMeeting(int slot, int other, SimTime until, ref NextEvent next)
+    private void ConsiderMeeting(int slot, int other, int piece, SimTime until, ref NextEvent next)
     {
-        if (timelines.IsKnown(other) && predictor.TryMeet(slot, other, until, out int piece, out ContactTime contact, out uint round))
+        if (predictor.TryMeet(slot, other, until, ref piece, out ContactTime contact, out uint round))
         {
             ConsiderContact(slot, other, piece, contact, round, ref next);
         }
@@ -99,7 +106,13 @@ internal class CollisionSearch(
     /// </summary>
     private void ConsiderFlights(int slot, int other, bool isClose, SimTime until, ref NextEvent next)
     {
-        if (flights.IsFree(other) && !filters.Meet(timelines.Last(slot), timelines.Last(other)))
+        if (!timelines.IsKnown(other))
+        {
+            return;
+        }
+
+        int newest = timelines.Last(other);
+        if (flights.IsFree(other) && !filters.Meet(timelines.Last(slot), newest))
         {
             return;
         }
@@ -107,15 +120,15 @@ internal class CollisionSearch(
         bool ordered = bodies.Id(slot) < bodies.Id(other);
         if (!flights.IsFree(other) || !flights.TryTouch(ordered ? slot : other, ordered ? other : slot, out bool touches, out ContactTime contact))
         {
-            ConsiderMeeting(slot, other, until, ref next);
+            ConsiderMeeting(slot, other, newest, until, ref next);
         }
         else if (touches)
         {
-            ConsiderContact(slot, other, timelines.Last(other), contact, 0, ref next);
+            ConsiderContact(slot, other, newest, contact, 0, ref next);
         }
         else if (isClose && flights.AreSunk(slot, other))
         {
-            ConsiderMeeting(slot, other, until, ref next);
+            ConsiderMeeting(slot, other, newest, until, ref next);
         }
     }
 

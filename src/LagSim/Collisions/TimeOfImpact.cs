@@ -13,7 +13,8 @@ namespace LagSim.Collisions;
 /// </remarks>
 internal static class TimeOfImpact
 {
-    private const int PathLength = 6; // a quintic path
+    /// <summary>How many terms a path has at most: a quintic.</summary>
+    internal const int PathLength = 6;
 
     /// <summary>The first contact of a moving sphere with a static plane in [from, until].</summary>
     internal static bool WithPlane(
@@ -245,7 +246,7 @@ internal static class TimeOfImpact
     }
 
     /// <summary>The path as a polynomial in the seconds after <paramref name="from"/>; returns how many coefficients it has.</summary>
-    private static int Path(in MotionSegment segment, in DenseOutput dense, SimTime from, Span<Vector3D> path)
+    internal static int Path(in MotionSegment segment, in DenseOutput dense, SimTime from, Span<Vector3D> path)
     {
         path[0] = segment.Position;
         path[1] = segment.Velocity;
@@ -279,7 +280,7 @@ internal static class TimeOfImpact
         }
     }
 
-    // No end means the end of time: 2^23 s is more than any instant is away.
-    private static double Seconds(SimTime from, SimTime until) =>
+    /// <summary>The seconds between two times. No end means the end of time: 2^23 s is more than any instant is away.</summary>
+    internal static double Seconds(SimTime from, SimTime until) =>
         until == SimTime.MaxValue ? 8388608.0 : until.SecondsSince(from);
 }
