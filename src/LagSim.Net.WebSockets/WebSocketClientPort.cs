@@ -179,7 +179,7 @@ public sealed class WebSocketClientPort : IDatagramPort
             }
             catch (Exception failed) when (failed is WebSocketException or IOException or OperationCanceledException or InvalidOperationException)
             {
-                failure = failed.Message;
+                failure = Sentence(failed);
             }
             finally
             {
@@ -198,6 +198,13 @@ public sealed class WebSocketClientPort : IDatagramPort
 
             next = next + next < LastPause ? next + next : LastPause;
         }
+    }
+
+    /// <summary>What failed, and what that came of: a certificate that is not trusted, say.</summary>
+    private static string Sentence(Exception failed)
+    {
+        string cause = failed.GetBaseException().Message;
+        return failed.Message.Contains(cause, StringComparison.Ordinal) ? failed.Message : $"{failed.Message}: {cause}";
     }
 
     private void Take(ReadOnlySpan<byte> datagram)

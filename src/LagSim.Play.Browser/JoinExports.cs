@@ -11,6 +11,7 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Time;
 
 namespace LagSim.Play.Browser;
 
@@ -31,9 +32,11 @@ internal static partial class JoinExports
     /// <param name="key">That the host asks for; empty for none.</param>
     /// <param name="name">What the others are shown.</param>
     /// <param name="pass">Of the player that this one was before; empty for none.</param>
+    /// <param name="timeoutSeconds">How long the host may be silent.</param>
+    /// <param name="rejoinSeconds">How long it is asked again when it was.</param>
     /// <returns>A sentence on what cannot be; empty if it asks now. Peers are counted from 0 in the other calls.</returns>
     [JSExport]
-    internal static string Join(string address, string fingerprint, string key, string name, string pass)
+    internal static string Join(string address, string fingerprint, string key, string name, string pass, double timeoutSeconds, double rejoinSeconds)
     {
         try
         {
@@ -45,6 +48,8 @@ internal static partial class JoinExports
                 Pass = former,
                 Protection = fingerprint.Length == 0 ? null : new SecureClient(Fingerprint(fingerprint)),
                 Warmup = false,
+                Timeout = SimDuration.FromSeconds(timeoutSeconds),
+                RejoinTime = SimDuration.FromSeconds(rejoinSeconds),
             };
             WebSocketClientPort port = new(new Uri(address));
             JoinedWorld world = new(port, WebSocketClientPort.Host, options, new StopwatchClock());

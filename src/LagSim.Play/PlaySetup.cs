@@ -45,8 +45,9 @@ internal sealed record PlaySetup
     /// <summary>The seed of the links.</summary>
     internal ulong Seed { get; init; } = 1;
 
-    /// <summary>How far ahead each world is simulated, in milliseconds, 20 to 1,000, and no less than the local lag.</summary>
-    internal double LookAheadMilliseconds { get; init; } = 200;
+    /// <summary>How far ahead each world is simulated, in milliseconds, 20 to 1,000, and no less than the local lag. A heal simulates all
+    /// of it again, in each pane.</summary>
+    internal double LookAheadMilliseconds { get; init; } = 100;
 
     /// <summary>How much later than now what a person does happens, in milliseconds, 0 to 500.</summary>
     internal double LocalLagMilliseconds { get; init; }

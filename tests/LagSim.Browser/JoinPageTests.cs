@@ -23,15 +23,15 @@ public sealed class JoinPageTests(ServedPage served)
         await ann.ThrowAsync(0, 100, 40);
 
         await ann.Page.CloseAsync();
-        await bob.Page.WaitForTimeoutAsync(4500); // a tab that did not say goodbye holds its seat that long
-        JoinedPage again = await JoinedPage.JoinAsync(context, page, "Ann", "open sesame");
-        Assert.Equal(1, await again.NumberAsync("player"));
-        await again.ThrowAsync(3, -80, 60);
-        await again.Page.ReloadAsync(); // says goodbye, and so is at once back in its seat
-        await again.LoadAsync(page);
+        JoinedPage again = await JoinedPage.OpenAsync(context, page);
+        Assert.Equal("Ann", await again.Page.InputValueAsync("#name")); // though Bob was here last
         await again.AskAsync("Ann", "open sesame");
         await again.RunningAsync();
         Assert.Equal(1, await again.NumberAsync("player"));
+        await again.ThrowAsync(3, -80, 60);
+        await again.Page.ReloadAsync(); // goes in by itself, with the key
+        await again.RunningAsync();
+        Assert.Equal((1, 2), (await again.NumberAsync("player"), await bob.NumberAsync("player")));
 
         await again.Page.WaitForFunctionAsync("() => window.lagsim.status.agreed >= 2", null, new() { Timeout = 20_000 });
         JoinedPage.AssertSame(host.States, await again.StatesAsync(), 2);

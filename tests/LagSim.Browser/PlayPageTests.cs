@@ -130,8 +130,8 @@ public sealed class PlayPageTests(ServedPage served)
             await page.Page.Keyboard.PressAsync("ArrowRight");
         }
 
-        Assert.Equal("350", await ahead.InputValueAsync());
-        Assert.Contains("ahead=350", page.Page.Url, StringComparison.Ordinal);
+        Assert.Equal("250", await ahead.InputValueAsync());
+        Assert.Contains("ahead=250", page.Page.Url, StringComparison.Ordinal);
         LocatorBoundingBoxResult box = (await ahead.BoundingBoxAsync())!;
         await page.Page.Mouse.MoveAsync(box.X + (0.3f * box.Width), box.Y + (box.Height / 2));
         await page.Page.Mouse.DownAsync();

@@ -35,16 +35,19 @@ public sealed class ServedPage : IAsyncLifetime
         server = Process.Start(new ProcessStartInfo("dotnet") { ArgumentList = { Tool.Path, "play", "--port", "0", "--no-browser" }, RedirectStandardOutput = true })!;
         Address = await server.StandardOutput.ReadLineAsync() ?? throw new InvalidOperationException("lagsim play ended without an address.");
         playwright = await Playwright.CreateAsync();
-        Browser = await playwright.Chromium.LaunchAsync(new()
-        {
-            ExecutablePath = Environment.GetEnvironmentVariable("CHROMIUM") ?? "/usr/bin/chromium",
-            Args = ["--no-sandbox"],
-        });
+        Browser = await LaunchAsync();
         IPage first = await Browser.NewPageAsync();
         await first.GotoAsync(Address); // may say for a while that it is being built
         await first.WaitForSelectorAsync("#panes:not([hidden])", new() { Timeout = Deadline });
         await first.CloseAsync();
     }
+
+    /// <summary>Another browser, with processes of its own.</summary>
+    internal Task<IBrowser> LaunchAsync() => playwright!.Chromium.LaunchAsync(new()
+    {
+        ExecutablePath = Environment.GetEnvironmentVariable("CHROMIUM") ?? "/usr/bin/chromium",
+        Args = ["--no-sandbox"],
+    });
 
     public async ValueTask DisposeAsync()
     {

@@ -29,6 +29,16 @@ internal sealed class ToolProcess : IAsyncDisposable
     /// <summary>Whether it has ended.</summary>
     internal bool HasEnded => process.HasExited;
 
+    /// <summary>How much memory it has.</summary>
+    internal long ResidentBytes
+    {
+        get
+        {
+            process.Refresh();
+            return process.WorkingSet64;
+        }
+    }
+
     /// <summary>All lines so far.</summary>
     internal string[] Lines
     {

@@ -9,12 +9,15 @@ namespace LagSim.Cli.Commands;
 /// <param name="Counts">What it counts, by the keys of the summary.</param>
 internal sealed record CarrierInUse(IDatagramPort Port, Func<IEnumerable<(string Name, long Count)>> Counts)
 {
+    /// <summary>Why the host cannot be reached, as a sentence; null where the carrier does not know, or nothing is wrong.</summary>
+    internal Func<string?> Obstacle { get; private init; } = () => null;
+
     /// <summary>UDP alone.</summary>
     internal static CarrierInUse Of(UdpPort port) => new(port, () => CountsOf(port.Dropped, port.SendFailures, port.ReceiveFailures, 0));
 
     /// <summary>A WebSocket to a host.</summary>
     internal static CarrierInUse Of(WebSocketClientPort port) =>
-        new(port, () => CountsOf(port.Dropped, port.Unconnected, 0, port.Superseded));
+        new(port, () => CountsOf(port.Dropped, port.Unconnected, 0, port.Superseded)) { Obstacle = () => port.Failure };
 
     /// <summary>UDP, and WebSockets beside it.</summary>
     internal static CarrierInUse Of(UdpPort udp, WebSocketHostPort web) =>

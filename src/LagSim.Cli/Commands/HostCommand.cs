@@ -100,7 +100,7 @@ internal static class HostCommand
             CarrierInUse carrier = sockets is null ? CarrierInUse.Of(udp) : CarrierInUse.Of(udp, sockets);
             HostSession session = Open(loaded, carrier.Port, options);
             using HostPage? page = browsers is null ? null
-                : OpenPage(new SessionDoor(sockets!, loaded, self?.Fingerprint, options.ConnectKey.Length > 0), browsers, local, console);
+                : OpenPage(new SessionDoor(sockets!, loaded, self?.Fingerprint, options), browsers, local, console);
             bool json = parsed.GetValue(common.Json);
             int udpPort = udp.LocalAddress.ToEndPoint().Port;
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)

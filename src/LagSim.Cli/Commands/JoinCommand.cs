@@ -90,7 +90,10 @@ internal static class JoinCommand
                 session.PassGiven += TellTrustOnce;
             }
 
-            SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile);
+            SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
+            {
+                Server = there is null ? place : null,
+            };
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             return runner.Run();
 

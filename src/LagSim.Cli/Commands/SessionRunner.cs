@@ -52,7 +52,7 @@ internal sealed class SessionRunner : IDisposable
         this.stop = stop;
         session.Begun += queue.Wake;
         session.Ended += queue.Wake;
-        watch = new SessionWatch(session, request, printer, queue);
+        watch = new SessionWatch(session, carrier, request, printer, queue);
         actions = new SessionActions(session, request.Actions, printer, queue);
         if (request.RecordFile is string file)
         {

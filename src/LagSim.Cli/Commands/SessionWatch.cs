@@ -16,6 +16,7 @@ internal sealed class SessionWatch
     private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(1450);
 
     private readonly Session session;
+    private readonly CarrierInUse carrier;
     private readonly SessionRequest request;
     private readonly SessionPrinter printer;
     private readonly PrintQueue queue;
@@ -24,9 +25,10 @@ internal sealed class SessionWatch
     private bool hasToldSilence;
     private bool isLooking;
 
-    internal SessionWatch(Session session, SessionRequest request, SessionPrinter printer, PrintQueue queue)
+    internal SessionWatch(Session session, CarrierInUse carrier, SessionRequest request, SessionPrinter printer, PrintQueue queue)
     {
         this.session = session;
+        this.carrier = carrier;
         this.request = request;
         this.printer = printer;
         this.queue = queue;
@@ -96,8 +98,9 @@ internal sealed class SessionWatch
             hasToldSilence = true;
             ClientOptions options = ClientOptions.From(request.Options);
             SimDuration most = options.Pass.Number > 0 && options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
+            string why = carrier.Obstacle() is string obstacle ? $" ({obstacle.TrimEnd('.')})" : "";
             printer.Problem(FormattableString.Invariant(
-                $"No host answers at {request.Host} yet; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
+                $"No host answers at {request.Host} yet{why}; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
         }
     }
 

@@ -4,6 +4,7 @@ using System.IO;
 using System.Linq;
 using System.Text.Json;
 using LagSim.Harness.Reports;
+using LagSim.Net.Carriers;
 using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
@@ -48,10 +49,15 @@ internal sealed class SessionPrinter
     /// <summary>The address of the page at which browsers join; null for none.</summary>
     internal string? Page { get; init; }
 
+    /// <summary>The address of a WebSocket that a client joins by; null for UDP, whose links tell their address.</summary>
+    internal string? Server { get; init; }
+
     /// <summary>The addresses with fingerprint that clients join; none for a client, and for a session without protection.</summary>
     internal IReadOnlyList<string> Addresses { get; init; } = [];
 
     internal LinkTable Links { get; } = new();
+
+    private string Place(PeerAddress address) => Server ?? address.ToString();
 
     /// <summary>Prints a line and flushes it.</summary>
     internal void Line(string text)
@@ -98,14 +104,14 @@ internal sealed class SessionPrinter
     internal void Came(LinkTraffic link)
     {
         Links.Add(link);
-        Progress($"peer {link.Peer} at {link.Address} came");
+        Progress($"peer {link.Peer} at {Place(link.Address)} came");
     }
 
     /// <summary>Prints that a client is gone.</summary>
     internal void Gone(LinkTraffic link)
     {
         Links.End(link);
-        Progress($"peer {link.Peer} at {link.Address} is gone");
+        Progress($"peer {link.Peer} at {Place(link.Address)} is gone");
     }
 
     /// <summary>Prints who is in the session, if that is another line than the last.</summary>
@@ -127,7 +133,7 @@ internal sealed class SessionPrinter
             if (!Links.LookAt(link))
             {
                 Links.Add(link);
-                Progress($"in as a peer of the host at {link.Address}");
+                Progress($"in as a peer of the host at {Place(link.Address)}");
             }
         }
     }
@@ -185,7 +191,7 @@ internal sealed class SessionPrinter
         foreach (LinkRow row in Links.Rows)
         {
             to.WriteLine(
-                $"peer {row.Peer} at {row.Address}: {PerSecond(row.SentPerSecond)} sent, {PerSecond(row.ReceivedPerSecond)} received, payload alone; "
+                $"peer {row.Peer} at {Place(row.Address)}: {PerSecond(row.SentPerSecond)} sent, {PerSecond(row.ReceivedPerSecond)} received, payload alone; "
                 + $"round trip {NumberText.Short(row.Last.RoundTrip.ToMilliseconds())} ms");
         }
 
@@ -264,7 +270,7 @@ internal sealed class SessionPrinter
         {
             document.WriteStartObject();
             document.WriteNumber("peer", row.Peer);
-            document.WriteString("address", row.Address.ToString());
+            document.WriteString("address", Place(row.Address));
             document.WriteNumber("sent_payload_bytes", row.Last.BytesSent);
             document.WriteNumber("received_payload_bytes", row.Last.BytesReceived);
             JsonDocumentWriter.Number(document, "sent_payload_bytes_per_s", row.SentPerSecond);

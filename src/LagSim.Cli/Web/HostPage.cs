@@ -48,7 +48,7 @@ internal sealed class HostPage : IDisposable
         string scheme = certificate is null ? "http" : "https";
         string[] own = [.. reachable.Append(IPAddress.Loopback).Append(IPAddress.IPv6Loopback)
             .Select(address => Origin(scheme, address.ToString(), server.Port)).Append(Origin(scheme, "localhost", server.Port)).Distinct()];
-        server.Open(door, own.Concat(origins));
+        server.Open(door, [.. own, .. origins]);
         CancellationTokenSource stopping = CancellationTokenSource.CreateLinkedTokenSource(stop);
         return new HostPage(door, server, own[0] + "/", stopping, ServeAsync(server, log, stopping.Token));
     }

@@ -140,7 +140,7 @@ internal sealed class PageServer : IAsyncDisposable
     /// <summary>From now on browsers join a session.</summary>
     /// <param name="session">The way in.</param>
     /// <param name="origins">Where pages may come from.</param>
-    internal void Open(SessionDoor session, IEnumerable<string> origins) => door = session.Build(application.Services, origins);
+    internal void Open(SessionDoor session, IReadOnlyList<string> origins) => door = session.Build(application.Services, origins);
 
     public ValueTask DisposeAsync() => application.DisposeAsync();
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using System.Net;
 using System.Net.WebSockets;
 using System.Text.Json;
@@ -28,22 +29,24 @@ internal sealed class SessionDoor : IDisposable
 
     private readonly WebSocketHostPort port;
     private readonly byte[] description;
+    private string[] names = [];
 
     /// <param name="port">Carries what comes; closed with the door.</param>
     /// <param name="scene">The scene of the session.</param>
     /// <param name="fingerprint">Of the host; null if the session is not protected.</param>
-    /// <param name="needsKey">Whether a client has to present a key.</param>
-    internal SessionDoor(WebSocketHostPort port, Scene scene, HostFingerprint? fingerprint, bool needsKey)
+    /// <param name="options">Of the session: what a client has to do likewise.</param>
+    internal SessionDoor(WebSocketHostPort port, Scene scene, HostFingerprint? fingerprint, HostOptions options)
     {
         this.port = port;
-        description = Describe(scene, fingerprint, needsKey);
+        description = Describe(scene, fingerprint, options);
     }
 
     /// <summary>Returns what answers at <see cref="Path"/>.</summary>
     /// <param name="services">The server's services.</param>
     /// <param name="origins">Where pages may come from.</param>
-    internal RequestDelegate Build(IServiceProvider services, IEnumerable<string> origins)
+    internal RequestDelegate Build(IServiceProvider services, IReadOnlyList<string> origins)
     {
+        names = [.. origins.Select(origin => new Uri(origin).Authority)];
         WebSocketOptions options = new() { KeepAliveInterval = AskEvery, KeepAliveTimeout = AskEvery };
         foreach (string origin in origins)
         {
@@ -59,7 +62,7 @@ internal sealed class SessionDoor : IDisposable
     /// <summary>Ends the connections of all who came in.</summary>
     public void Dispose() => port.Dispose();
 
-    private static byte[] Describe(Scene scene, HostFingerprint? fingerprint, bool needsKey)
+    private static byte[] Describe(Scene scene, HostFingerprint? fingerprint, HostOptions options)
     {
         using MemoryStream stream = new();
         using (Utf8JsonWriter json = new(stream))
@@ -68,7 +71,9 @@ internal sealed class SessionDoor : IDisposable
             json.WriteNumber("wire_version", Session.WireVersion);
             json.WriteString("scene", scene.Name);
             json.WriteString("fingerprint", fingerprint?.ToString());
-            json.WriteBoolean("needs_key", needsKey);
+            json.WriteBoolean("needs_key", options.ConnectKey.Length > 0);
+            json.WriteNumber("timeout_s", options.Timeout.ToSeconds());
+            json.WriteNumber("rejoin_s", options.RejoinTime.ToSeconds());
             json.WriteEndObject();
         }
 
@@ -79,6 +84,12 @@ internal sealed class SessionDoor : IDisposable
     {
         if (!context.WebSockets.IsWebSocketRequest)
         {
+            if (!names.Contains(context.Request.Host.Value, StringComparer.OrdinalIgnoreCase))
+            {
+                await RefuseNameAsync(context);
+                return;
+            }
+
             context.Response.ContentType = "application/json";
             await context.Response.Body.WriteAsync(description, context.RequestAborted);
             return;
@@ -93,5 +104,14 @@ internal sealed class SessionDoor : IDisposable
 
         using WebSocket socket = await context.WebSockets.AcceptWebSocketAsync(WebSocketClientPort.Subprotocol);
         await port.ServeAsync(socket, context.Connection.RemoteIpAddress ?? IPAddress.None, CancellationToken.None);
+    }
+
+    /// <summary>A page under a name that the host was not told of could not open the WebSocket either, and would not know why.</summary>
+    private static Task RefuseNameAsync(HttpContext context)
+    {
+        context.Response.StatusCode = StatusCodes.Status421MisdirectedRequest;
+        context.Response.ContentType = "text/plain; charset=utf-8";
+        string origin = $"{context.Request.Scheme}://{context.Request.Host.Value}";
+        return context.Response.WriteAsync($"The host does not know itself by the name '{context.Request.Host.Value}'. Started with --web-origin {origin} it lets in who comes from there.");
     }
 }

@@ -31,6 +31,9 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
     /// <summary>Address <paramref name="number"/> of a virtual network.</summary>
     public static PeerAddress Virtual(int number) => new(ulong.MaxValue, (ulong)number, 0);
 
+    /// <summary>True for what <see cref="Virtual"/> made.</summary>
+    internal bool IsVirtual => portAndFamily == 0 && !IsNone;
+
     /// <summary>
     /// A connection that a machine has opened to this one, over which datagrams go both ways. It is told from every endpoint, and from other
     /// connections of that machine.

@@ -7,7 +7,7 @@ const Ranges = {
   burst: { text: 'In a row', unit: '', min: 1, max: 10, step: 1, usual: 1 },
   asymmetry: { text: 'Asymmetry', unit: 'ms', min: -200, max: 200, step: 10, usual: 0 },
   clock: { text: 'Clock ahead', unit: 'ms', min: -1000, max: 1000, step: 50, usual: 0 },
-  ahead: { text: 'Look-ahead', unit: 'ms', min: 50, max: 1000, step: 50, usual: 200 },
+  ahead: { text: 'Look-ahead', unit: 'ms', min: 50, max: 1000, step: 50, usual: 100 },
   lag: { text: 'Local lag', unit: 'ms', min: 0, max: 200, step: 10, usual: 0 },
 }
 const OfLink = ['delay', 'jitter', 'loss', 'burst', 'asymmetry', 'clock']

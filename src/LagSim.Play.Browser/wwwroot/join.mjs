@@ -4,14 +4,14 @@ import { readColours } from './colours.mjs'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { Seat } from './seats.mjs'
-import { store } from './store.mjs'
 
 const LookEvery = 250 // milliseconds
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
 let exports, host, last = 0, colours, frame = new Float64Array(0)
 const peers = []
-let joined = 0, looking = 0, isLost = false, gone = null
+const stay = sessionStay()
+let joined = 0, looking = 0, isLost = false, gone = null, seating = null
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
 const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
@@ -38,11 +38,17 @@ try {
   const { JoinExports, AirHockeyExports } = (await getAssemblyExports(getConfig().mainAssemblyName)).LagSim.Play.Browser
   exports = { ...JoinExports, airHockey: AirHockeyExports }
   await runMain()
-  found('name').value = store.read('lagsim name')
   found('key-row').hidden = !host.needs_key
+  seating = Seat.take(hostName())
+  const seat = await seating
+  found('name').value = seat.name
   found('loading').hidden = true
   found('enter').hidden = false
   found('name').focus()
+  if (seat.pass && stay.isIn) {
+    found('key').value = stay.key
+    enter() // the tab was loaded again
+  }
 } catch (failure) {
   found('loading').hidden = true
   say(failure.message ?? String(failure))
@@ -50,23 +56,17 @@ try {
 
 found('enter').addEventListener('submit', event => {
   event.preventDefault()
-  store.write('lagsim name', found('name').value)
-  if (join(found('name').value.trim())) {
-    found('enter').hidden = found('again').hidden = true
-    found('session').hidden = found('leave').hidden = false
-    look()
-    offerSecond()
-    looking = setInterval(look, LookEvery)
-    requestAnimationFrame(tick)
-  }
+  enter()
 })
 found('again').addEventListener('click', () => {
+  seating = Seat.take(hostName())
   found('session').hidden = found('panes').hidden = true
   found('enter').hidden = false
   found(host.needs_key ? 'key' : 'name').focus()
 })
-found('second').addEventListener('click', () => {
-  found('second').hidden = !join(`${found('name').value.trim()} 2`.trim().slice(0, 24))
+found('second').addEventListener('click', async () => {
+  found('second').hidden = true
+  found('second').hidden = join(`${found('name').value.trim()} 2`.trim().slice(0, 24), await Seat.take(hostName()))
 })
 found('leave').addEventListener('click', () => exports.Leave())
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = null })
@@ -74,23 +74,52 @@ new ResizeObserver(() => peers.forEach(peer => peer.pane?.resize())).observe(fou
 
 async function askHost() {
   const answer = await fetch('session').catch(() => null)
+  if (answer?.status === 421) {
+    throw new Error(await answer.text())
+  }
   if (!answer?.ok || !answer.headers.get('content-type')?.includes('json')) {
     throw new Error('No host serves this page, so there is no session to join. lagsim host --web serves one.')
   }
   return answer.json()
 }
 
-/** One more peer of this page asks to be let in. */
-function join(name) {
+/** What is kept in this tab alone, until it is closed: whether it is in, and by which key. */
+function sessionStay() {
+  const at = 'lagsim in'
+  const read = () => { try { return sessionStorage.getItem(at) } catch { return null } }
+  return {
+    get isIn() { return read() !== null },
+    get key() { return read() ?? '' },
+    begin(key) { try { sessionStorage.setItem(at, key) } catch { /* it will have to be asked again */ } },
+    end() { try { sessionStorage.removeItem(at) } catch { /* nothing was kept */ } },
+  }
+}
+
+function hostName() { return host.fingerprint ?? location.host }
+
+/** Goes in with what stands in the form. */
+async function enter() {
+  const seat = await seating
+  seat.name = found('name').value
+  if (join(found('name').value.trim(), seat)) {
+    stay.begin(found('key').value)
+    found('enter').hidden = found('again').hidden = true
+    found('session').hidden = found('leave').hidden = false
+    look()
+    offerSecond()
+    looking = setInterval(look, LookEvery)
+    requestAnimationFrame(tick)
+  }
+}
+
+/** One more peer of this page asks to be let in. Returns whether it does. */
+function join(name, seat) {
   const address = new URL('session', location.href)
   address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:'
-  const seat = new Seat(host.fingerprint ?? location.host)
-  const wrong = exports.Join(address.href, host.fingerprint ?? '', found('key').value, name, seat.pass)
+  const wrong = exports.Join(address.href, host.fingerprint ?? '', found('key').value, name, seat.pass, host.timeout_s, host.rejoin_s)
   say(wrong)
   if (!wrong) {
     peers.push(new JoinedPeer(joined++, exports, seat))
-  } else {
-    seat.leave()
   }
   return !wrong
 }
@@ -117,6 +146,7 @@ function tick(now) {
 /** All have left, or were ended: the form is one click away. */
 function end() {
   clearInterval(looking)
+  stay.end()
   peers.forEach(peer => peer.seat.leave())
   gone = peers[0]
   peers.length = 0

@@ -1,40 +1,81 @@
 // Which player this tab is: the pass of a player is kept, so that a tab that was closed and is opened again goes on as the same one.
-// Two tabs of one browser are two players, so each takes a seat that no other tab holds. A tab says so once a second, because the
-// browser's own locks are not there for a page that came over plain HTTP. A tab that has been hidden for minutes says it more rarely
-// (browsers slow it down), and loses its seat to another tab of the same browser that joins meanwhile.
+// Two tabs of one browser are two players, so each takes a seat that no other tab has. Tabs ask each other; the browser's own locks are
+// not there for a page that came over plain HTTP. A hidden tab answers, too; one that the browser has frozen does not, and loses its seat
+// to another tab that joins meanwhile.
 import { store } from './store.mjs'
 
-const Seats = 16
-const HeldFor = 4000 // milliseconds
+const AnswerWithin = 200 // milliseconds
+const HostsKept = 8
 
 export class Seat {
-  constructor(host) {
-    this.host = host
-    this.number = Array.from({ length: Seats }, (_, n) => n).find(n => Date.now() - Number(store.read(this.held(n))) > HeldFor) ?? Seats
-    this.isLeft = false
-    this.hold()
-    this.timer = setInterval(() => this.hold(), 1000)
-    this.hidden = () => { this.isLeft = true; store.remove(this.held(this.number)) }
-    this.shown = () => { this.isLeft = false }
-    addEventListener('pagehide', this.hidden)
-    addEventListener('pageshow', this.shown)
+  /** Takes the first seat at a host that no other tab of this browser has. */
+  static async take(host) {
+    const seat = new Seat(host)
+    while (await seat.mustAskAgain()) {
+      // another tab that was opened at the same time goes first
+    }
+    seat.number = 0
+    while (seat.taken.has(seat.number)) {
+      seat.number++
+    }
+    remember(host)
+    return seat
   }
 
-  get pass() { return store.read(this.key(this.number)) }
+  constructor(host) {
+    Object.assign(this, { host, id: Math.random(), number: null, taken: new Set(), mustWait: false })
+    try {
+      this.channel = new BroadcastChannel(`lagsim ${host}`)
+      this.channel.onmessage = ({ data }) => this.hear(data)
+    } catch {
+      // Tabs that keep nothing cannot tell each other either, and have no pass to share.
+    }
+  }
 
-  set pass(text) { store.write(this.key(this.number), text) }
+  get pass() { return store.read(`${this.key} pass`) }
 
-  hold() { this.isLeft || store.write(this.held(this.number), String(Date.now())) }
+  set pass(text) { store.write(`${this.key} pass`, text) }
+
+  /** What this player is called. */
+  get name() { return store.read(`${this.key} name`) || store.read('lagsim name') }
+
+  set name(text) {
+    store.write(`${this.key} name`, text)
+    store.write('lagsim name', text) // for a host that is new
+  }
+
+  get key() { return `lagsim ${this.host} ${this.number}` }
 
   /** Another tab may have it. */
-  leave() {
-    clearInterval(this.timer)
-    removeEventListener('pagehide', this.hidden)
-    removeEventListener('pageshow', this.shown)
-    this.hidden()
+  leave() { this.channel?.close() }
+
+  /** Asks all tabs which seats they have. Returns whether one that asks at the same time goes first. */
+  async mustAskAgain() {
+    this.taken.clear()
+    this.mustWait = false
+    this.channel?.postMessage({ ask: this.id })
+    await new Promise(resolve => setTimeout(resolve, this.channel ? AnswerWithin : 0))
+    return this.mustWait
   }
 
-  held(number) { return `${this.key(number)} held` }
+  hear({ ask, has, wait }) {
+    if (ask !== undefined) {
+      if (this.number !== null) {
+        this.channel.postMessage({ has: this.number })
+      } else if (this.id < ask) {
+        this.channel.postMessage({ wait: ask })
+      }
+    }
+    has !== undefined && this.taken.add(has)
+    this.mustWait ||= wait === this.id
+  }
+}
 
-  key(number) { return `lagsim ${this.host} ${number}` }
+/** What is kept of hosts that were not met for long is given up: each start of one without --identity is another. */
+function remember(host) {
+  const hosts = [host, ...store.read('lagsim hosts').split(' ').filter(one => one && one !== host)]
+  for (const gone of hosts.splice(HostsKept)) {
+    store.keys().filter(key => key.startsWith(`lagsim ${gone} `)).forEach(key => store.remove(key))
+  }
+  store.write('lagsim hosts', hosts.join(' '))
 }

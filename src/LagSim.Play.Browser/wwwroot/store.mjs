@@ -20,6 +20,14 @@ export const store = {
     }
   },
 
+  keys() {
+    try {
+      return [...new Set([...here.keys(), ...Object.keys(localStorage)])]
+    } catch {
+      return [...here.keys()]
+    }
+  },
+
   remove(key) {
     here.delete(key)
     try {

@@ -147,7 +147,7 @@ public sealed class SessionCommandTests
     public void Join_NobodyThere_IsAnErrorAfterTheTimeout()
     {
         using UdpPort silent = new(new IPEndPoint(IPAddress.Loopback, 0));
-        Tool.Refuses(3, ["join", silent.LocalAddress.ToString(), "--timeout-s", "0.5", "--json"], $"No answer from {silent.LocalAddress} within 0.5 s.");
+        Tool.Refuses(3, ["join", silent.LocalAddress.ToString(), "--timeout-s", "0.5", "--json"], $"No answer from the host at {silent.LocalAddress} within 0.5 s.");
     }
 
     [Theory]
@@ -162,7 +162,7 @@ public sealed class SessionCommandTests
         Tool tool = Tool.Run(["join", $"{silent.LocalAddress}", "--timeout-s", "1.8", "--rejoin-s", "2.4", .. pass]);
         Assert.Equal(3, tool.ExitCode);
         Assert.Equal(
-            [$"No host answers at {silent.LocalAddress} yet; asking for up to {seconds} s. Ctrl-C ends it.", $"No answer from {silent.LocalAddress} within {seconds} s."],
+            [$"No host answers at {silent.LocalAddress} yet; asking for up to {seconds} s. Ctrl-C ends it.", $"No answer from the host at {silent.LocalAddress} within {seconds} s."],
             tool.Error.Split(Environment.NewLine, StringSplitOptions.RemoveEmptyEntries));
     }
 

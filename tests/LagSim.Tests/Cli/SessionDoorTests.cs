@@ -2,7 +2,9 @@ using System;
 using System.IO;
 using System.Net;
 using System.Net.Http;
+using System.Net.Sockets;
 using System.Net.WebSockets;
+using System.Text;
 using System.Text.Json;
 using System.Threading;
 using System.Threading.Tasks;
@@ -10,6 +12,9 @@ using LagSim.Cli.Web;
 using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
+using LagSim.Net.Sessions;
+using LagSim.Tests.Clocks;
+using LagSim.Time;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -21,13 +26,16 @@ public sealed class SessionDoorTests : IAsyncLifetime
 
     private static readonly TimeSpan Deadline = TimeSpan.FromSeconds(20);
 
-    private readonly WebSocketHostPort port = new();
+    private readonly ManualClock clock = new();
+    private readonly WebSocketHostPort port;
+    private readonly HostOptions options = new() { ConnectKey = "open sesame", Timeout = SimDuration.FromSeconds(3) };
     private readonly HttpClient http = new() { Timeout = Deadline };
     private readonly HostFingerprint fingerprint;
     private PageServer server = null!;
 
     public SessionDoorTests()
     {
+        port = new WebSocketHostPort(clock: clock);
         using HostIdentity identity = HostIdentity.Draw();
         fingerprint = identity.Fingerprint;
     }
@@ -35,7 +43,7 @@ public sealed class SessionDoorTests : IAsyncLifetime
     public async ValueTask InitializeAsync()
     {
         server = await PageServer.StartAsync(new IPEndPoint(IPAddress.Loopback, 0), "/join.html", null, CancellationToken.None);
-        server.Open(new SessionDoor(port, BuiltInScenes.Drop(), fingerprint, needsKey: true), [server.Address.TrimEnd('/'), Friend]);
+        server.Open(new SessionDoor(port, BuiltInScenes.Drop(), fingerprint, options), [server.Address.TrimEnd('/'), Friend]);
     }
 
     public async ValueTask DisposeAsync()
@@ -53,6 +61,61 @@ public sealed class SessionDoorTests : IAsyncLifetime
         Assert.Equal("drop", told.GetProperty("scene").GetString());
         Assert.Equal(fingerprint.ToString(), told.GetProperty("fingerprint").GetString());
         Assert.True(told.GetProperty("needs_key").GetBoolean());
+        Assert.Equal((3, 120), (told.GetProperty("timeout_s").GetDouble(), told.GetProperty("rejoin_s").GetDouble()));
+    }
+
+    [Theory]
+    [InlineData("friend.example", HttpStatusCode.OK)] // of a server in front of it
+    [InlineData("foe.example", HttpStatusCode.MisdirectedRequest)] // a name that somebody has made point here
+    public async Task Get_OfTheSession_ByAName_IsAnsweredIfTheHostWasToldOfIt(string name, HttpStatusCode status)
+    {
+        using HttpRequestMessage request = new(HttpMethod.Get, new Uri($"{server.Address}session"));
+        request.Headers.Host = name;
+        using HttpResponseMessage answer = await http.SendAsync(request, TestContext.Current.CancellationToken);
+        Assert.Equal(status, answer.StatusCode);
+        string text = await answer.Content.ReadAsStringAsync(TestContext.Current.CancellationToken);
+        Assert.Equal(status == HttpStatusCode.OK, text.Contains(fingerprint.ToString(), StringComparison.Ordinal));
+        Assert.Equal(status != HttpStatusCode.OK, text.Contains($"--web-origin http://{name}", StringComparison.Ordinal));
+    }
+
+    /// <summary>Over TCP, where the system keeps what a client does not read: it is bounded, and then the client loses its connection.</summary>
+    [Fact]
+    public async Task WebSocket_OfOneThatReadsNothing_HoldsLittleAndEnds()
+    {
+        const int Sent = 5000;
+        using TcpClient client = new() { ReceiveBufferSize = 4096 };
+        await client.ConnectAsync(IPAddress.Loopback, server.Port, TestContext.Current.CancellationToken);
+        NetworkStream stream = client.GetStream();
+        await stream.WriteAsync(Encoding.ASCII.GetBytes(
+            $"GET /session HTTP/1.1\r\nHost: 127.0.0.1:{server.Port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+            + $"Sec-WebSocket-Key: {Convert.ToBase64String(new byte[16])}\r\nSec-WebSocket-Protocol: {WebSocketClientPort.Subprotocol}\r\n\r\n"), TestContext.Current.CancellationToken);
+        await stream.WriteAsync(new byte[] { 0x82, 0x81, 0, 0, 0, 0, 1 }, TestContext.Current.CancellationToken); // a binary message of one byte, with a mask of zeros
+        byte[] datagram = new byte[IDatagramPort.MaxDatagramBytes];
+        PeerAddress address = default;
+        Assert.True(SpinWait.SpinUntil(() => port.TryReceive(datagram, out _, out address), Deadline));
+
+        long written = 0;
+        for (int n = 0; n < Sent; n++)
+        {
+            port.Send(datagram, address);
+            await Task.Yield(); // whoever writes to the network has its turn
+            written = n + 1 - port.Superseded;
+        }
+
+        Assert.InRange(written * datagram.Length, 1, 256 << 10); // of six megabytes: in the socket at either end, and in the queue
+        Assert.True(SpinWait.SpinUntil(() => port.LinkOf(address)?.BlockedFor >= SimDuration.Zero, Deadline));
+        clock.Now += SimDuration.FromSeconds(WebSocketHostPort.MaxBlockedSeconds + 1);
+        port.Send(datagram, address);
+        Assert.Equal((1, 0), (port.Blocked, port.Connections));
+        await Assert.ThrowsAnyAsync<IOException>(async () =>
+        {
+            while (await stream.ReadAsync(datagram, TestContext.Current.CancellationToken) > 0)
+            {
+                // What was on its way.
+            }
+
+            throw new EndOfStreamException();
+        });
     }
 
     [Theory]

@@ -160,7 +160,7 @@ public sealed partial class SnippetTests
         steps.RunFor(SimDuration.FromSeconds(5));
         Assert.Equal(refusal is null ? SessionState.Running : SessionState.Ended, client.State);
         string sentence = $"The scene needs the acceleration 'whirl' of version 1{refusal}";
-        Assert.Equal(refusal is null ? null : $"The copy of the world that the host at virtual:0 sent cannot be used: {sentence}", client.EndReason);
+        Assert.Equal(refusal is null ? null : $"The copy of the world that the host sent cannot be used: {sentence}", client.EndReason);
         Assert.True(version > 0 || Read("docs/FORCES.md").Contains($"`{sentence}`", StringComparison.Ordinal));
     }
 

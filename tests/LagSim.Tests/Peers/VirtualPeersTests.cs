@@ -17,7 +17,7 @@ public sealed class VirtualPeersTests
     {
         using VirtualPeers peers = new(BuiltInScenes.Pair(), new PeerGroupOptions(2, new LinkProfile("dead", new LinkLeg(1, lossPercent: 100))));
         PeerGroupException failed = Assert.Throws<PeerGroupException>(peers.Connect);
-        Assert.Equal("No answer from virtual:0 within 10 s.", failed.Message);
+        Assert.Equal("No answer from the host within 10 s.", failed.Message);
     }
 
     [Fact]
@@ -27,7 +27,7 @@ public sealed class VirtualPeersTests
         peers.Connect();
         peers.Network.SetLink(2, 0, new LinkLeg(0, lossPercent: 100));
         PeerGroupException failed = Assert.Throws<PeerGroupException>(() => peers.RunUntil(SimDuration.FromSeconds(20), null));
-        Assert.Equal("Peer 2 dropped out: The host at virtual:0 heard nothing from this peer for too long.", failed.Message);
+        Assert.Equal("Peer 2 dropped out: The host heard nothing from this peer for too long.", failed.Message);
     }
 
     [Fact]

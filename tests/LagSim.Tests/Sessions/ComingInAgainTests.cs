@@ -82,7 +82,7 @@ public sealed class ComingInAgainTests
         }
 
         Assert.Equal((SessionState.Ended, SessionEnd.Disconnected), (client.State, client.EndedBy));
-        Assert.Equal("The host at virtual:0 does not have this peer among its clients, or no longer.", client.EndReason);
+        Assert.Equal("The host does not have this peer among its clients, or no longer.", client.EndReason);
     }
 
     private static Intruder Neighbour(SessionGroup group, NatPort nat, int n)

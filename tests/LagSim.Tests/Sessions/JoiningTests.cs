@@ -67,7 +67,7 @@ public sealed class JoiningTests
     {
         SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, options: peer => new HostOptions { ConnectKey = $"key {peer}" });
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
-        Assert.Equal("The host at virtual:0 refused: the key is wrong.", group.Sessions[1].EndReason);
+        Assert.Equal("The host refused: the key is wrong.", group.Sessions[1].EndReason);
         Assert.Equal(0, group.Host.ClientCount);
         Assert.Equal(SessionState.Waiting, group.Host.State);
     }
@@ -77,7 +77,7 @@ public sealed class JoiningTests
     {
         SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, scenes: peer => ScriptedActions.Box(peer == 0 ? 0.8 : 0.81));
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
-        Assert.Equal("The host at virtual:0 refused: its scene is another one.", group.Sessions[1].EndReason);
+        Assert.Equal("The host refused: its scene is another one.", group.Sessions[1].EndReason);
     }
 
     [Fact]
@@ -85,7 +85,7 @@ public sealed class JoiningTests
     {
         SessionGroup group = new(ScriptedActions.Box(), SessionOptions.MaxClients + 2, LinkProfiles.Lan, expected: SessionOptions.MaxClients);
         Assert.True(group.RunUntil(() => group.Sessions.Count(s => s.State == SessionState.Running) == SessionOptions.MaxClients + 1 && group.Sessions.Any(s => s.State == SessionState.Ended), 5));
-        Assert.Equal("The host at virtual:0 refused: the session is full.", group.Sessions.Single(s => s.State == SessionState.Ended).EndReason);
+        Assert.Equal("The host refused: the session is full.", group.Sessions.Single(s => s.State == SessionState.Ended).EndReason);
         Assert.Equal(SessionOptions.MaxClients, group.Host.ClientCount);
     }
 
@@ -100,7 +100,7 @@ public sealed class JoiningTests
         bytes[2] = 77; // as a host of version 77 sends it
         group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
         group.Run(0.1);
-        Assert.Equal("The host at virtual:0 refused: it speaks version 77 of the protocol, this peer 11.", group.Sessions[1].EndReason);
+        Assert.Equal("The host refused: it speaks version 77 of the protocol, this peer 11.", group.Sessions[1].EndReason);
     }
 
     [Fact]
@@ -123,7 +123,7 @@ public sealed class JoiningTests
         Assert.Equal(SessionState.Joining, group.Sessions[1].State);
         group.Run(0.2);
         Assert.Equal(SessionState.Ended, group.Sessions[1].State);
-        Assert.Equal("No answer from virtual:0 within 1.5 s.", group.Sessions[1].EndReason);
+        Assert.Equal("No answer from the host within 1.5 s.", group.Sessions[1].EndReason);
     }
 
     [Fact]

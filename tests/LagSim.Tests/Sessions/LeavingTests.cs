@@ -24,7 +24,7 @@ public sealed class LeavingTests
         group.Run(0.2);
         Assert.Equal("This peer left.", group.Host.EndReason);
         Assert.All(group.Sessions, s => Assert.Equal(SessionState.Ended, s.State));
-        Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host at virtual:0 ended the session.", s.EndReason));
+        Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host ended the session.", s.EndReason));
         Assert.Null(group.Difference());
         Assert.Throws<InvalidOperationException>(() => group.Do(1, PlayerAction.Remove(First)));
     }
@@ -41,7 +41,7 @@ public sealed class LeavingTests
         group.Restore(0, 1);
         group.Restore(0, 2);
         group.Run(5);
-        Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host at virtual:0 ended the session.", s.EndReason));
+        Assert.All(group.Sessions.Skip(1), s => Assert.Equal("The host ended the session.", s.EndReason));
     }
 
     [Fact]
@@ -74,7 +74,7 @@ public sealed class LeavingTests
         Assert.Equal(2, group.Host.ClientCount);
         group.Run(1);
         Assert.Equal(1, group.Host.ClientCount);
-        Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason);
+        Assert.Equal("The host heard nothing from this peer for too long.", group.Sessions[1].EndReason);
         Assert.Equal(SessionEnd.Disconnected, group.Sessions[1].EndedBy);
         GoesOn(group);
     }
@@ -87,7 +87,7 @@ public sealed class LeavingTests
         group.Run(2.5);
         Assert.Equal(SessionState.Running, group.Sessions[1].State);
         group.Run(1);
-        Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
+        Assert.Equal("The host fell silent for 3 s.", group.Sessions[1].EndReason);
         GoesOn(group);
     }
 
@@ -131,7 +131,7 @@ public sealed class LeavingTests
         isLost = false;
         group.Restore(1, 0);
         group.Run(0.1);
-        Assert.Equal("The host at virtual:0 heard nothing from this peer for too long.", group.Sessions[1].EndReason); // the reason is said again
+        Assert.Equal("The host heard nothing from this peer for too long.", group.Sessions[1].EndReason); // the reason is said again
         Assert.Equal(SessionEnd.Disconnected, group.Sessions[1].EndedBy);
         GoesOn(group);
     }

@@ -119,7 +119,7 @@ public sealed class RejoiningTests
         ClientSession after = group.Join(7, 77, new ClientOptions { Pass = before.Pass!.Value });
         Assert.True(group.RunUntil(() => after.State == SessionState.Running && before.State == SessionState.Ended, 2));
         Assert.Equal((before.Peer, 2, SessionEnd.Disconnected), (after.Peer, group.Host.ClientCount, before.EndedBy));
-        Assert.Equal("This player came in from elsewhere; the host at virtual:0 let this peer go.", before.EndReason);
+        Assert.Equal("This player came in from elsewhere; the host let this peer go.", before.EndReason);
     }
 
     [Fact]
@@ -165,7 +165,7 @@ public sealed class RejoiningTests
         group.Run(2);
         Assert.Equal(SessionState.Joining, again.State); // who had a place asks on: somebody may leave
         Assert.True(group.RunUntil(() => again.State == SessionState.Ended, 4));
-        Assert.Equal("The host at virtual:0 refused: the session is full.", again.EndReason);
+        Assert.Equal("The host refused: the session is full.", again.EndReason);
         Assert.All(others, s => Assert.Equal(SessionState.Running, s.State));
     }
 
@@ -209,7 +209,7 @@ public sealed class RejoiningTests
         group.Cut(2, 0);
         group.Run(Timeout.ToSeconds() + 1);
         Assert.Equal([SessionEnd.None, SessionEnd.HostSilent, SessionEnd.Disconnected], group.Sessions.Select(s => s.EndedBy));
-        Assert.Equal("The host at virtual:0 fell silent for 3 s.", group.Sessions[1].EndReason);
+        Assert.Equal("The host fell silent for 3 s.", group.Sessions[1].EndReason);
     }
 
     /// <summary>Its world is full and it does not ask again: it says so, and that it can come again; its place is free at once.</summary>
@@ -238,7 +238,7 @@ public sealed class RejoiningTests
         group.Run(Timeout.ToSeconds() + 5.5);
         Assert.Equal((SessionState.Ended, SessionEnd.HostSilent), (group.Sessions[1].State, group.Sessions[1].EndedBy));
         Assert.Equal(
-            "The host at virtual:0 fell silent for 3 s. This peer asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
+            "The host fell silent for 3 s. This peer asked for 5 s to be let in again, in vain.", group.Sessions[1].EndReason);
     }
 
     private static SessionGroup Group(int peers, Func<int, SimDuration>? rejoinTime = null, int seed = 1) => new SessionGroup(

@@ -36,7 +36,7 @@ public sealed class SentAwayTests
         }
 
         Assert.Equal((SessionState.Ended, SessionEnd.Kicked), (group.Sessions[1].State, group.Sessions[1].EndedBy));
-        Assert.Equal("The host at virtual:0 sent this player away.", group.Sessions[1].EndReason);
+        Assert.Equal("The host sent this player away.", group.Sessions[1].EndReason);
         Assert.Equal(1, group.Host.ClientCount);
         Assert.False(group.Host.Kick(player));
         group.Do(2, PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(1, 0, 0)));
@@ -58,7 +58,7 @@ public sealed class SentAwayTests
         Assert.Equal(isBanned ? (SessionState.Ended, SessionEnd.Refused) : (SessionState.Running, SessionEnd.None), (again.State, again.EndedBy));
         if (isBanned)
         {
-            Assert.Equal("The host at virtual:0 refused: it lets nobody in from this address.", again.EndReason);
+            Assert.Equal("The host refused: it lets nobody in from this address.", again.EndReason);
             Assert.True(group.Host.Unban(machine!.Value));
             Assert.False(group.Host.Unban(machine.Value));
             Assert.Equal(SessionState.Running, Again(group, 78).State);

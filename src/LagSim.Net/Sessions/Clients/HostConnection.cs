@@ -27,6 +27,9 @@ internal sealed class HostConnection
     /// <summary>The host's address.</summary>
     internal PeerAddress Host { get; }
 
+    /// <summary>What sentences call the host: an address is told only where it says something to a person.</summary>
+    internal string Name => Host.IsVirtual ? "host" : $"host at {Host}";
+
     /// <summary>The link; null while there is none.</summary>
     internal UpdateLink? Link { get; private set; }
 

@@ -37,7 +37,7 @@ internal sealed class HostLoss(
     internal event Action? Regained;
 
     private string Silence =>
-        FormattableString.Invariant($"The host at {connection.Host} fell silent for {options.Timeout.ToSeconds():0.###} s.");
+        FormattableString.Invariant($"The {connection.Name} fell silent for {options.Timeout.ToSeconds():0.###} s.");
 
     /// <summary>How long a joining client that was pushed out keeps asking.</summary>
     private SimDuration LongestComing => options.RejoinTime > options.Timeout ? options.RejoinTime : options.Timeout;
@@ -240,18 +240,18 @@ internal sealed class HostLoss(
     private string NoAnswer(SimTime now)
     {
         SimDuration named = options.Pass.Number > 0 && now - attempts.Since > options.RejoinTime ? LongestComing : options.Timeout;
-        return FormattableString.Invariant($"No answer from {connection.Host} within {named.ToSeconds():0.###} s.") + unproven.Sentence;
+        return FormattableString.Invariant($"No answer from the {connection.Name} within {named.ToSeconds():0.###} s.") + unproven.Sentence;
     }
 
     private string Sentence(LeaveReason reason) => reason switch
     {
-        LeaveReason.TimedOut => $"The host at {connection.Host} heard nothing from this peer for too long.",
-        LeaveReason.Replaced => $"This player came in from elsewhere; the host at {connection.Host} let this peer go.",
-        LeaveReason.NotJoined => $"The host at {connection.Host} does not have this peer among its clients, or no longer.",
+        LeaveReason.TimedOut => $"The {connection.Name} heard nothing from this peer for too long.",
+        LeaveReason.Replaced => $"This player came in from elsewhere; the {connection.Name} let this peer go.",
+        LeaveReason.NotJoined => $"The {connection.Name} does not have this peer among its clients, or no longer.",
         LeaveReason.FellBehind => FormattableString.Invariant(
-            $"The link to the host at {connection.Host} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
+            $"The link to the {connection.Name} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
             + " has not come over it yet.",
-        LeaveReason.Kicked => $"The host at {connection.Host} sent this player away.",
-        _ => $"The host at {connection.Host} ended the session.",
+        LeaveReason.Kicked => $"The {connection.Name} sent this player away.",
+        _ => $"The {connection.Name} ended the session.",
     };
 }

@@ -283,7 +283,7 @@ internal sealed class JoinRequests(
         }
         else
         {
-            status.End(SessionEnd.Refused, $"The host at {connection.Host} refused: {why}");
+            status.End(SessionEnd.Refused, $"The {connection.Name} refused: {why}");
         }
     }
 }

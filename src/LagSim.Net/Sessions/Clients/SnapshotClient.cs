@@ -64,7 +64,7 @@ internal sealed class SnapshotClient(
         if (error is not null)
         {
             connection.Farewell();
-            status.End(SessionEnd.Failed, $"The copy of the world that the host at {connection.Host} sent cannot be used: {error}");
+            status.End(SessionEnd.Failed, $"The copy of the world that the {connection.Name} sent cannot be used: {error}");
         }
     }
 }

@@ -33,7 +33,7 @@ internal sealed class WorldEntry(
             {
                 connection.Farewell();
                 status.End(
-                    SessionEnd.Failed, $"The state that the host at {connection.Host} sent is no world of its scene. {failure.Message}");
+                    SessionEnd.Failed, $"The state that the {connection.Name} sent is no world of its scene. {failure.Message}");
                 return false;
             }
         }
@@ -45,7 +45,7 @@ internal sealed class WorldEntry(
         {
             connection.Farewell();
             status.End(SessionEnd.Failed, FormattableString.Invariant(
-                $"The host at {connection.Host} says that the session began {(sharedTime.Now - told).ToSeconds():0} s ago and sent no")
+                $"The {connection.Name} says that the session began {(sharedTime.Now - told).ToSeconds():0} s ago and sent no")
                 + " state of it: that is more than history and time-out allow.");
             return false;
         }

@@ -1,0 +1,123 @@
+using System;
+using System.Diagnostics;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Text.Json;
+using System.Threading.Tasks;
+using Microsoft.Playwright;
+using Xunit;
+
+namespace LagSim.Browser;
+
+/// <summary>Tabs that stop for a while, and hosts that do: nobody waits for them, and they come back.</summary>
+[Trait("Time", "real")]
+public sealed class InterruptedTabTests(ServedPage served)
+{
+    private const int LongestSilence = 3; // seconds
+    private const long MostGrowth = 24 << 20; // bytes: a second of play with its garbage, and far below what a queue without end would be
+
+    /// <summary>A tab whose script hangs reads nothing, and answers nothing.</summary>
+    [Fact]
+    public async Task Tab_ThatHangs_CostsTheHostLittleAndThenLosesItsPlace()
+    {
+        await using ToolProcess host = new("host", "--scene", "billiards", "--per-address", "8", "--web", "0", "--rejoin-s", "1", "--timeout-s", $"{LongestSilence}");
+        string page = await host.AfterAsync("browsers join at ");
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        JoinedPage ann = await JoinedPage.JoinAsync(context, page, "Ann"), bob = await JoinedPage.JoinAsync(context, page, "Bob");
+        await bob.Page.BringToFrontAsync();
+        await bob.ThrowAsync(0, 100, 40);
+        long before = host.ResidentBytes;
+
+        Task hanging = ann.Page.EvaluateAsync(
+            "seconds => { const until = performance.now() + seconds * 1000; while (performance.now() < until) { /* nothing is read */ } }", LongestSilence + 6);
+        Task<string> lost = host.SaysAsync(line => line.StartsWith("peer 1 at ", StringComparison.Ordinal) && line.EndsWith(" is gone", StringComparison.Ordinal));
+        Random random = new(27);
+        while (!lost.IsCompleted)
+        {
+            await bob.ThrowAsync(random.Next(16), random.Next(-120, 120), random.Next(-80, 80)); // the game goes on
+        }
+
+        await lost;
+        Assert.False(hanging.IsCompleted, "It had come to itself before.");
+        Assert.True(host.ResidentBytes - before < MostGrowth, $"The host has grown by {(host.ResidentBytes - before) >> 20} MiB.");
+        await host.SaysAsync(line => line == "here: 0 player, 2 player Bob");
+        await hanging;
+        await ann.Page.WaitForFunctionAsync("() => window.lagsim.status.state === 'Running' || window.lagsim.status.end", null, new() { Timeout = 30_000 });
+        await bob.Page.WaitForFunctionAsync("() => window.lagsim.status.agreed >= 5", null, new() { Timeout = 20_000 });
+        Assert.Equal((0, 0), (await ann.NumberAsync("differed"), await bob.NumberAsync("differed")));
+    }
+
+    /// <summary>What a phone in a pocket does: nothing of its browser runs for longer than a host waits.</summary>
+    [Fact]
+    public async Task Tab_ThatSlept_ComesBackAsTheSamePlayer()
+    {
+        await using ToolProcess host = new("host", "--scene", "billiards", "--per-address", "8", "--web", "0", "--timeout-s", $"{LongestSilence}");
+        string page = await host.AfterAsync("browsers join at ");
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        await using IBrowser phone = await served.LaunchAsync();
+        await using IBrowserContext pocket = await phone.NewContextAsync(JoinedPage.Screen);
+        JoinedPage bob = await JoinedPage.JoinAsync(context, page, "Bob"), ann = await JoinedPage.JoinAsync(pocket, page, "Ann");
+        string[] processes = await ProcessesAsync(phone);
+        await SignalAsync("-STOP", processes);
+        try
+        {
+            await host.SaysAsync(line => line.StartsWith("peer 2 at ", StringComparison.Ordinal) && line.EndsWith(" is gone", StringComparison.Ordinal));
+            await bob.ThrowAsync(3, -80, 60);
+        }
+        finally
+        {
+            await SignalAsync("-CONT", processes);
+        }
+
+        await ann.Page.WaitForFunctionAsync("() => window.lagsim.status.state !== 'Running'", null, new() { Timeout = 20_000, PollingInterval = 10 });
+        await ann.RunningAsync();
+        Assert.Equal(2, await ann.NumberAsync("player"));
+        await AgreesFromNowOnAsync(ann);
+    }
+
+    /// <summary>A host that was started again has another session: who was in the one before comes into it as a new player.</summary>
+    [Fact]
+    public async Task Tab_WhoseHostIsStartedAgain_IsInItsNewSession()
+    {
+        string identity = Path.Combine(Directory.CreateTempSubdirectory("lagsim-host").FullName, "identity");
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        JoinedPage ann;
+        string port;
+        await using (ToolProcess host = new("host", "--scene", "billiards", "--web", "0", "--identity", identity, "--timeout-s", $"{LongestSilence}"))
+        {
+            string page = await host.AfterAsync("browsers join at ");
+            port = new Uri(page).Port.ToString(CultureInfo.InvariantCulture);
+            ann = await JoinedPage.JoinAsync(context, page, "Ann");
+        }
+
+        await ann.Page.GetByText("There is no connection to the host").WaitForAsync(new() { Timeout = 20_000 });
+        await using ToolProcess next = new("host", "--scene", "billiards", "--web", port, "--identity", identity, "--timeout-s", $"{LongestSilence}");
+        await next.AfterAsync("browsers join at ");
+        await next.SaysAsync(line => line == "here: 0 player, 1 player Ann");
+        await ann.RunningAsync();
+        await AgreesFromNowOnAsync(ann);
+        Directory.Delete(Path.GetDirectoryName(identity)!, recursive: true);
+    }
+
+    private static async Task AgreesFromNowOnAsync(JoinedPage joined)
+    {
+        double agreed = await joined.NumberAsync("agreed");
+        await joined.Page.WaitForFunctionAsync("agreed => window.lagsim.status.agreed > agreed + 1", agreed, new() { Timeout = 20_000 });
+        Assert.Equal(0, await joined.NumberAsync("differed"));
+    }
+
+    private static async Task<string[]> ProcessesAsync(IBrowser browser)
+    {
+        ICDPSession all = await browser.NewBrowserCDPSessionAsync();
+        JsonElement? told = await all.SendAsync("SystemInfo.getProcessInfo");
+        return [.. told!.Value.GetProperty("processInfo").EnumerateArray().Select(one => one.GetProperty("id").GetInt32().ToString(CultureInfo.InvariantCulture))];
+    }
+
+    private static async Task SignalAsync(string signal, string[] processes)
+    {
+        using Process kill = Process.Start("kill", [signal, .. processes]);
+        await kill.WaitForExitAsync();
+        Assert.Equal(0, kill.ExitCode);
+    }
+}
