@@ -28,7 +28,9 @@ internal sealed class OtherServer : IAsyncDisposable
             {
                 ArgumentList = { "-u", "-m", "http.server", "0", "--bind", "127.0.0.1", "--directory", folder },
                 RedirectStandardOutput = true,
+                RedirectStandardError = true,
             })!;
+            process.BeginErrorReadLine(); // each request that it answers
             string said = await process.StandardOutput.ReadLineAsync() ?? ""; // "Serving HTTP on 127.0.0.1 port N (http://127.0.0.1:N/) ..."
             return new OtherServer(process, Regex.Match(said, @"\((http:[^)]+)\)").Groups[1].Value);
         }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using LagSim.Net.Carriers;
 
 namespace LagSim.Cli.Commands;
@@ -22,7 +23,8 @@ internal sealed record CarrierInUse(IDatagramPort Port, Func<IEnumerable<(string
     /// <summary>UDP, and WebSockets beside it.</summary>
     internal static CarrierInUse Of(UdpPort udp, WebSocketHostPort web) =>
         new(new MultiplexPort(udp, web), () => CountsOf(
-            udp.Dropped + web.Dropped, udp.SendFailures + web.Unconnected, udp.ReceiveFailures, web.Superseded));
+            udp.Dropped + web.Dropped, udp.SendFailures + web.Unconnected, udp.ReceiveFailures, web.Superseded)
+            .Append(("connections_blocked", web.Blocked)));
 
     private static IEnumerable<(string Name, long Count)> CountsOf(long dropped, long unsent, long broken, long superseded) =>
     [
