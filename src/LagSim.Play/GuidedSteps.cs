@@ -25,7 +25,7 @@ internal static class GuidedSteps
             "scene=drop&panes=healing,none&delay=25",
             [
                 "A ball rests, and one player lifts it to 15 m; the other hears of it 25 ms later. The table has every strategy: with 'none'"
-                    + " the worlds stay apart for good, with 'healing' no bit differs once the event is there.",
+                    + " the worlds stay apart until the ball rests, with 'healing' no bit differs once the event is there.",
                 "Below, lift the ball yourself: player 2 does nothing about late events.",
             ],
             Drop, [], []),
@@ -35,6 +35,7 @@ internal static class GuidedSteps
             [
                 "A hand shakes a ball at random and throws it, and the other player sees that late. The table says how far off the ball is"
                     + " drawn while it is held, for seven delays, and that both worlds are equal to the bit at the end, whatever the delay.",
+                "A second table predicts the same hand without a session, from every sample of it: what any player could know at that delay.",
                 "Below, take a ball yourself, and watch it in the other world.",
             ],
             Hold, [], []),

@@ -19,6 +19,7 @@ internal static class ThesisTests
 {
     private const int ChartColumns = 360;
     private const double LeastProgress = 0.01;
+    private const double SessionsPart = 0.45; // of the time that the test of a hand takes; the rest is its prediction
 
     /// <summary>Runs the drop test: both halves as one run, then the lift with each strategy.</summary>
     /// <param name="seed">The seed of links and clocks.</param>
@@ -53,25 +54,39 @@ internal static class ThesisTests
         }
     }
 
-    /// <summary>Runs the test of a hand: one session for each delay.</summary>
+    /// <summary>Runs the test of a hand: one session for each delay, then the prediction of the same motion from all of its samples.</summary>
     /// <param name="seed">The seed of links, clocks and the motion of the hand.</param>
-    /// <param name="report">Gets each run once it is done, as JSON: <c>run</c>, as the tool has it.</param>
+    /// <param name="report">Gets each run once it is done, and each delay of the prediction, as JSON: <c>run</c> or <c>prediction</c>, as the
+    /// tool has them.</param>
     /// <param name="progress">Gets the fraction that is done, up to once for each hundredth.</param>
     /// <exception cref="PeerGroupException">The peers did not connect, or one dropped out.</exception>
     internal static void RunHold(ulong seed, Action<string> report, Action<double> progress)
     {
-        HoldOptions all = new(HandMotions.Generate(HandMotions.Random, seed)) { IsVirtual = true, Seed = seed };
+        HandMotion motion = HandMotions.Generate(HandMotions.Random, seed);
+        HoldOptions all = new(motion) { IsVirtual = true, Seed = seed };
         Action<double> tell = Sparsely(progress);
+        double length = all.Length.ToSeconds();
         for (int n = 0; n < HoldOptions.Delays.Count; n++)
         {
             int before = n;
-            double length = all.Length.ToSeconds();
             HoldRun run = HoldTest.Run(
-                all.At(HoldOptions.Delays[n]), done => tell((before + (done.ToSeconds() / length)) / HoldOptions.Delays.Count));
+                all.At(HoldOptions.Delays[n]), done => tell(SessionsPart * (before + (done.ToSeconds() / length)) / HoldOptions.Delays.Count));
             report(Json(json =>
             {
                 json.WritePropertyName("run");
                 HoldRunJson.Write(json, run);
+            }));
+        }
+
+        IReadOnlyList<double> horizons = PredictionTest.DefaultHorizonsMilliseconds;
+        for (int n = 0; n < horizons.Count; n++)
+        {
+            PredictionError error = PredictionTest.Run(motion, horizons[n]);
+            tell(SessionsPart + ((1 - SessionsPart) * (n + 1) / horizons.Count));
+            report(Json(json =>
+            {
+                json.WritePropertyName("prediction");
+                PredictionErrorJson.Write(json, error);
             }));
         }
     }

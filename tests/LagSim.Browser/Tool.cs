@@ -12,8 +12,8 @@ internal static class Tool
     /// <summary>Its program.</summary>
     internal static string Path { get; } = System.IO.Path.Combine(ServedPage.Root, "src/LagSim.Cli/bin/Release/net10.0/LagSim.Cli.dll");
 
-    /// <summary>The runs that a command prints as JSON.</summary>
-    internal static async Task<JsonElement> RunsAsync(params string[] arguments)
+    /// <summary>What a command prints as JSON.</summary>
+    internal static async Task<JsonElement> JsonAsync(params string[] arguments)
     {
         ProcessStartInfo how = new("dotnet") { RedirectStandardOutput = true, RedirectStandardError = true };
         foreach (string argument in new[] { Path }.Concat(arguments).Append("--json"))
@@ -25,6 +25,6 @@ internal static class Tool
         Task<string> said = process.StandardOutput.ReadToEndAsync(), complained = process.StandardError.ReadToEndAsync();
         await process.WaitForExitAsync();
         Assert.True(process.ExitCode == 0, await complained);
-        return JsonDocument.Parse(await said).RootElement.GetProperty("runs");
+        return JsonDocument.Parse(await said).RootElement;
     }
 }

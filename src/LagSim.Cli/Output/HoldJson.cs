@@ -1,10 +1,8 @@
 using System.IO;
 using System.Linq;
-using System.Text.Json;
 using LagSim.Harness.Experiments.Hands;
 using LagSim.Harness.Experiments.Hold;
 using LagSim.Harness.Experiments.Peers;
-using LagSim.Net.Display;
 
 namespace LagSim.Cli.Output;
 
@@ -29,25 +27,10 @@ internal static class HoldJson
             json.WriteStartArray("prediction_error_m");
             foreach (PredictionError error in report.Predictions)
             {
-                Prediction(json, error);
+                PredictionErrorJson.Write(json, error);
             }
 
             json.WriteEndArray();
         });
-    }
-
-    private static void Prediction(Utf8JsonWriter json, PredictionError error)
-    {
-        json.WriteStartObject();
-        json.WriteNumber("horizon_ms", error.HorizonMilliseconds);
-        json.WriteNumber("adaptive_m", error.AdaptiveMetres);
-        json.WriteNumber("hold_last_m", error.HoldLastMetres);
-        json.WriteNumber("velocity_m", error.VelocityMetres);
-        json.WriteNumber("best_in_hindsight_m", error.BestInHindsightMetres);
-        json.WriteString("best_in_hindsight", AdaptivePredictor.Candidates[error.BestCandidate]);
-        json.WriteNumber("linear_bound_m", error.LinearMetres);
-        json.WriteNumber("least_worst_m", error.LowerBoundMetres);
-        json.WriteNumber("samples", error.Samples);
-        json.WriteEndObject();
     }
 }

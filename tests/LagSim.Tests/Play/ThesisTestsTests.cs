@@ -1,6 +1,7 @@
 using System.Collections.Generic;
 using System.Linq;
 using System.Text.Json;
+using LagSim.Harness.Experiments.Hands;
 using LagSim.Net.Strategies;
 using LagSim.Play;
 using Xunit;
@@ -35,11 +36,19 @@ public sealed class ThesisTestsTests
     }
 
     [Fact]
-    public void RunHold_ReportsEveryDelay()
+    public void RunHold_ReportsEveryDelay_ThenThePredictionOfTheSameHand()
     {
-        List<JsonElement> runs = [];
-        ThesisTests.RunHold(3, report => runs.Add(JsonDocument.Parse(report).RootElement.GetProperty("run")), _ => { });
+        List<JsonElement> reports = [];
+        List<double> progress = [];
+        ThesisTests.RunHold(3, report => reports.Add(JsonDocument.Parse(report).RootElement), progress.Add);
+        JsonElement[] runs = [.. reports.Take(7).Select(report => report.GetProperty("run"))];
         Assert.Equal([0, 25, 50, 100, 200, 300, 500], runs.Select(run => run.GetProperty("delay_ms").GetDouble()));
         Assert.All(runs, run => Assert.Equal(run.GetProperty("truth_state_hash").GetString(), run.GetProperty("state_hashes")[1].GetString()));
+        HandMotion motion = HandMotions.Generate(HandMotions.Random, 3);
+        Assert.Equal(
+            PredictionTest.DefaultHorizonsMilliseconds.Select(horizon => (horizon, PredictionTest.Run(motion, horizon).AdaptiveMetres)),
+            reports.Skip(7).Select(report => report.GetProperty("prediction")).Select(one => (one.GetProperty("horizon_ms").GetDouble(), one.GetProperty("adaptive_m").GetDouble())));
+        Assert.Equal(progress.Order(), progress);
+        Assert.InRange(progress[^1], 0.95, 1.01);
     }
 }
