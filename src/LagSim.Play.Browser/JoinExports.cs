@@ -54,7 +54,8 @@ internal static partial class JoinExports
             WebSocketClientPort port = new(new Uri(address));
             JoinedWorld world = new(port, WebSocketClientPort.Host, options, new StopwatchClock());
             Peers.Add((world, port));
-            AirHockeyExports.PlayerOf = peer => Peers[peer].World.Player!;
+            AirHockeyExports.PlayerOf = peer => Peers[peer].World.Player;
+            AirHockeyExports.BoardOf = peer => Peers[peer].World.Board!;
             port.Arrived += () => world.Step();
             _ = StepWhenDueAsync(world);
             return "";
@@ -65,12 +66,11 @@ internal static partial class JoinExports
         }
     }
 
-    /// <summary>What is drawn of a peer, as JSON: the rectangle of the view, what stands still in it, the bodies, and whether it plays a
-    /// game or only looks on; empty until the scene is there.</summary>
+    /// <summary>What is drawn of a peer, as JSON: the rectangle of the view, what stands still in it, and the bodies; empty until the scene is there.</summary>
     [JSExport]
     internal static string Describe(int peer) => Peers[peer].World.View is not PlayScene view ? "" : Encoding.UTF8.GetString(Json(json =>
     {
-        json.WriteString("scene", view.IsAirHockey && Peers[peer].World.Player is not null ? AirHockeyGame.Name : view.Scene.Name);
+        json.WriteString("scene", view.IsAirHockey ? AirHockeyGame.Name : view.Scene.Name);
         SceneJson.WriteView(json, view);
         json.WriteStartArray("bodies");
         foreach (JoinedBody body in Peers[peer].World.Bodies)

@@ -7,7 +7,7 @@ using LagSim.Scenes;
 namespace LagSim.Play;
 
 /// <summary>Air hockey as a page plays it: the table and the rules of <c>samples/AirHockey</c>, seen from above.</summary>
-/// <remarks>What one player does and sees of it is an <see cref="AirHockeyPlayer"/>.</remarks>
+/// <remarks>What one player does is an <see cref="AirHockeyPlayer"/>, what any peer sees of it an <see cref="AirHockeyBoard"/>.</remarks>
 internal static class AirHockeyGame
 {
     /// <summary>The scene's name, as a link to the page has it.</summary>

@@ -12,7 +12,8 @@ namespace LagSim.Play;
 /// <remarks>Not thread-safe.</remarks>
 /// <param name="notices">Those of the peer.</param>
 /// <param name="players">How many play: with more than two a side has no player's name.</param>
-internal sealed class AirHockeyNews(RuleNotices notices, int players)
+/// <param name="nameOf">What a player, from 0, is called; null for its number.</param>
+internal sealed class AirHockeyNews(RuleNotices notices, int players, Func<int, string?> nameOf)
 {
     // Seconds of the world: a sentence is shown at least so long, and stays until it is certain, and for so long after that.
     private const double LeastSeconds = 2.4;
@@ -59,7 +60,7 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players)
     }
 
     /// <summary>What a notice says, as a sentence without its full stop.</summary>
-    internal static string SentenceOf(in RuleNotice notice, int players)
+    private string SentenceOf(in RuleNotice notice)
     {
         switch ((Told)notice.Code)
         {
@@ -67,7 +68,7 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players)
                 return "Play!";
             case Told.Goal:
                 Goal goal = Goal.From(notice.Value);
-                return $"Goal for {Side(goal.Side)}{(players > 2 && goal.Player >= 0 ? $", by player {goal.Player + 1}" : "")}";
+                return $"Goal for {Side(goal.Side)}{(players > 2 && goal.Player >= 0 ? $", by {Player(goal.Player, "player")}" : "")}";
             case Told.Prize:
                 string what = (PrizeKind)(notice.Value & 15) switch
                 {
@@ -75,15 +76,17 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players)
                     PrizeKind.FastPuck => "a faster puck",
                     _ => "a shield",
                 };
-                return $"Player {(notice.Value >> 4) + 1} takes {what}";
+                return $"{Player((int)(notice.Value >> 4), "Player")} takes {what}";
             case Told.Won:
-                string winner = Side((int)notice.Value);
-                return $"{char.ToUpperInvariant(winner[0])}{winner[1..]} wins";
+                int winner = (int)notice.Value;
+                return $"{(players > 2 ? winner == 0 ? "The left side" : "The right side" : Player(winner, "Player"))} wins";
             default:
                 throw new ArgumentOutOfRangeException(nameof(notice), $"The rules tell {notice.Code}, which this page does not know.");
         }
 
-        string Side(int side) => players > 2 ? side == 0 ? "the left side" : "the right side" : $"player {side + 1}";
+        string Side(int side) => players > 2 ? side == 0 ? "the left side" : "the right side" : Player(side, "player");
+
+        string Player(int player, string what) => nameOf(player) ?? $"{what} {player + 1}";
     }
 
     private void Note(in RuleEvent next, SimTime shown)
@@ -98,7 +101,7 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players)
         int at = told.FindLastIndex(one => one.Event.IsSameNotice(same));
         if (next.Kind == NoticeKind.Predicted)
         {
-            told.Add(new Line(next, SentenceOf(next.Notice, players), NoticeKind.Predicted, SimTime.MaxValue));
+            told.Add(new Line(next, SentenceOf(next.Notice), NoticeKind.Predicted, SimTime.MaxValue));
         }
         else if (next.Kind == NoticeKind.Retracted)
         {

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using AirHockey;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -10,10 +9,10 @@ using LagSim.Time;
 
 namespace LagSim.Play;
 
-/// <summary>One player of air hockey: it moves the mallet of its peer by keys, a pointer or a bot, and knows what the score board shows.</summary>
+/// <summary>One player of air hockey: it moves the mallet of its peer by keys, a pointer or a bot.</summary>
 /// <remarks>
-/// <para>For a peer of any session of the game, simulated or not: it needs the session, its notices, and a way to act. Each frame calls
-/// <see cref="Move"/>, then <see cref="Look"/>.</para>
+/// <para>For a peer of any session of the game, simulated or not: it needs the session, and a way to act. Each frame calls
+/// <see cref="Move"/>, then <see cref="ShowHand"/>. What it sees is an <see cref="AirHockeyBoard"/>.</para>
 /// <para>Points are seen from above, in metres: x to the right, y up. Not thread-safe.</para>
 /// </remarks>
 internal sealed class AirHockeyPlayer
@@ -30,22 +29,18 @@ internal sealed class AirHockeyPlayer
     private readonly Action<PlayerAction> act;
     private readonly Hand hand;
     private readonly Bot bot;
-    private readonly List<AirHockeyThing> things = [];
     private (double X, double Y) way; // of keys, of length 1 or 0
     private Vector3D? aim; // of a pointer
-    private Match match;
 
     /// <summary>Begins to play.</summary>
     /// <param name="session">The session, which runs.</param>
-    /// <param name="notices">Those that the session was given.</param>
     /// <param name="act">Does an action in the session; what the session refuses is lost.</param>
     /// <param name="seed">What a bot's luck begins with.</param>
     /// <exception cref="ArgumentException">The peer has no mallet.</exception>
-    internal AirHockeyPlayer(Session session, RuleNotices notices, Action<PlayerAction> act, ulong seed = 1)
+    internal AirHockeyPlayer(Session session, Action<PlayerAction> act, ulong seed = 1)
     {
         (this.session, this.act) = (session, act);
-        int players = Players;
-        News = new AirHockeyNews(notices, players);
+        int players = Table.PlayersOf(session.Scene!);
         Number = AirHockeyGame.PlayerAt(session.Scene!, session.Peer)
             ?? throw new ArgumentException($"Peer {session.Peer} has no mallet at a table of {players}.", nameof(session));
         hand = new Hand(Number, players, session.Peer);
@@ -55,23 +50,8 @@ internal sealed class AirHockeyPlayer
     /// <summary>Its number, from 0. Even ones have the left side.</summary>
     internal int Number { get; }
 
-    /// <summary>How many play.</summary>
-    internal int Players => Table.PlayersOf(session.Scene!);
-
-    /// <summary>What the rules have told.</summary>
-    internal AirHockeyNews News { get; }
-
     /// <summary>Whether a bot moves the mallet. Who takes a key or the pointer takes over.</summary>
     internal bool IsBot { get; set; }
-
-    /// <summary>The match, as it stands at the instant that is shown.</summary>
-    internal ref readonly Match Match => ref match;
-
-    /// <summary>How long play goes on, in seconds of the world; below zero the next goal wins.</summary>
-    internal double SecondsLeft { get; private set; }
-
-    /// <summary>What lies on the table beside the puck and the mallets.</summary>
-    internal IReadOnlyList<AirHockeyThing> Things => things;
 
     /// <summary>Keys are down that move the mallet this way, each -1, 0 or 1; both 0 for none.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A part of the way is beyond -1 to 1.</exception>
@@ -123,36 +103,7 @@ internal sealed class AirHockeyPlayer
         hand.Move(snapshot, now, place, speed, act);
     }
 
-    /// <summary>A frame: reads what is shown, and has the own mallet drawn exactly where the hand is.</summary>
+    /// <summary>A frame: has the own mallet drawn exactly where the hand is.</summary>
     /// <param name="display">Where bodies are drawn.</param>
-    internal void Look(DisplayOffsets display)
-    {
-        SimTime shown = session.DisplayTime;
-        News.Take(shown);
-        if (session.World is not LiveWorld world)
-        {
-            return;
-        }
-
-        RenderSnapshot snapshot = world.RenderSnapshots.Latest();
-        display.SetHand(Table.MalletOf(Number), session.Peer, hand.At);
-        if (!snapshot.TryReadRules(shown, out Match now))
-        {
-            return;
-        }
-
-        match = now;
-        SecondsLeft = ((double)match.Ends / SimDuration.TicksPerSecond) - (shown - snapshot.Start).ToSeconds();
-        things.Clear();
-        for (int n = 0; n < snapshot.BodyCount; n++)
-        {
-            BodyId body = snapshot.BodyAt(n);
-            ulong tag = snapshot.TagOf(body);
-            if (tag != Table.MalletTag && body != Table.Puck && display.TryRead(body, out DrawnBody drawn))
-            {
-                (double x, double y) = AirHockeyGame.ToView(drawn.Position);
-                things.Add(new AirHockeyThing(tag < Table.PrizeTag ? null : (PrizeKind)(tag - Table.PrizeTag), x, y));
-            }
-        }
-    }
+    internal void ShowHand(DisplayOffsets display) => display.SetHand(Table.MalletOf(Number), session.Peer, hand.At);
 }

@@ -50,7 +50,10 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>Its player, in a game of air hockey; null in any other scene, and for who only looks on.</summary>
     internal AirHockeyPlayer? Player { get; private set; }
 
-    /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the player has the rest), where they are drawn, in their canonical order.</summary>
+    /// <summary>What it sees of the match, in a game of air hockey, whether it plays or only looks on; null in any other scene.</summary>
+    internal AirHockeyBoard? Board { get; private set; }
+
+    /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the board has the rest), where they are drawn, in their canonical order.</summary>
     internal IReadOnlyList<JoinedBody> Bodies => bodies;
 
     /// <summary>How many events heals have simulated again.</summary>
@@ -87,7 +90,8 @@ internal sealed class JoinedWorld : IDisposable
         Watch(world);
         Player?.Move();
         display!.Update(snapshot, Session.DisplayTime);
-        Player?.Look(display);
+        Player?.ShowHand(display);
+        Board?.Look(display);
         for (int n = 0; n < snapshot.BodyCount; n++)
         {
             BodyId body = snapshot.BodyAt(n);
@@ -175,9 +179,10 @@ internal sealed class JoinedWorld : IDisposable
         view ??= PlayScene.Of(Session.Scene!);
         hand ??= new HandOfPerson(Session, view, () => Session.Step());
         display = new DisplayOffsets(Session.Scene!);
-        if (view.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is not null)
+        if (view.IsAirHockey)
         {
-            Player ??= new AirHockeyPlayer(Session, notices, action => hand.Do(action));
+            Board ??= new AirHockeyBoard(Session, notices);
+            Player ??= AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is null ? null : new AirHockeyPlayer(Session, action => hand.Do(action));
         }
 
         glow.Clear();

@@ -48,6 +48,9 @@ internal sealed class Pane
     /// <summary>Its player, in a scene of air hockey; else null.</summary>
     internal AirHockeyPlayer? Player { get; set; }
 
+    /// <summary>What it sees of the match, in a scene of air hockey; else null.</summary>
+    internal AirHockeyBoard? Board { get; set; }
+
     /// <summary>How many heals there were.</summary>
     internal long Heals => healed.Heals;
 
@@ -81,7 +84,8 @@ internal sealed class Pane
         SimTime now = Session.SharedTime.Now; // as well as this peer knows it
         shownSeconds += seconds;
         display.Update(world.RenderSnapshots.Latest(), Session.DisplayTime);
-        Player?.Look(display);
+        Player?.ShowHand(display);
+        Board?.Look(display);
         Error = 0;
         for (int n = 0; n < places.Length; n++)
         {

@@ -66,7 +66,8 @@ internal sealed class Playground
         host.Logged += truth.Hear;
         foreach (Pane pane in panes.Where(_ => Scene.IsAirHockey))
         {
-            pane.Player = new AirHockeyPlayer(pane.Session, notices[pane.Number], action => Note(pane.Do(action)), setup.Seed);
+            pane.Player = new AirHockeyPlayer(pane.Session, action => Note(pane.Do(action)), setup.Seed);
+            pane.Board = new AirHockeyBoard(pane.Session, notices[pane.Number]);
         }
 
         AdvanceTo(host.World.Simulation.Start);

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using System.Threading.Tasks;
 using Microsoft.Playwright;
 using Xunit;
@@ -13,6 +14,24 @@ public sealed class AirHockeyJoinTests(ServedPage served)
     {
         ViewportSize = new() { Width = 390, Height = 844 }, HasTouch = true, IsMobile = true, DeviceScaleFactor = 2,
     };
+
+    /// <summary>Whether, left and right on the canvas, there are dots of the colour of either side: posts and mallets.</summary>
+    private const string Drawn =
+        """
+        sides => {
+          const canvas = document.querySelector('.pane canvas'), { width, height } = canvas
+          const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true })
+          context.drawImage(canvas, 0, 0)
+          return sides.every((side, n) => {
+            const wanted = [1, 3, 5].map(at => parseInt(side.slice(at, at + 2), 16)), dots = context.getImageData(n * (width >> 1), 0, width >> 1, height).data
+            let found = 0
+            for (let at = 0; at < dots.length; at += 4) {
+              found += wanted.every((value, part) => Math.abs(dots[at + part] - value) < 3) ? 1 : 0
+            }
+            return found > 100
+          })
+        }
+        """;
 
     [Fact]
     public async Task Match_OnTwoPhones_HasOneScoreAndOneWorld()
@@ -79,8 +98,90 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         JoinedPage third = await JoinedPage.JoinAsync(another, await host.AfterAsync("browsers join at "), "Cas");
         Assert.False(await third.Page.Locator("#second").IsVisibleAsync(), "There is a second place for who has not even one.");
         await third.Page.GetByText("looking on: both mallets are taken").WaitForAsync();
+        await SeesTheMatchAsync(third.Page, "You look on");
+        Assert.Equal("Ann, Ann 2", await SidesAsync(third.Page));
+        Assert.Equal(["Ann", "Ann 2"], (await tab.Page.Locator(".pane h2").AllInnerTextsAsync()).Select(title => title.Trim()));
         Assert.Empty(tab.Complaints);
         Assert.Empty(third.Complaints);
+    }
+
+    /// <summary>Who looks on sees the table of the players, with the same score, and has nothing to play with.</summary>
+    [Fact]
+    public async Task Onlooker_OnAPhone_SeesTheTableAndTheNamesAndCannotPlay()
+    {
+        await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0", "--seed", "5");
+        string address = await host.AfterAsync("browsers join at ");
+        await using IBrowserContext one = await served.Browser.NewContextAsync(JoinedPage.Screen), other = await served.Browser.NewContextAsync(Phone);
+        await using IBrowserContext third = await served.Browser.NewContextAsync(Phone);
+        JoinedPage[] players = [await JoinedPage.OpenAsync(one, address), await JoinedPage.OpenAsync(other, address)];
+        await players[0].AskAsync("Ann");
+        await players[1].AskAsync("<b>WWWWWWWWWWWWWWWWW</b>"); // as wide as names are, and not a part of the page
+        await players[0].RunningAsync();
+        await players[1].RunningAsync();
+        JoinedPage onlooker = await JoinedPage.JoinAsync(third, address, "Cas");
+        await SeesTheMatchAsync(onlooker.Page, "You look on");
+        await SeesTheMatchAsync(players[0].Page, "Ann"); // the control: a player has the same, and a hand
+        Assert.Equal((0, 1), (await onlooker.Page.Locator(".hand").CountAsync(), await players[0].Page.Locator(".hand").CountAsync()));
+        foreach (IPage page in new[] { players[0].Page, players[1].Page, onlooker.Page })
+        {
+            Assert.Equal("Ann, <b>WWWWWWWWWWWWWWWWW</b>", await SidesAsync(page));
+            Assert.True(await page.EvaluateAsync<bool>(
+                "() => document.documentElement.scrollWidth <= innerWidth && [...document.querySelectorAll('.board *')].every(part => part.scrollWidth <= part.clientWidth + 1 || part.clientWidth === 0)"),
+                "A name does not fit.");
+        }
+
+        await DragAsync(onlooker.Page);
+        await onlooker.Page.Keyboard.PressAsync("d");
+        foreach (JoinedPage player in players)
+        {
+            await player.Page.Locator(".bot").ClickAsync();
+        }
+
+        await onlooker.Page.WaitForFunctionAsync("() => /[1-9]/.test(document.querySelector('.board b').textContent)", null, new() { Timeout = 90_000 });
+        await onlooker.Page.Locator(".told[data-known=certain]").Filter(new() { HasText = "Goal for" }).WaitForAsync(new() { Timeout = 20_000 });
+        string told = await onlooker.Page.Locator(".told").InnerTextAsync();
+        Assert.Matches("Goal for (Ann|<b>W+</b>)", told);
+        JoinedPage.AssertSame(host.States, await onlooker.StatesAsync(), 3);
+        Assert.Empty(onlooker.Complaints);
+    }
+
+    /// <summary>Nobody without keys is told of keys; who has them is, which is the control.</summary>
+    [Fact]
+    public async Task Keys_OnAPhone_AreNotSpokenOf()
+    {
+        foreach (BrowserNewContextOptions device in new[] { Phone, JoinedPage.Screen })
+        {
+            await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0");
+            string address = await host.AfterAsync("browsers join at ");
+            await using IBrowserContext first = await served.Browser.NewContextAsync(device), second = await served.Browser.NewContextAsync(device);
+            JoinedPage page = await JoinedPage.OpenAsync(first, address), rival = await JoinedPage.OpenAsync(second, address);
+            await page.AskAsync("Ann");
+            await rival.AskAsync("Bob");
+            await page.RunningAsync();
+            await page.Page.Locator(".hand").WaitForAsync();
+            string text = await page.Page.InnerTextAsync("body");
+            Assert.Equal(device == Phone, !text.Contains("arrow keys", StringComparison.Ordinal));
+            Assert.Equal(device == Phone, !text.Contains("at this keyboard", StringComparison.Ordinal));
+            Assert.Equal(device == Phone, text.Contains("follows your finger", StringComparison.Ordinal));
+        }
+    }
+
+    /// <summary>Waits until a page shows the table: with goals and mallets, the score, and over it whose it is.</summary>
+    private static async Task SeesTheMatchAsync(IPage page, string title)
+    {
+        await page.WaitForFunctionAsync("title => document.querySelector('.pane h2').textContent.trim() === title", title, new() { Timeout = 10_000 });
+        Assert.Matches(@"^\d : \d$", await page.Locator(".board b").InnerTextAsync());
+        Assert.Equal("air-hockey", await page.EvaluateAsync<string>("() => document.documentElement.dataset.scene"));
+        string[] sides = await page.EvaluateAsync<string[]>("() => ['first', 'second'].map(name => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim())");
+        Assert.All(sides, side => Assert.NotEmpty(side));
+        await page.WaitForFunctionAsync(Drawn, sides, new() { Timeout = 10_000 });
+    }
+
+    /// <summary>The names at the score.</summary>
+    private static async Task<string> SidesAsync(IPage page)
+    {
+        await page.WaitForFunctionAsync("() => [...document.querySelectorAll('.board bdi')].every(side => !side.textContent.startsWith('Player '))", null, new() { Timeout = 10_000 });
+        return string.Join(", ", await page.Locator(".board bdi").AllInnerTextsAsync());
     }
 
     /// <summary>Where a peer of a page draws a mallet, in metres.</summary>

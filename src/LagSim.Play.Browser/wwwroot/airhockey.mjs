@@ -1,9 +1,13 @@
-// Air hockey in a pane: the table as its player sees it, the score over it, what the rules tell, and the pointer that the mallet follows.
+// Air hockey in a pane: the table as its player sees it, or who looks on; the score over it, what the rules tell, and the pointer that the
+// mallet follows.
 // It needs what a pane has (an element with a canvas, and how metres become pixels) and a game to ask, of whatever session.
+import { set } from './figures.mjs'
 import { BodyNumbers, HeaderNumbers } from './frame.mjs'
+import { drawGlow, drawTruth } from './marks.mjs'
 
 const Phases = { CountDown: 0, Play: 1, Over: 2 }
 const Keys = ['W A S D', 'arrow keys']
+const NamesEvery = 500 // milliseconds
 const Prizes = ['+1', '»', '∩'] // a second puck, a faster puck, a shield
 
 let own = null // the colours of the table, until the theme changes
@@ -13,45 +17,54 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { ow
 export class AirHockeyTable {
   /**
    * @param pane the pane: `number`, `setup`, `offset`, `scale`, `sx`, `sy`, `toView`
-   * @param game what is asked: `Measures`, `Look`, `News`, `Aim`, `EndAim`, `SetBot`, `PlayAgain`
+   * @param game what is asked: `Measures`, `Names`, `Look`, `News`, `Aim`, `EndAim`, `SetBot`, `PlayAgain`
    */
   constructor(pane, game) {
     this.pane = pane
     this.game = game
     const [halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player] = game.Measures(pane.number)
-    Object.assign(this, { halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player })
+    Object.assign(this, { halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player: player < 0 ? null : player, named: -Infinity })
   }
 
   /** Puts the score over the canvas, and what the rules tell on it. */
   build(element, canvas) {
-    const names = this.players > 2 ? ['Left', 'Right'] : ['Player 1', 'Player 2']
     const board = document.createElement('div')
     board.className = 'board'
-    board.innerHTML = `<span class="side first"><i></i>${names[0]}</span>
+    board.innerHTML = `<span class="side first"><i></i><bdi></bdi></span>
       <div class="score" role="group" aria-label="Score and time left"><b></b><small></small></div>
-      <span class="side second">${names[1]}<i></i></span>`
+      <span class="side second"><bdi></bdi><i></i></span>`
     const news = document.createElement('div')
     news.className = 'news'
     news.innerHTML = '<p class="told" role="status"></p>'
-    const foot = document.createElement('div')
-    foot.className = 'hand'
-    const keys = this.player < 2 ? `<span class="keys">${Keys[this.player]}, or </span>` : ''
-    foot.innerHTML = `<i class="${this.side === 0 ? 'first' : 'second'}"></i><span class="how">Player ${this.player + 1}: ${keys}drag</span>
-      <button type="button" class="again" hidden>Play again</button><button type="button" class="bot" aria-pressed="false">Let a bot play</button>`
     canvas.before(board, news)
-    canvas.after(foot)
     element.dataset.game = 'air-hockey'
-    element.querySelector('h2').firstChild.textContent = `Player ${this.player + 1} `
-    this.parts = { score: board.querySelector('b'), clock: board.querySelector('small'), told: news.firstChild, again: foot.querySelector('.again'), bot: foot.querySelector('.bot') }
-    this.parts.again.addEventListener('click', () => this.game.PlayAgain(this.pane.number))
-    this.parts.bot.addEventListener('click', () => this.game.SetBot(this.pane.number, this.parts.bot.getAttribute('aria-pressed') !== 'true'))
+    this.parts = {
+      title: element.querySelector('h2').firstChild, sides: board.querySelectorAll('bdi'),
+      score: board.querySelector('b'), clock: board.querySelector('small'), told: news.firstChild,
+    }
+    this.plays ? this.buildHand(canvas) : element.classList.add('looks-on')
+    this.tellNames()
     canvas.removeAttribute('tabindex') // keys go to the mallets, wherever the focus is
     canvas.setAttribute('role', 'img')
-    canvas.setAttribute('aria-label', `Table as player ${this.player + 1} sees it`)
+    canvas.setAttribute('aria-label', this.plays ? `Table as player ${this.player + 1} sees it` : 'Table')
+  }
+
+  /** Below the table: how the mallet is moved, by whom, and once the match is over, another one. */
+  buildHand(canvas) {
+    const foot = document.createElement('div')
+    foot.className = 'hand'
+    const keys = this.player < 2 ? `<span class="keys of-keys">${Keys[this.player]}, or </span>` : ''
+    foot.innerHTML = `<i class="${this.player % 2 === 0 ? 'first' : 'second'}"></i><span class="how">Player ${this.player + 1}: ${keys}drag</span>
+      <button type="button" class="again" hidden>Play again</button><button type="button" class="bot" aria-pressed="false">Let a bot play</button>`
+    canvas.after(foot)
+    Object.assign(this.parts, { again: foot.querySelector('.again'), bot: foot.querySelector('.bot') })
+    this.parts.again.addEventListener('click', () => this.game.PlayAgain(this.pane.number))
+    this.parts.bot.addEventListener('click', () => this.game.SetBot(this.pane.number, this.parts.bot.getAttribute('aria-pressed') !== 'true'))
     this.listen(canvas)
   }
 
-  get side() { return this.player % 2 }
+  /** Whether somebody plays here, and does not only look on. */
+  get plays() { return this.player !== null }
 
   /** The mallet follows a pointer while it is down. */
   listen(canvas) {
@@ -100,14 +113,29 @@ export class AirHockeyTable {
     this.tell(left, right, phase, seconds, bot)
   }
 
+  /** Who plays on which side, as far as their names are known. */
+  tellNames() {
+    const { title, sides } = this.parts, names = this.game.Names(this.pane.number).map((name, n) => name || `Player ${n + 1}`)
+    const shown = this.players > 2 ? ['Left', 'Right'] : names
+    shown.forEach((name, side) => set(sides[side], name))
+    set(title, this.plays ? `${names[this.player]} ` : 'You look on')
+  }
+
   tell(left, right, phase, seconds, bot) {
-    const { score, clock, told, again } = this.parts
+    const { score, clock, told, again } = this.parts, now = performance.now()
+    if (now - this.named >= NamesEvery) {
+      this.named = now
+      this.tellNames()
+    }
     set(score, `${left} : ${right}`)
     const whole = Math.max(0, Math.ceil(seconds))
     set(clock, phase === Phases.CountDown ? 'get ready' : phase === Phases.Over ? 'over' : seconds > 0 ? `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, '0')}` : 'next goal wins')
     const [sentence = '', known = ''] = this.game.News(this.pane.number)
     set(told, sentence)
     told.dataset.known = known
+    if (!this.plays) {
+      return
+    }
     again.hidden = phase !== Phases.Over
     this.parts.bot.setAttribute('aria-pressed', String(bot === 1))
     set(this.parts.bot, bot === 1 ? 'A bot plays' : 'Let a bot play')
@@ -195,25 +223,11 @@ export class AirHockeyTable {
       return
     }
     const [right, up, realRight, realUp, glow] = frame.subarray(at + 1, at + 6)
-    const x = pane.sx(right), y = pane.sy(up), realX = pane.sx(realRight), realY = pane.sy(realUp), radius = pane.setup.bodies[n].radius * pane.scale
-    if (glow > 0) {
-      context.beginPath()
-      context.arc(x, y, radius + 2.5 * unit, 0, 2 * Math.PI)
-      context.strokeStyle = colours.glow
-      context.globalAlpha = isCalm ? 1 : glow
-      context.lineWidth = 2 * unit
-      context.stroke()
-      context.globalAlpha = 1
-    }
+    const x = pane.sx(right), y = pane.sy(up), radius = pane.setup.bodies[n].radius * pane.scale
+    drawGlow(context, { x, y, radius }, glow, unit, colours, isCalm)
     n === 0 ? this.drawPuck(context, style, right, up) : this.drawMallet(context, style, n - 1, x, y, radius)
-    if (Math.hypot(realX - x, realY - y) > unit && !(n - 1 === this.player)) {
-      context.beginPath()
-      context.setLineDash([3 * unit, 2 * unit])
-      context.arc(realX, realY, radius, 0, 2 * Math.PI)
-      context.strokeStyle = colours.real
-      context.lineWidth = unit
-      context.stroke()
-      context.setLineDash([])
+    if (n === 0 || n - 1 !== this.player) {
+      drawTruth(context, { x, y, radius }, pane.sx(realRight), pane.sy(realUp), unit, colours)
     }
   }
 
@@ -296,11 +310,5 @@ function readColours() {
   return {
     sides: [read('first'), read('second')], table: read('table'), rail: read('rail'), marking: read('marking'),
     puck: read('puck'), shield: read('shield'), onShield: read('on-shield'), ink: read('ink'),
-  }
-}
-
-function set(element, text) {
-  if (element.textContent !== text) {
-    element.textContent = text
   }
 }

@@ -42,13 +42,17 @@ export class JoinedPeer {
   build() {
     const { exports, index } = this
     const bound = (source, names) => Object.fromEntries(names.map(name => [name, (_, ...rest) => source[name](index, ...rest)]))
-    const airHockey = bound(exports.airHockey, ['Measures', 'Steer', 'Aim', 'EndAim', 'SetBot', 'PlayAgain', 'Look', 'News'])
+    const airHockey = bound(exports.airHockey, ['Measures', 'Names', 'Steer', 'Aim', 'EndAim', 'SetBot', 'PlayAgain', 'Look', 'News'])
     this.game = this.setup.scene === 'air-hockey' ? airHockey : null
     this.pane = new Pane(0, this.setup, { ...bound(exports, ['Grab', 'MoveHand', 'Release']), airHockey, speed: () => 1 }, () => {})
-    this.pane.element.querySelector('h2').textContent = this.setup.scene.replace('-', ' ')
+    const title = this.pane.element.querySelector('h2')
+    this.game ? title.querySelector('small').remove() : title.textContent = this.setup.scene
     this.pane.element.querySelectorAll('.agrees p')[1].remove() // the host's hash is not sent to the page, but what came of comparing is
     this.game || this.pane.canvas.setAttribute('aria-label', `The world, ${this.setup.scene}`)
   }
+
+  /** Whether it has a mallet. */
+  get plays() { return this.pane?.game?.plays === true }
 
   draw(colours, isCalm) {
     if (this.pane && this.frame?.length === 1 + HeaderNumbers + BodyNumbers * this.setup.bodies.length) {

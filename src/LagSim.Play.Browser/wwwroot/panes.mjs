@@ -2,6 +2,7 @@
 import { AirHockeyTable } from './airhockey.mjs'
 import { length, set } from './figures.mjs'
 import { BodyNumbers, HeaderNumbers } from './frame.mjs'
+import { drawGlow, drawTruth } from './marks.mjs'
 
 const StripSeconds = 6
 const KeyStep = 1 / 40 // of the width of the view, for each key press
@@ -218,17 +219,8 @@ export class Pane {
       return
     }
     const x = this.sx(frame[at + 1]), y = this.sy(frame[at + 2]), radius = this.setup.bodies[n].radius * this.scale
-    const realX = this.sx(frame[at + 3]), realY = this.sy(frame[at + 4]), glow = frame[at + 5]
     const thin = Math.max(1.5, this.canvas.width / 450)
-    if (glow > 0) {
-      context.beginPath()
-      context.arc(x, y, radius + 2.5 * thin, 0, 2 * Math.PI)
-      context.strokeStyle = colours.glow
-      context.globalAlpha = isCalm ? 1 : glow
-      context.lineWidth = 2 * thin
-      context.stroke()
-      context.globalAlpha = 1
-    }
+    drawGlow(context, { x, y, radius }, frame[at + 5], thin, colours, isCalm)
     context.beginPath()
     context.arc(x, y, radius, 0, 2 * Math.PI)
     context.fillStyle = colours.ball
@@ -238,14 +230,8 @@ export class Pane {
     context.lineWidth = frame[at + 6] ? 2.5 * thin : thin
     context.strokeStyle = colours.ballEdge
     context.stroke()
-    if (Math.hypot(realX - x, realY - y) > thin && !frame[at + 6]) {
-      context.beginPath()
-      context.setLineDash([3 * thin, 2 * thin])
-      context.arc(realX, realY, radius, 0, 2 * Math.PI)
-      context.strokeStyle = colours.real
-      context.lineWidth = thin
-      context.stroke()
-      context.setLineDash([])
+    if (!frame[at + 6]) {
+      drawTruth(context, { x, y, radius }, this.sx(frame[at + 3]), this.sy(frame[at + 4]), thin, colours)
     }
     if (n === this.chosen && document.activeElement === this.canvas && this.canvas.matches(':focus-visible')) {
       context.beginPath()

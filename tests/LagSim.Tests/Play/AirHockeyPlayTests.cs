@@ -62,12 +62,12 @@ public sealed class AirHockeyPlayTests
         Playground playground = Open("panes=healing,healing&delay=500&seed=3");
         HashSet<(string, NoticeKind)> said = [];
         playground.Panes.ToList().ForEach(pane => pane.Player!.IsBot = true);
-        Run(playground, 60, () => said.UnionWith(playground.Panes.Select(pane => (pane.Player!.News.Sentence, pane.Player.News.Kind))));
+        Run(playground, 60, () => said.UnionWith(playground.Panes.Select(pane => (pane.Board!.News.Sentence, pane.Board.News.Kind))));
         Assert.Contains(("Play!", NoticeKind.Predicted), said);
         const string goal = "Goal for player 1";
         Assert.Contains((goal, NoticeKind.Predicted), said);
         Assert.Contains((goal, NoticeKind.Confirmed), said);
-        Assert.True(playground.Panes[1].Player!.News.GoalsTakenBack > 0);
+        Assert.True(playground.Panes[1].Board!.News.GoalsTakenBack > 0);
         Assert.Contains(said, one => one.Item1.StartsWith("Not so: ", StringComparison.Ordinal) && one.Item2 == NoticeKind.Retracted);
         Assert.Contains(said, one => one.Item1.EndsWith(" wins", StringComparison.Ordinal) && one.Item2 == NoticeKind.Confirmed);
     }
@@ -142,15 +142,15 @@ public sealed class AirHockeyPlayTests
         Playground playground = Open("panes=healing,healing&delay=80");
         playground.Panes[1].Player!.PlayAgain(); // in the middle of a match it does nothing
         playground.Panes.ToList().ForEach(pane => pane.Player!.IsBot = true);
-        for (int n = 0; n < 120 && playground.Panes[1].Player!.Match.Phase != Phase.Over; n++)
+        for (int n = 0; n < 120 && playground.Panes[1].Board!.Match.Phase != Phase.Over; n++)
         {
             Run(playground, 1);
         }
 
-        Assert.Equal(Phase.Over, playground.Panes[1].Player!.Match.Phase);
+        Assert.Equal(Phase.Over, playground.Panes[1].Board!.Match.Phase);
         playground.Panes[1].Player!.PlayAgain();
         Run(playground, 1);
-        Assert.All(playground.Panes, pane => Assert.Equal((0, 0, Phase.CountDown), (pane.Player!.Match.Left, pane.Player.Match.Right, pane.Player.Match.Phase)));
+        Assert.All(playground.Panes, pane => Assert.Equal((0, 0, Phase.CountDown), (pane.Board!.Match.Left, pane.Board.Match.Right, pane.Board.Match.Phase)));
         AssertAgree(playground);
     }
 
@@ -179,13 +179,13 @@ public sealed class AirHockeyPlayTests
         Run(playground, seconds);
         playground.Panes.ToList().ForEach(pane => pane.Player!.IsBot = false);
         Run(playground, 12);
-        for (int n = 0; n < 60 && playground.Panes.Any(pane => pane.Player!.News.Pending > 0); n++)
+        for (int n = 0; n < 60 && playground.Panes.Any(pane => pane.Board!.News.Pending > 0); n++)
         {
             Run(playground, 0.5); // the puck still moves, and a goal of just now is not certain
         }
     }
 
-    private static (int Left, int Right) Score(Pane pane) => (pane.Player!.Match.Left, pane.Player.Match.Right);
+    private static (int Left, int Right) Score(Pane pane) => (pane.Board!.Match.Left, pane.Board.Match.Right);
 
     private static void Run(Playground playground, double seconds, Action? each = null)
     {
@@ -203,7 +203,7 @@ public sealed class AirHockeyPlayTests
     private static List<(double Seconds, Goal Goal)> Goals(Playground playground, Pane pane)
     {
         SimTime start = playground.Panes[0].Session.World!.Simulation.Start;
-        return [.. pane.Player!.News.Confirmed.Where(told => told.Notice.Code == (int)Told.Goal)
+        return [.. pane.Board!.News.Confirmed.Where(told => told.Notice.Code == (int)Told.Goal)
             .Select(told => ((told.Time - start).ToSeconds(), Goal.From(told.Notice.Value)))];
     }
 
