@@ -1,16 +1,17 @@
 // The page of a host: joins its session with one more peer, or with two where two people share a keyboard, beside native ones.
-import { dotnet } from './_framework/dotnet.js'
 import { readColours } from './colours.mjs'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
+import { frame, loadRuntime } from './runtime.mjs'
 import { Seat } from './seats.mjs'
+import { tab } from './store.mjs'
 
 const LookEvery = 250 // milliseconds
+const IsIn = 'lagsim in', Key = 'lagsim key' // of a tab that is loaded again
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
-let exports, host, last = 0, colours, frame = new Float64Array(0)
+let exports, host, last = 0, colours
 const peers = []
-const stay = sessionStay()
 let joined = 0, looking = 0, isLost = false, gone = null, seating = null
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
@@ -26,18 +27,8 @@ window.lagsim = {
 
 try {
   host = await askHost()
-  const { getAssemblyExports, getConfig, setModuleImports, runMain } = await dotnet.create()
-  setModuleImports('page', {
-    takeFrame: view => {
-      if (frame.length !== view.length) {
-        frame = new Float64Array(view.length)
-      }
-      view.copyTo(frame)
-    },
-  })
-  const { JoinExports, AirHockeyExports } = (await getAssemblyExports(getConfig().mainAssemblyName)).LagSim.Play.Browser
+  const { JoinExports, AirHockeyExports } = await loadRuntime()
   exports = { ...JoinExports, airHockey: AirHockeyExports }
-  await runMain()
   found('key-row').hidden = !host.needs_key
   seating = Seat.take(hostName())
   const seat = await seating
@@ -45,8 +36,8 @@ try {
   found('loading').hidden = true
   found('enter').hidden = false
   found('name').focus()
-  if (seat.pass && stay.isIn) {
-    found('key').value = stay.key
+  if (seat.pass && tab.read(IsIn)) {
+    found('key').value = tab.read(Key)
     enter() // the tab was loaded again
   }
 } catch (failure) {
@@ -83,18 +74,6 @@ async function askHost() {
   return answer.json()
 }
 
-/** What is kept in this tab alone, until it is closed: whether it is in, and by which key. */
-function sessionStay() {
-  const at = 'lagsim in'
-  const read = () => { try { return sessionStorage.getItem(at) } catch { return null } }
-  return {
-    get isIn() { return read() !== null },
-    get key() { return read() ?? '' },
-    begin(key) { try { sessionStorage.setItem(at, key) } catch { /* it will have to be asked again */ } },
-    end() { try { sessionStorage.removeItem(at) } catch { /* nothing was kept */ } },
-  }
-}
-
 function hostName() { return host.fingerprint ?? location.host }
 
 /** Goes in with what stands in the form. */
@@ -102,7 +81,8 @@ async function enter() {
   const seat = await seating
   seat.name = found('name').value
   if (join(found('name').value.trim(), seat)) {
-    stay.begin(found('key').value)
+    tab.write(IsIn, 'yes')
+    tab.write(Key, found('key').value)
     found('enter').hidden = found('again').hidden = true
     found('session').hidden = found('leave').hidden = false
     look()
@@ -146,7 +126,8 @@ function tick(now) {
 /** All have left, or were ended: the form is one click away. */
 function end() {
   clearInterval(looking)
-  stay.end()
+  tab.remove(IsIn)
+  tab.remove(Key)
   peers.forEach(peer => peer.seat.leave())
   gone = peers[0]
   peers.length = 0
@@ -166,7 +147,7 @@ function show() {
   const isGame = peers.some(peer => peer.game)
   document.documentElement.dataset.scene = isGame ? 'air-hockey' : ''
   colours = null
-  keyboard.turn(isGame)
+  keyboard.turn(peers.some(peer => peer.plays))
   found('panes').replaceChildren(...peers.filter(peer => peer.pane).map(peer => peer.pane.element))
   found('panes').hidden = false
   found('panes').dataset.count = peers.length

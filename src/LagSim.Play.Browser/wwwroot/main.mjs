@@ -1,9 +1,9 @@
 // The page: loads the worlds, lets time pass in them once a frame, and draws what each player sees.
-import { dotnet } from './_framework/dotnet.js'
 import { readColours } from './colours.mjs'
 import { Controls } from './controls.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { Pane } from './panes.mjs'
+import { frame, loadRuntime } from './runtime.mjs'
 import { Scrubber } from './scrubber.mjs'
 import { Steps } from './steps.mjs'
 import { Summary } from './summary.mjs'
@@ -13,7 +13,7 @@ const HashEvery = 0.25
 
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
-let engine, setup, steps, panes = [], frame = new Float64Array(0), last = 0, lastHash = -1, colours = readColours()
+let engine, setup, steps, panes = [], last = 0, lastHash = -1, colours = readColours()
 
 const keyboard = new SharedKeyboard((player, x, y) => {
   const pane = panes.find(one => one.game?.player === player)
@@ -33,19 +33,7 @@ const scrubber = new Scrubber(found('scrubber'), {
 const summary = new Summary(found('summary'))
 
 try {
-  const { getAssemblyExports, getConfig, setModuleImports, runMain } = await dotnet.create()
-  setModuleImports('page', {
-    takeFrame: view => {
-      if (frame.length !== view.length) {
-        frame = new Float64Array(view.length)
-      }
-      view.copyTo(frame)
-    },
-    takePaths: view => scrubber.take(view),
-  })
-  const exports = await getAssemblyExports(getConfig().mainAssemblyName)
-  await runMain()
-  const { PlaygroundExports, AirHockeyExports } = exports.LagSim.Play.Browser
+  const { PlaygroundExports, AirHockeyExports } = await loadRuntime({ takePaths: view => scrubber.take(view) })
   engine = { ...PlaygroundExports, speed: () => controls.speed, heals: () => panes.map(pane => pane.heals), airHockey: AirHockeyExports }
   steps = new Steps(found('steps'), JSON.parse(engine.Steps()), { open: openStep, close: closeStep, act, seed })
   arrive()

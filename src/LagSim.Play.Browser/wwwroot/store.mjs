@@ -1,39 +1,30 @@
 // What is kept for the next time, in the browser's storage. Where a person has forbidden that, it is kept as long as the page is open.
 
-const here = new Map()
+/** For all tabs, for good. */
+export const store = kept(() => localStorage)
 
-export const store = {
-  read(key) {
-    try {
-      return localStorage.getItem(key) ?? here.get(key) ?? ''
-    } catch {
-      return here.get(key) ?? ''
-    }
-  },
+/** For this tab alone, until it is closed. */
+export const tab = kept(() => sessionStorage)
 
-  write(key, text) {
-    here.set(key, text)
+function kept(storage) {
+  const here = new Map()
+  const attempt = (use, otherwise) => {
     try {
-      localStorage.setItem(key, text)
+      return use(storage())
     } catch {
-      // It is in the page alone.
+      return otherwise // it is in the page alone
     }
-  },
-
-  keys() {
-    try {
-      return [...new Set([...here.keys(), ...Object.keys(localStorage)])]
-    } catch {
-      return [...here.keys()]
-    }
-  },
-
-  remove(key) {
-    here.delete(key)
-    try {
-      localStorage.removeItem(key)
-    } catch {
-      // It never was there.
-    }
-  },
+  }
+  return {
+    read: key => attempt(all => all.getItem(key), null) ?? here.get(key) ?? '',
+    keys: () => [...new Set([...here.keys(), ...attempt(all => Object.keys(all), [])])],
+    write(key, text) {
+      here.set(key, text)
+      attempt(all => all.setItem(key, text))
+    },
+    remove(key) {
+      here.delete(key)
+      attempt(all => all.removeItem(key))
+    },
+  }
 }
