@@ -83,12 +83,10 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         (double x, double y) left = await MalletAsync(tab.Page, 1, 0), right = await MalletAsync(tab.Page, 0, 1);
         await tab.Page.Keyboard.DownAsync("w");
         await tab.Page.Keyboard.DownAsync("ArrowDown");
-        await tab.Page.WaitForTimeoutAsync(300);
+        await MovedAsync(tab.Page, peer: 1, mallet: 0, $"y > {left.y:R} + 0.1"); // W moves the first player up, as the second sees it
+        await MovedAsync(tab.Page, peer: 0, mallet: 1, $"y < {right.y:R} - 0.1"); // the arrow moves the second player down, as the first sees it
         await tab.Page.Keyboard.UpAsync("w");
         await tab.Page.Keyboard.UpAsync("ArrowDown");
-        await tab.Page.WaitForTimeoutAsync(500);
-        Assert.True((await MalletAsync(tab.Page, 1, 0)).Y > left.y + 0.1, "W did not move the first player up, as the second sees it.");
-        Assert.True((await MalletAsync(tab.Page, 0, 1)).Y < right.y - 0.1, "The arrow did not move the second player down, as the first sees it.");
 
         await tab.Page.WaitForFunctionAsync("() => lagsim.peers.every(peer => peer.status.agreed >= 3)", null, new() { Timeout = 20_000 });
         JoinedPage.AssertSame(host.States, ToolProcess.StatesOf(await tab.Page.EvaluateAsync<string[]>("() => lagsim.peers[1].commits")), 3);
@@ -183,6 +181,11 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await page.WaitForFunctionAsync("() => [...document.querySelectorAll('.board bdi')].every(side => !side.textContent.startsWith('Player '))", null, new() { Timeout = 10_000 });
         return string.Join(", ", await page.Locator(".board bdi").AllInnerTextsAsync());
     }
+
+    /// <summary>Waits until a peer of a page draws a mallet where a condition on x and y, in metres, is met.</summary>
+    private static Task MovedAsync(IPage page, int peer, int mallet, FormattableString condition) => page.WaitForFunctionAsync(
+        $"([peer, mallet]) => {{ const at = 8 + 7 * (1 + mallet), [x, y] = lagsim.peers[peer].frame.slice(at + 1, at + 3); return {FormattableString.Invariant(condition)} }}",
+        new[] { peer, mallet }, new() { Timeout = 20_000 });
 
     /// <summary>Where a peer of a page draws a mallet, in metres.</summary>
     private static async Task<(double X, double Y)> MalletAsync(IPage page, int peer, int mallet)
