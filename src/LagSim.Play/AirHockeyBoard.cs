@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using AirHockey;
-using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
@@ -12,8 +11,8 @@ namespace LagSim.Play;
 
 /// <summary>What one peer sees of a match of air hockey beside its bodies: the score, who plays, what the rules tell, what else lies on the
 /// table.</summary>
-/// <remarks>For a peer of any session of the game, one that plays or one that only looks on. Each frame calls <see cref="Look"/>. Points are
-/// seen from above, in metres: x to the right, y up. Not thread-safe.</remarks>
+/// <remarks>For a peer of any session of the game, whether it plays or only looks on. Each frame calls <see cref="Look"/>. Points are seen
+/// from above, in metres: x to the right, y up. Not thread-safe.</remarks>
 internal sealed class AirHockeyBoard
 {
     private readonly Session session;

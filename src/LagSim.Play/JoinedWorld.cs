@@ -53,7 +53,8 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>What it sees of the match, in a game of air hockey, whether it plays or only looks on; null in any other scene.</summary>
     internal AirHockeyBoard? Board { get; private set; }
 
-    /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the board has the rest), where they are drawn, in their canonical order.</summary>
+    /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the board has the rest), where they are drawn,
+    /// in their canonical order.</summary>
     internal IReadOnlyList<JoinedBody> Bodies => bodies;
 
     /// <summary>How many events heals have simulated again.</summary>
@@ -182,7 +183,8 @@ internal sealed class JoinedWorld : IDisposable
         if (view.IsAirHockey)
         {
             Board ??= new AirHockeyBoard(Session, notices);
-            Player ??= AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is null ? null : new AirHockeyPlayer(Session, action => hand.Do(action));
+            bool plays = AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is not null;
+            Player ??= plays ? new AirHockeyPlayer(Session, action => hand.Do(action)) : null;
         }
 
         glow.Clear();
