@@ -26,6 +26,7 @@ internal sealed class JoinedWorld : IDisposable
     private HandOfPerson? hand;
     private DisplayOffsets? display;
     private LiveWorld? watched;
+    private HealTotals healed;
     private double shownSeconds;
 
     /// <summary>Asks to be let in, from the first step on.</summary>
@@ -58,10 +59,10 @@ internal sealed class JoinedWorld : IDisposable
     internal IReadOnlyList<JoinedBody> Bodies => bodies;
 
     /// <summary>How many events heals have simulated again.</summary>
-    internal long EventsRerun { get; private set; }
+    internal long EventsRerun => healed.Events;
 
     /// <summary>How many bodies heals have predicted again.</summary>
-    internal long BodiesRewound { get; private set; }
+    internal long BodiesRewound => healed.Bodies;
 
     /// <summary>Counts how often there were other bodies than before.</summary>
     internal int BodiesVersion { get; private set; }
@@ -188,11 +189,7 @@ internal sealed class JoinedWorld : IDisposable
         }
 
         glow.Clear();
-        world.Simulation.Healed += heal =>
-        {
-            EventsRerun += heal.Events;
-            BodiesRewound += heal.Bodies;
-        };
+        world.Simulation.Healed += heal => healed = healed.And(heal);
     }
 }
 
