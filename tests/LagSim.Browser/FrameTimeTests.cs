@@ -14,6 +14,7 @@ public sealed class FrameTimeTests(ServedPage served, ITestOutputHelper output)
 {
     private const int Panes = 4, Balls = 16;
     private const double WarmupSeconds = 10, Seconds = 60;
+    private const int QuietSeconds = 20;
 
     [Fact(Explicit = true)]
     [Trait("Time", "real")]
@@ -23,14 +24,16 @@ public sealed class FrameTimeTests(ServedPage served, ITestOutputHelper output)
             served, "scene=room&panes=healing,healing,healing,healing&delay=100", new() { ViewportSize = new() { Width = 1400, Height = 1500 } });
         SteadyThrows throws = new(page, Panes, Balls);
         await throws.GoOnAsync(WarmupSeconds);
-        await WatchAsync(page);
         string before = Load();
+        await WatchAsync(page);
+        await page.Page.WaitForTimeoutAsync(QuietSeconds * 1000);
+        Say($"{RateOf(await TakeAsync(page)):F1} frames a second while nobody throws");
         int thrown = throws.Count;
         await throws.GoOnAsync(Seconds);
         Frame[] frames = await TakeAsync(page);
         await page.AgreeAsync(Panes);
 
-        Say($"{frames.Length / (frames[^1].Began - frames[0].Began) * 1000:F1} frames a second, {throws.Count - thrown} throws, {frames[^1].Heals - frames[0].Heals} heals");
+        Say($"{RateOf(frames):F1} frames a second, {throws.Count - thrown} throws, {frames[^1].Heals - frames[0].Heals} heals");
         Say($"load: {before} before, {Load()} after, on {Environment.ProcessorCount} cores");
         Say("");
         Say("| ms | frames | p50 | p99 | max |");
@@ -67,9 +70,11 @@ public sealed class FrameTimeTests(ServedPage served, ITestOutputHelper output)
 
     private static async Task<Frame[]> TakeAsync(OpenedPage page)
     {
-        JsonElement frames = await page.Page.EvaluateAsync<JsonElement>("() => window.frameTimes");
+        JsonElement frames = await page.Page.EvaluateAsync<JsonElement>("() => window.frameTimes.splice(0)");
         return [.. frames.EnumerateArray().Select(f => new Frame(f[0].GetDouble(), f[1].GetDouble(), f[2].GetDouble(), f[3].GetInt64()))];
     }
+
+    private static double RateOf(Frame[] frames) => (frames.Length - 1) / (frames[^1].Began - frames[0].Began) * 1000;
 
     private static string Load() => File.Exists("/proc/loadavg") ? File.ReadAllText("/proc/loadavg").Split(' ')[0] : "unknown";
 
