@@ -91,14 +91,17 @@ public sealed class SharedMinuteTests(ServedPage served)
 
     private static string Nft(params string[] arguments)
     {
-        string rules = string.Create(CultureInfo.InvariantCulture, $$"""
-            add table inet lagsim
-            add chain inet lagsim page { type filter hook input priority 0; }
-            add rule inet lagsim page tcp dport {{LossyPort}} numgen random mod 100 < {{LostPercent}} counter drop
-            add rule inet lagsim page tcp sport {{LossyPort}} numgen random mod 100 < {{LostPercent}} counter drop
-            """);
         using Process nft = Process.Start(new ProcessStartInfo("nft", arguments) { RedirectStandardInput = true, RedirectStandardOutput = true })!;
-        nft.StandardInput.Write(rules);
+        if (arguments is ["-f", "-"])
+        {
+            nft.StandardInput.Write(string.Create(CultureInfo.InvariantCulture, $$"""
+                add table inet lagsim
+                add chain inet lagsim page { type filter hook input priority 0; }
+                add rule inet lagsim page tcp dport {{LossyPort}} numgen random mod 100 < {{LostPercent}} counter drop
+                add rule inet lagsim page tcp sport {{LossyPort}} numgen random mod 100 < {{LostPercent}} counter drop
+                """));
+        }
+
         nft.StandardInput.Close();
         string said = nft.StandardOutput.ReadToEnd();
         nft.WaitForExit();
