@@ -43,7 +43,7 @@ public sealed class GuidedStepPageTests(ServedPage served)
     [InlineData("lift", 1)]
     [InlineData("lift", 20_261)]
     [InlineData("hand", 77)]
-    public async Task Figures_OfAThesissTest_AreThoseOfTheTool(string step, int seed)
+    public async Task Figures_OfAThesissTest_AreThoseOfTheToolAndSeenWhole(string step, int seed)
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(served, $"step={step}&panes=healing,healing&seed={seed}");
         await page.Page.WaitForSelectorAsync(Done, new() { Timeout = 240_000 });
@@ -62,16 +62,12 @@ public sealed class GuidedStepPageTests(ServedPage served)
 
         // What the adaptive predictor's error is of the best one's is in no JSON: it is of two figures of it.
         Assert.Equal(step == "lift" ? [] : own.GetProperty("prediction_error_m").EnumerateArray().Select(OfBest), await page.Page.Locator(".test .small tbody td:nth-child(3) > span").AllInnerTextsAsync());
+        await AssertSeenWholeAsync(page);
     }
 
     /// <summary>Whatever the width of the screen, no figure is cut off and each stands below a name, which is what the columns are for.</summary>
-    [Theory]
-    [InlineData("lift")]
-    [InlineData("hand")]
-    public async Task Figures_AtEveryWidth_AreSeenWhole(string step)
+    private static async Task AssertSeenWholeAsync(OpenedPage page)
     {
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, $"step={step}&panes=healing,healing");
-        await page.Page.WaitForSelectorAsync(step == "lift" ? Done : ".test .small tbody tr:nth-child(4)", new() { Timeout = 180_000 });
         foreach (int width in new[] { 1500, 1400, 1280, 1024, 768, 390, 320 })
         {
             await page.Page.SetViewportSizeAsync(width, 900);
