@@ -71,6 +71,7 @@ internal static partial class JoinExports
     internal static string Describe(int peer) => Peers[peer].World.View is not PlayScene view ? "" : Encoding.UTF8.GetString(Json(json =>
     {
         json.WriteString("scene", view.IsAirHockey ? AirHockeyGame.Name : view.Scene.Name);
+        json.WriteNumber("began", Peers[peer].World.Session.World?.Simulation.Start.Ticks ?? 0); // another session of a host has another time
         SceneJson.WriteView(json, view);
         json.WriteStartArray("bodies");
         foreach (JoinedBody body in Peers[peer].World.Bodies)

@@ -169,6 +169,18 @@ internal sealed class JoinedWorld : IDisposable
         }
     }
 
+    /// <summary>Another session than before, if there was one: a host that was started again has a time and perhaps a scene of its
+    /// own.</summary>
+    private void Begin()
+    {
+        HandOfPerson hand = new(Session, view = PlayScene.Of(Session.Scene!), () => Session.Step());
+        this.hand = hand;
+        bool plays = view.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is not null;
+        Board = view.IsAirHockey ? new AirHockeyBoard(Session, notices) : null;
+        Player = plays ? new AirHockeyPlayer(Session, action => hand.Do(action)) : null;
+        BodiesVersion++;
+    }
+
     /// <summary>A peer that has got a fresh copy has another world.</summary>
     private void Watch(LiveWorld world)
     {
@@ -177,17 +189,13 @@ internal sealed class JoinedWorld : IDisposable
             return;
         }
 
-        watched = world;
-        view ??= PlayScene.Of(Session.Scene!);
-        hand ??= new HandOfPerson(Session, view, () => Session.Step());
-        display = new DisplayOffsets(Session.Scene!);
-        if (view.IsAirHockey)
+        if (watched?.Simulation.Start != world.Simulation.Start)
         {
-            Board ??= new AirHockeyBoard(Session, notices);
-            bool plays = AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is not null;
-            Player ??= plays ? new AirHockeyPlayer(Session, action => hand.Do(action)) : null;
+            Begin();
         }
 
+        watched = world;
+        display = new DisplayOffsets(Session.Scene!);
         glow.Clear();
         world.Simulation.Healed += heal => healed = healed.And(heal);
     }

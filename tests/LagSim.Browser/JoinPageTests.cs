@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Linq;
 using System.Security.Cryptography;
 using System.Security.Cryptography.X509Certificates;
 using System.Threading.Tasks;
@@ -23,6 +24,9 @@ public sealed class JoinPageTests(ServedPage served)
         await ann.ThrowAsync(0, 100, 40);
 
         await ann.Page.CloseAsync();
+        await bob.Page.ReloadAsync(); // though Ann's seat is free now
+        await bob.RunningAsync();
+        Assert.Equal(2, await bob.NumberAsync("player"));
         JoinedPage again = await JoinedPage.OpenAsync(context, page);
         Assert.Equal("Ann", await again.Page.InputValueAsync("#name")); // though Bob was here last
         await again.AskAsync("Ann", "open sesame");
@@ -39,6 +43,33 @@ public sealed class JoinPageTests(ServedPage served)
         await again.Page.GetByText("This peer left.").WaitForAsync();
         await host.SaysAsync(line => line.StartsWith("peer 1 at ", StringComparison.Ordinal) && line.EndsWith(" is gone", StringComparison.Ordinal));
         Assert.Empty(again.Complaints);
+    }
+
+    /// <summary>However close to each other tabs are opened, each has a seat of its own.</summary>
+    [Fact]
+    public async Task Seats_TakenAtTheSameTime_AreNotTheSame()
+    {
+        await using IBrowserContext context = await served.Browser.NewContextAsync();
+        IPage page = await context.NewPageAsync();
+        await page.GotoAsync(served.Address);
+        foreach (int apart in new[] { 0, 1, 30, 100, 100, 100, 190, 210 })
+        {
+            int[] taken = await page.EvaluateAsync<int[]>(
+                """
+                async apart => {
+                  const { Seat } = await import('./seats.mjs')
+                  const asking = []
+                  for (let n = 0; n < 3; n++) {
+                    asking.push(Seat.take('somewhere'))
+                    await new Promise(resolve => setTimeout(resolve, apart))
+                  }
+                  const seats = await Promise.all(asking)
+                  seats.forEach(seat => seat.leave())
+                  return seats.map(seat => seat.number)
+                }
+                """, apart);
+            Assert.Equal([0, 1, 2], taken.Order());
+        }
     }
 
     [Fact]

@@ -39,7 +39,9 @@ internal static class PageFolder
             {
                 await log.WriteLineAsync("building the page; the first time it takes about a minute");
                 DateTime began = DateTime.UtcNow;
+                Clear(stamp, output, Path.Combine(Path.GetDirectoryName(project)!, "obj"));
                 await PublishAsync(project, output, stop);
+                ThrowIfEmpty(output);
                 await File.WriteAllTextAsync(stamp, "", stop);
                 File.SetLastWriteTimeUtc(stamp, began);
             }
@@ -73,6 +75,28 @@ internal static class PageFolder
             .Concat(Directory.EnumerateFiles(root))
             .Where(file => !Path.GetRelativePath(root, file).Split(Path.DirectorySeparatorChar).Intersect(made).Any())
             .All(file => File.GetLastWriteTimeUtc(file) < built);
+    }
+
+    /// <summary>A build that was cut off leaves files that are empty, which the next one takes for done: those that are compressed, and
+    /// those of the page itself.</summary>
+    internal static void Clear(string stamp, string output, string made)
+    {
+        File.Delete(stamp);
+        string[] halfDone = [output, .. Directory.Exists(made) ? Directory.EnumerateDirectories(made, "compressed", SearchOption.AllDirectories) : []];
+        foreach (string folder in halfDone.Where(Directory.Exists))
+        {
+            Directory.Delete(folder, recursive: true);
+        }
+    }
+
+    /// <exception cref="InputException">A file of the page has nothing in it.</exception>
+    internal static void ThrowIfEmpty(string output)
+    {
+        string? empty = Directory.EnumerateFiles(Path.Combine(output, "wwwroot"), "*", SearchOption.AllDirectories).FirstOrDefault(file => new FileInfo(file).Length == 0);
+        if (empty is not null)
+        {
+            throw new InputException($"The page cannot be built: '{empty}' is empty.");
+        }
     }
 
     /// <summary>Two processes that build in one folder would break each other's files.</summary>

@@ -7,12 +7,12 @@ import { Seat } from './seats.mjs'
 import { tab } from './store.mjs'
 
 const LookEvery = 250 // milliseconds
-const IsIn = 'lagsim in', Key = 'lagsim key' // of a tab that is loaded again
+const IsIn = 'lagsim in', Key = 'lagsim key' // of a tab that is loaded again: the seat that it was in, and by which key
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
 let exports, host, last = 0, colours
 const peers = []
-let joined = 0, looking = 0, isLost = false, gone = null, seating = null
+let joined = 0, looking = 0, isLost = false, gone = null, seating = null, isEntering = false
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
 const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
@@ -30,13 +30,14 @@ try {
   const { JoinExports, AirHockeyExports } = await loadRuntime()
   exports = { ...JoinExports, airHockey: AirHockeyExports }
   found('key-row').hidden = !host.needs_key
-  seating = Seat.take(hostName())
+  const former = tab.read(`${IsIn} ${hostName()}`)
+  seating = Seat.take(hostName(), former === '' ? undefined : Number(former))
   const seat = await seating
   found('name').value = seat.name
   found('loading').hidden = true
   found('enter').hidden = false
   found('name').focus()
-  if (seat.pass && tab.read(IsIn)) {
+  if (seat.pass && former === String(seat.number)) {
     found('key').value = tab.read(Key)
     enter() // the tab was loaded again
   }
@@ -56,8 +57,8 @@ found('again').addEventListener('click', () => {
   found(host.needs_key ? 'key' : 'name').focus()
 })
 found('second').addEventListener('click', async () => {
-  found('second').hidden = true
-  found('second').hidden = join(`${found('name').value.trim()} 2`.trim().slice(0, 24), await Seat.take(hostName()))
+  await once(async () => join(`${found('name').value.trim()} 2`.trim().slice(0, 24), await Seat.take(hostName())))
+  offerSecond()
 })
 found('leave').addEventListener('click', () => exports.Leave())
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = null })
@@ -76,12 +77,24 @@ async function askHost() {
 
 function hostName() { return host.fingerprint ?? location.host }
 
+/** Does what takes a while, and not a second time meanwhile. */
+async function once(what) {
+  if (!isEntering) {
+    isEntering = true
+    found('second').disabled = found('enter').inert = true
+    await what()
+    isEntering = found('second').disabled = found('enter').inert = false
+  }
+}
+
 /** Goes in with what stands in the form. */
-async function enter() {
+function enter() { return once(goIn) }
+
+async function goIn() {
   const seat = await seating
   seat.name = found('name').value
   if (join(found('name').value.trim(), seat)) {
-    tab.write(IsIn, 'yes')
+    tab.write(`${IsIn} ${hostName()}`, String(seat.number))
     tab.write(Key, found('key').value)
     found('enter').hidden = found('again').hidden = true
     found('session').hidden = found('leave').hidden = false
@@ -126,7 +139,7 @@ function tick(now) {
 /** All have left, or were ended: the form is one click away. */
 function end() {
   clearInterval(looking)
-  tab.remove(IsIn)
+  tab.remove(`${IsIn} ${hostName()}`)
   tab.remove(Key)
   peers.forEach(peer => peer.seat.leave())
   gone = peers[0]

@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using LagSim.Cli.Output;
 using LagSim.Cli.Web;
 using Xunit;
 
@@ -38,6 +39,26 @@ public sealed class PageFolderTests : IDisposable
         Assert.Equal(isNewer, PageFolder.IsNewerThanSources(stamp, root.FullName));
         File.Delete(stamp);
         Assert.False(PageFolder.IsNewerThanSources(stamp, root.FullName)); // it was never built
+    }
+
+    /// <summary>A build that was cut off leaves nothing that the next one could take for done, and what is empty all the same is told.</summary>
+    [Fact]
+    public void Page_WhoseBuildWasCutOff_IsBuiltFromNothing()
+    {
+        string At(string file) => Path.Combine(root.FullName, file);
+        foreach (string file in new[] { "page.built", "page/wwwroot/a.wasm", "obj/Release/net10.0/compressed/publish/a.wasm.br", "obj/Release/net10.0/a.dll" })
+        {
+            Write(file, Built);
+        }
+
+        Assert.Contains("a.wasm' is empty", Assert.Throws<InputException>(() => PageFolder.ThrowIfEmpty(At("page"))).Message, StringComparison.Ordinal);
+        File.WriteAllText(At("page/wwwroot/a.wasm"), "x");
+        PageFolder.ThrowIfEmpty(At("page"));
+        PageFolder.Clear(At("page.built"), At("page"), At("obj"));
+        Assert.Equal((false, false, false, true), (
+            File.Exists(At("page.built")), Directory.Exists(At("page")), File.Exists(At("obj/Release/net10.0/compressed/publish/a.wasm.br")),
+            File.Exists(At("obj/Release/net10.0/a.dll"))));
+        PageFolder.Clear(At("page.built"), At("page"), At("obj")); // of a fresh clone
     }
 
     private void Write(string file, DateTime at)
