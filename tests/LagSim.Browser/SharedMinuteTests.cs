@@ -51,6 +51,7 @@ public sealed class SharedMinuteTests(ServedPage served)
         await tabs[1].RunningAsync();
         Random random = new(27);
         Dictionary<string, string>[] told = [[], []];
+        string[][] complaints = [[], []]; // before the host ended, which breaks the connections
         while (!native.HasEnded)
         {
             JoinedPage tab = tabs[random.Next(2)];
@@ -59,6 +60,7 @@ public sealed class SharedMinuteTests(ServedPage served)
             await Task.Delay(random.Next(300));
             for (int n = 0; n < 2; n++)
             {
+                complaints[n] = told[n].Count < Seconds - 4 ? [.. tabs[n].Complaints] : complaints[n];
                 foreach ((string time, string state) in await tabs[n].StatesAsync())
                 {
                     told[n][time] = state;
@@ -75,7 +77,7 @@ public sealed class SharedMinuteTests(ServedPage served)
             JoinedPage.AssertSame(states, told[n], Seconds - 6);
             Assert.Equal(0, await tabs[n].NumberAsync("differed"));
             Assert.True(await tabs[n].NumberAsync("heals") > 10, "Nothing arrived late, so nothing was shown.");
-            Assert.Empty(tabs[n].Complaints);
+            Assert.Empty(complaints[n]);
         }
 
         TestContext.Current.SendDiagnosticMessage($"{states.Count} states, heals {await tabs[0].NumberAsync("heals")} and {await tabs[1].NumberAsync("heals")}, round trip {await tabs[0].NumberAsync("round_trip_ms")} ms");
