@@ -69,8 +69,8 @@ internal sealed class Engine
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
         MemberContacts memberContacts = new(Timelines, view, Bodies, scene.Surfaces, Step.Scale);
         CollisionPredictor collisions = new(
-            scene, start, Bodies, Timelines, view, memberContacts, strikes, Step.Scale, hasIslands);
-        CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, marks);
+            scene, start, Bodies, Timelines, memberContacts, strikes, Step.Scale, hasIslands);
+        CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, view, marks);
         BroadPhase = parts.BroadPhase(scene, Bodies, Timelines, options.BruteForceLimit);
         predictor = parts.EventPredictor(Bodies, Timelines, log, scheduler, rollback, flights, BroadPhase, search, view);
 

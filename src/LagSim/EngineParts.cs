@@ -41,8 +41,8 @@ internal class EngineParts
 
     internal virtual CollisionSearch CollisionSearch(
         BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-        StepMarks stepMarks) =>
-        new(bodies, timelines, flights, surfaces, predictor, stepMarks);
+        SegmentLookup view, StepMarks stepMarks) =>
+        new(bodies, timelines, flights, surfaces, predictor, view, stepMarks);
 
     internal virtual EventPredictor EventPredictor(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,

@@ -38,11 +38,6 @@ internal static class ProtectionOptions
             return WebSocketText.ReadFingerprint(text, out place);
         }
 
-        if (text.StartsWith("http", System.StringComparison.Ordinal) && text.Contains("://", System.StringComparison.Ordinal))
-        {
-            throw new UsageException($"'{text}' is the address of a page, for browsers; a native peer joins it as ws{text[4..]}.");
-        }
-
         if (!text.Contains("://", System.StringComparison.Ordinal) && !text.Contains('#', System.StringComparison.Ordinal))
         {
             place = text;

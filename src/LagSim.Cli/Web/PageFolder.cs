@@ -82,8 +82,8 @@ internal static class PageFolder
     internal static void Clear(string stamp, string output, string made)
     {
         File.Delete(stamp);
-        string[] halfDone = [output, .. Directory.Exists(made) ? Directory.EnumerateDirectories(made, "compressed", SearchOption.AllDirectories) : []];
-        foreach (string folder in halfDone.Where(Directory.Exists))
+        string[] compressed = Directory.Exists(made) ? Directory.GetDirectories(made, "compressed", SearchOption.AllDirectories) : [];
+        foreach (string folder in compressed.Append(output).Where(Directory.Exists))
         {
             Directory.Delete(folder, recursive: true);
         }
@@ -92,7 +92,8 @@ internal static class PageFolder
     /// <exception cref="InputException">A file of the page has nothing in it.</exception>
     internal static void ThrowIfEmpty(string output)
     {
-        string? empty = Directory.EnumerateFiles(Path.Combine(output, "wwwroot"), "*", SearchOption.AllDirectories).FirstOrDefault(file => new FileInfo(file).Length == 0);
+        string? empty = Directory.EnumerateFiles(Path.Combine(output, "wwwroot"), "*", SearchOption.AllDirectories)
+            .FirstOrDefault(file => new FileInfo(file).Length == 0);
         if (empty is not null)
         {
             throw new InputException($"The page cannot be built: '{empty}' is empty.");

@@ -105,7 +105,7 @@ internal sealed class PageServer : IAsyncDisposable
         {
             await application.StartAsync(stop);
         }
-        catch (IOException failure)
+        catch (Exception failure) when (failure is IOException or SocketException)
         {
             await application.DisposeAsync();
             throw new InputException($"Cannot listen on {local}: {Sentence.Of(failure)}", failure);

@@ -29,7 +29,6 @@ internal sealed class SessionDoor : IDisposable
 
     private readonly WebSocketHostPort port;
     private readonly byte[] description;
-    private string[] names = [];
 
     /// <param name="port">Carries what comes; closed with the door.</param>
     /// <param name="scene">The scene of the session.</param>
@@ -46,7 +45,7 @@ internal sealed class SessionDoor : IDisposable
     /// <param name="origins">Where pages may come from.</param>
     internal RequestDelegate Build(IServiceProvider services, IReadOnlyList<string> origins)
     {
-        names = [.. origins.Select(origin => new Uri(origin).Authority)];
+        string[] names = [.. origins.Select(origin => new Uri(origin).Authority)];
         WebSocketOptions options = new() { KeepAliveInterval = AskEvery, KeepAliveTimeout = AskEvery };
         foreach (string origin in origins)
         {
@@ -55,7 +54,7 @@ internal sealed class SessionDoor : IDisposable
 
         ApplicationBuilder pipeline = new(services);
         pipeline.UseWebSockets(options);
-        pipeline.Run(AnswerAsync);
+        pipeline.Run(context => AnswerAsync(context, names));
         return pipeline.Build();
     }
 
@@ -80,7 +79,7 @@ internal sealed class SessionDoor : IDisposable
         return stream.ToArray();
     }
 
-    private async Task AnswerAsync(HttpContext context)
+    private async Task AnswerAsync(HttpContext context, string[] names)
     {
         if (!context.WebSockets.IsWebSocketRequest)
         {
@@ -112,6 +111,8 @@ internal sealed class SessionDoor : IDisposable
         context.Response.StatusCode = StatusCodes.Status421MisdirectedRequest;
         context.Response.ContentType = "text/plain; charset=utf-8";
         string origin = $"{context.Request.Scheme}://{context.Request.Host.Value}";
-        return context.Response.WriteAsync($"The host does not know itself by the name '{context.Request.Host.Value}'. Started with --web-origin {origin} it lets in who comes from there.");
+        return context.Response.WriteAsync(
+            $"The host does not know itself by the name '{context.Request.Host.Value}'."
+            + $" Started with --web-origin {origin} it lets in who comes from there.");
     }
 }

@@ -1,5 +1,6 @@
 // The page of a host: joins its session with one more peer, or with two where two people share a keyboard, beside native ones.
 import { readColours } from './colours.mjs'
+import { set as setText } from './figures.mjs'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { frame, loadRuntime } from './runtime.mjs'
@@ -79,10 +80,13 @@ function hostName() { return host.fingerprint ?? location.host }
 
 /** Does what takes a while, and not a second time meanwhile. */
 async function once(what) {
-  if (!isEntering) {
-    isEntering = true
-    found('second').disabled = found('enter').inert = true
+  if (isEntering) {
+    return
+  }
+  isEntering = found('second').disabled = found('enter').inert = true
+  try {
     await what()
+  } finally {
     isEntering = found('second').disabled = found('enter').inert = false
   }
 }
@@ -208,11 +212,7 @@ function look() {
   }
 }
 
-function set(id, text) {
-  if (found(id).textContent !== text) {
-    found(id).textContent = text
-  }
-}
+function set(id, text) { setText(found(id), text) }
 
 function say(sentence) {
   set('problem', sentence)

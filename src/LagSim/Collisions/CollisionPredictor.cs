@@ -15,7 +15,7 @@ namespace LagSim.Collisions;
 /// were there.
 /// </remarks>
 internal sealed class CollisionPredictor(
-    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, SegmentLookup view, MemberContacts members, StrikeCounts strikes,
+    Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, MemberContacts members, StrikeCounts strikes,
     ContactScale scale, bool hasIslands)
 {
     /// <summary>
@@ -111,46 +111,8 @@ internal sealed class CollisionPredictor(
             from, segment.End, out contact);
     }
 
-    /// <summary>The first segment of another body that a body's newest segment can still meet: the newest, unless that body is ahead of the
-    /// heal, be it by a round of the same tick.</summary>
-    internal int FirstPiece(int slot, int other) => view.SegmentFrom(slot, other);
-
-    /// <summary>
-    /// The next contact until some time of a body's newest segment with another body's path, from a segment on: the first segment that is
-    /// touched before it ended.
-    /// </summary>
-    /// <param name="slot">The body.</param>
-    /// <param name="other">The other body.</param>
-    /// <param name="until">How far to look; a contact later than that may be found or not.</param>
-    /// <param name="piece">The first segment, see <see cref="FirstPiece"/>; then the one that is touched.</param>
-    /// <param name="contact">When they touch.</param>
-    /// <param name="round">In which round of that tick.</param>
-    internal bool TryMeet(int slot, int other, SimTime until, ref int piece, out ContactTime contact, out uint round)
-    {
-        contact = default;
-        round = 0;
-        while (true)
-        {
-            int next = timelines.Next(piece);
-            SimTime end = next == TimelineStore.None ? until : SimTime.Min(until, timelines.Key(next).Time);
-            if (!StayApart(slot, other, piece, end)
-                && TryTouchBody(slot, other, piece, out contact, out round)
-                && (next == TimelineStore.None || EventKey.Compare(timelines.Key(next), EventKey.BeforeImpacts(contact.Tick, round)) >= 0))
-            {
-                return true;
-            }
-
-            if (next == TimelineStore.None || timelines.Key(next).Time > until)
-            {
-                return false;
-            }
-
-            piece = next;
-        }
-    }
-
-    /// <summary>Whether a body's newest segment surely touches nothing of a segment of another body until some time.</summary>
-    private bool StayApart(int slot, int other, int piece, SimTime until)
+    /// <summary>Whether a body's newest segment surely does not touch a segment of another body until some time.</summary>
+    internal bool StayApart(int slot, int other, int piece, SimTime until)
     {
         int mine = timelines.Last(slot);
         SimTime from = SimTime.Max(timelines.Key(mine).Time, timelines.Key(piece).Time);
@@ -348,7 +310,7 @@ internal sealed class CollisionPredictor(
     /// The error of a gap because places are rounded, in metres: four roundings of a double, 2^-52 each, of the summed terms.
     /// </summary>
     private static double RoundingOf(in Vector3D position, double reach) =>
-        4.0 / (1L << 52) * (Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z) + reach);
+        4.0 / (1L << 52) * (position.Taxicab + reach);
 
     /// <summary>How fast, in m/s², the gap to what is round opens because one slides along it.</summary>
     internal static double FallingAway(in Vector3D normal, in Vector3D velocity, double reach) =>

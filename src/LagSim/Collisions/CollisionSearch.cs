@@ -12,7 +12,7 @@ namespace LagSim.Collisions;
 /// </summary>
 internal class CollisionSearch(
     BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-    StepMarks stepMarks)
+    SegmentLookup view, StepMarks stepMarks)
 {
     private readonly CollisionFilters filters = new(timelines.Extras, surfaces);
 
@@ -71,7 +71,7 @@ internal class CollisionSearch(
                 continue;
             }
 
-            int piece = predictor.FirstPiece(slot, other);
+            int piece = view.SegmentFrom(slot, other);
             SimTime horizon = SimTime.Max(from, next.Horizon(from, end));
             if (piece != timelines.Last(other) || !flights.AreApart(slot, other, from, horizon))
             {
@@ -93,13 +93,31 @@ internal class CollisionSearch(
         }
     }
 
+    /// <summary>
+    /// The next contact until some time with another body's path, from a segment on: with the first that is touched before it ended.
+    /// </summary>
     private void ConsiderMeeting(int slot, int other, int piece, SimTime until, ref NextEvent next)
     {
-        if (predictor.TryMeet(slot, other, until, ref piece, out ContactTime contact, out uint round))
+        int after;
+        do
         {
-            ConsiderContact(slot, other, piece, contact, round, ref next);
+            after = timelines.Next(piece);
+            SimTime end = after == TimelineStore.None ? until : SimTime.Min(until, timelines.Key(after).Time);
+            if (!StayApart(slot, other, piece, end)
+                && predictor.TryTouchBody(slot, other, piece, out ContactTime contact, out uint round)
+                && (after == TimelineStore.None || EventKey.Compare(timelines.Key(after), EventKey.BeforeImpacts(contact.Tick, round)) >= 0))
+            {
+                ConsiderContact(slot, other, piece, contact, round, ref next);
+                return;
+            }
+
+            piece = after;
         }
+        while (after != TimelineStore.None && timelines.Key(after).Time <= until);
     }
+
+    /// <summary>Whether a contact need not be looked for; it only saves time.</summary>
+    private protected virtual bool StayApart(int slot, int other, int piece, SimTime until) => predictor.StayApart(slot, other, piece, until);
 
     /// <summary>
     /// The same for a body in free flight, without reading the segments unless the two touch as soon as both paths are open.

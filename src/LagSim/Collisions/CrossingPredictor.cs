@@ -188,9 +188,7 @@ internal class CrossingPredictor(
         }
 
         double speed = paths.VelocityAt(segment, now).Length + path.SpeedAt(now);
-        double size = SizeOf(position) + SizeOf(origin) + sensors[sensor].Size + radius;
+        double size = position.Taxicab + origin.Taxicab + sensors[sensor].Size + radius;
         return Math.Abs(gap) > (Rounding * size) + (2 * speed * TickConversion.SecondsPerTick);
     }
-
-    private static double SizeOf(in Vector3D position) => Math.Abs(position.X) + Math.Abs(position.Y) + Math.Abs(position.Z);
 }

@@ -14,7 +14,7 @@ namespace LagSim.Collisions;
 internal sealed class FreeFlights : INewestSegmentObserver
 {
     /// <summary>A bound on rounding, relative to the summed terms; four thousand times the true rounding.</summary>
-    private const double Slack = 1e-12;
+    internal const double Slack = 1e-12;
 
     /// <summary>Two that touch surely part only if the cosine between their distance and their opening is above this.</summary>
     private const double Parting = 1e-9;
@@ -150,7 +150,7 @@ internal sealed class FreeFlights : INewestSegmentObserver
             }
             else
             {
-                reach += Size(gravity) * span * span;
+                reach += gravity.Taxicab * span * span;
             }
         }
 
@@ -223,9 +223,9 @@ internal sealed class FreeFlights : INewestSegmentObserver
         double since = from.SecondsSince(a.From);
         Vector3D place = a.Position + ((a.Velocity + (gravity * (0.5 * since))) * since);
         Vector3D velocity = a.Velocity + (gravity * since);
-        double radius = a.Margin + near + FallSlack(since) + (Slack * Size(place));
+        double radius = a.Margin + near + FallSlack(since) + (Slack * place.Taxicab);
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
-        double speed = Size(velocity);
+        double speed = velocity.Taxicab;
         bool isOpened = a.From == from;
         Vector3D half = halfBox;
         Span<Flight> all = flights;
@@ -357,9 +357,9 @@ internal sealed class FreeFlights : INewestSegmentObserver
         Vector3D way = (a.Velocity + (gravity * (0.5 * since))) * since;
         double gap = plane.Gap(a.Position + way, radii[slot]);
         double span = until.SecondsSince(from) + TickConversion.SecondsPerTick;
-        double fall = Size(gravity);
-        double slack = near + (Slack * (Size(a.Position) + Size(way) + (fall * since * since) + Math.Abs(plane.Offset) + radii[slot]));
-        double speed = Size(a.Velocity) + (fall * (since + span));
+        double fall = gravity.Taxicab;
+        double slack = near + (Slack * (a.Position.Taxicab + way.Taxicab + (fall * since * since) + Math.Abs(plane.Offset) + radii[slot]));
+        double speed = a.Velocity.Taxicab + (fall * (since + span));
         if (gap > slack + (speed * span * (1 + Slack)))
         {
             return true; // it does not come that far, in whatever direction it flies
@@ -375,13 +375,11 @@ internal sealed class FreeFlights : INewestSegmentObserver
     /// <summary>The radius, plus how far rounding and a tick may move a body in flight that is read at another time, apart from its
     /// fall.</summary>
     private double MarginOf(int slot) =>
-        radii[slot] + (2 * Slack * Size(flights[slot].Position)) + (2 * TickConversion.SecondsPerTick * Size(flights[slot].Velocity));
+        radii[slot] + (2 * Slack * flights[slot].Position.Taxicab) + (2 * TickConversion.SecondsPerTick * flights[slot].Velocity.Taxicab);
 
-    private double FallSlack(double time) => 2 * Size(gravity) * time * ((Slack * time) + TickConversion.SecondsPerTick);
+    private double FallSlack(double time) => 2 * gravity.Taxicab * time * ((Slack * time) + TickConversion.SecondsPerTick);
 
     private Vector3D PositionAt(in Flight flight, double seconds) => flight.Position + ((flight.Velocity + (gravity * (0.5 * seconds))) * seconds);
-
-    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 
     private static double Square(double x, double y, double z) => (x * x) + (y * y) + (z * z);
 

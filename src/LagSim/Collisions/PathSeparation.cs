@@ -14,10 +14,6 @@ namespace LagSim.Collisions;
 /// </remarks>
 internal static class PathSeparation
 {
-    /// <summary>A bound on the rounding of a squared distance, relative to the square of the summed terms; as in
-    /// <see cref="FreeFlights"/>, four thousand times the true rounding.</summary>
-    private const double Slack = 1e-12;
-
     /// <summary>Whether they stay apart from a time on, on which both paths are open, until another. A tick more is included.</summary>
     /// <param name="a">One path.</param>
     /// <param name="denseA">Its further terms.</param>
@@ -36,19 +32,17 @@ internal static class PathSeparation
         double square = between.LengthSquared;
         double span = TimeOfImpact.Seconds(from, until) + TickConversion.SecondsPerTick;
         double window = Math.Max(1, span); // the least in which a root is looked for, so that its rounding is that of terms as large
-        double power = 1, windowPower = 1, nearest = square, size = Size(path[0]) + Size(other[0]) + reach;
+        double power = 1, windowPower = 1, nearest = square, size = path[0].Taxicab + other[0].Taxicab + reach;
         for (int k = 1; k < length; k++)
         {
             power *= span;
             windowPower *= window;
             Vector3D term = path[k] - other[k];
             nearest += Math.Min(0, Vector3D.Dot(between, term) * power);
-            size += (Size(path[k]) + Size(other[k])) * windowPower;
+            size += (path[k].Taxicab + other[k].Taxicab) * windowPower;
         }
 
-        // Both sides of (nearest / |d0|)² > reach², with what rounding may do to it. Not so of what is not a number.
-        return nearest > 0 && nearest * nearest > square * ((reach * reach) + (Slack * size * size));
+        // (nearest / |d0|)² > reach², without the division. Rounding is in proportion to the square of the summed terms.
+        return nearest > 0 && nearest * nearest > square * ((reach * reach) + (FreeFlights.Slack * size * size)); // false if anything is not a number
     }
-
-    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 }

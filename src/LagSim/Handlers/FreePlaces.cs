@@ -107,7 +107,7 @@ internal sealed class FreePlaces(Scene scene, BodyTable bodies, TimelineStore ti
         for (int n = 0; n < near.Count && isFree; n++)
         {
             (Vector3D centre, double reach) = near[n];
-            double slack = scene.RestitutionThreshold + (1e-15 * (Size(position) + Size(centre) + reach));
+            double slack = scene.RestitutionThreshold + (1e-15 * (position.Taxicab + centre.Taxicab + reach));
             isFree = scene.Box.Nearest(position - centre).Length - reach >= -slack;
         }
 
@@ -119,7 +119,7 @@ internal sealed class FreePlaces(Scene scene, BodyTable bodies, TimelineStore ti
     {
         bool isAllowed = Math.Abs(position.X) <= Limits.MaxCoordinate && Math.Abs(position.Y) <= Limits.MaxCoordinate
             && Math.Abs(position.Z) <= Limits.MaxCoordinate && !Limits.IsAtCentre(position, bodies.Spec(slot), scene.ForceArray);
-        double slack = scene.RestitutionThreshold + (1e-15 * (Size(position) + radius));
+        double slack = scene.RestitutionThreshold + (1e-15 * (position.Taxicab + radius));
         for (int surface = 0; surface < surfaces.Count && isAllowed; surface++)
         {
             isAllowed = !filters.MeetSurface(filter, surface) || surfaces.Gap(surface, position, radius) >= -slack;
@@ -127,6 +127,4 @@ internal sealed class FreePlaces(Scene scene, BodyTable bodies, TimelineStore ti
 
         return isAllowed;
     }
-
-    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 }

@@ -171,7 +171,7 @@ internal sealed class OverlapSearch
     private bool AreDeep(in Ball a, in Ball b, out double depth)
     {
         double gap = box.Nearest(a.Place - b.Place).Length - a.Radius - b.Radius;
-        double slack = tolerance + (1e-15 * (Size(a.Place) + Size(b.Place) + a.Radius + b.Radius)); // rounding of the given numbers themselves must not count
+        double slack = tolerance + (1e-15 * (a.Place.Taxicab + b.Place.Taxicab + a.Radius + b.Radius)); // rounding of the given numbers themselves must not count
         depth = -gap;
         return gap < -slack && a.Body != b.Body && a.Filter.CollidesWith(b.Filter);
     }
@@ -211,8 +211,6 @@ internal sealed class OverlapSearch
     }
 
     private static double Along(in Vector3D v, int axis) => axis == 0 ? v.X : axis == 1 ? v.Y : v.Z;
-
-    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 
     private struct Ball
     {

@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 
 namespace LagSim.Scenes;
@@ -24,7 +23,7 @@ internal static class StartOverlap
     private static void CheckStatic(in SceneBody body, List<StaticPlane> planes, List<StaticSphere> spheres, double tolerance)
     {
         // Rounding of the given numbers themselves must not count as an overlap.
-        double slack = tolerance + (1e-15 * (Size(body.Position) + body.Spec.Radius));
+        double slack = tolerance + (1e-15 * (body.Position.Taxicab + body.Spec.Radius));
         foreach (StaticPlane plane in planes)
         {
             double gap = plane.Gap(body.Position, body.Spec.Radius);
@@ -43,8 +42,6 @@ internal static class StartOverlap
             }
         }
     }
-
-    private static double Size(in Vector3D v) => Math.Abs(v.X) + Math.Abs(v.Y) + Math.Abs(v.Z);
 
     private static SceneException Inside<T>(string body, T other, double depth) =>
         new($"Body '{body}' starts {Limits.Text(depth)} m deep inside {other}; bodies must start apart or touching.");

@@ -40,6 +40,9 @@ public readonly struct Vector3D : IEquatable<Vector3D>
     public static Vector3D Cross(in Vector3D a, in Vector3D b) =>
         new((a.Y * b.Z) - (a.Z * b.Y), (a.Z * b.X) - (a.X * b.Z), (a.X * b.Y) - (a.Y * b.X));
 
+    /// <summary>The taxicab norm, the sum of the components' sizes: no less than the length, and what rounding is in proportion to.</summary>
+    internal double Taxicab => Math.Abs(X) + Math.Abs(Y) + Math.Abs(Z);
+
     /// <summary>The square of the length.</summary>
     public double LengthSquared => Dot(this, this);
 

@@ -8,6 +8,7 @@ using System.Text;
 using System.Text.Json;
 using System.Threading;
 using System.Threading.Tasks;
+using LagSim.Cli.Output;
 using LagSim.Cli.Web;
 using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
@@ -98,7 +99,7 @@ public sealed class SessionDoorTests : IAsyncLifetime
         for (int n = 0; n < Sent; n++)
         {
             port.Send(datagram, address);
-            await Task.Yield(); // whoever writes to the network has its turn
+            await Task.Yield(); // lets the connection send what waits
             written = n + 1 - port.Superseded;
         }
 
@@ -160,6 +161,15 @@ public sealed class SessionDoorTests : IAsyncLifetime
         socket.Options.AddSubProtocol("chat");
         WebSocketException refused = await Assert.ThrowsAsync<WebSocketException>(() => socket.ConnectAsync(Session(), TestContext.Current.CancellationToken));
         Assert.Contains("400", refused.Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public async Task Server_OnAnAddressOfAnotherMachine_IsRefusedWithASentence()
+    {
+        IPEndPoint elsewhere = new(IPAddress.Parse("192.0.2.1"), 0); // of documents alone
+        InputException refused = await Assert.ThrowsAsync<InputException>(() => PageServer.StartAsync(elsewhere, "/join.html", null, CancellationToken.None));
+        Assert.StartsWith("Cannot listen on 192.0.2.1:0: ", refused.Message, StringComparison.Ordinal);
+        await Assert.ThrowsAsync<InputException>(() => PageServer.StartAsync(new(IPAddress.Loopback, server.Port), "/join.html", null, CancellationToken.None));
     }
 
     [Fact]

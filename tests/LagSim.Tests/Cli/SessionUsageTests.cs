@@ -39,6 +39,8 @@ public sealed class SessionUsageTests
     [InlineData("host --scene drop --web 0 --tokens 0123", "--web contradicts --tokens: the page has no token to show.")]
     [InlineData("join ws://", "'ws://' does not say where the host is: write ws://ADDRESS:PORT")]
     [InlineData("join ws://127.0.0.1:8080#1234", "'ws://127.0.0.1:8080#1234' has no fingerprint after '#'")]
+    [InlineData("join http://127.0.0.1:8080", "'http://127.0.0.1:8080' is the address of a page, for browsers; a native peer joins it as ws://127.0.0.1:8080.")]
+    [InlineData("join https://lagsim.example", "a native peer joins it as wss://lagsim.example.")]
     [InlineData("join", "'join'")]
     [InlineData("join 127.0.0.1:9 --for-s 0", "--for-s is '0'")]
     [InlineData("join 127.0.0.1:9 --scene drop", "'--scene'")]

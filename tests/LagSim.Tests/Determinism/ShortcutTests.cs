@@ -84,6 +84,23 @@ public sealed class ShortcutTests
         Assert.True(shells.ImpactsProcessed > bodies, $"{shells.ImpactsProcessed}");
     }
 
+    /// <summary>While a world heals, bodies are tested against all pieces of the others' paths, of which most surely stay apart.</summary>
+    [Fact]
+    public void Heals_WithAndWithoutShortcuts_AreTheSameToTheBit()
+    {
+        int missed = 0;
+        for (int seed = 0; seed < 300; seed++)
+        {
+            RandomWorld world = new(seed, hands: seed % 2 == 1, forced: seed % 4 == 2);
+            Simulation general = world.Shuffled(seed, parts: new FaultyEngineParts { TakesNoShortcut = true });
+            string? difference = RandomWorld.Difference(general, world.Shuffled(seed));
+            Assert.True(difference is null, $"seed {seed}: {difference}");
+            missed += RandomWorld.Difference(general, world.Shuffled(seed, parts: new FaultyEngineParts { OverlooksPastPaths = true })) is null ? 0 : 1;
+        }
+
+        Assert.True(missed > 20, $"Who takes them for apart without looking is right in all but {missed} worlds."); // the control
+    }
+
     // Before the first impact and after the first predictions, which both kinds of world have made alike.
     private static Simulation Play(Scene scene, EngineParts parts, double seconds = 2)
     {

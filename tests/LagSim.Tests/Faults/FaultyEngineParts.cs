@@ -27,6 +27,9 @@ internal sealed class FaultyEngineParts : EngineParts
     /// <summary>Builds the contact graph of every impact, however plain, and looks at every pair: the same bits by the long way.</summary>
     internal bool TakesNoShortcut { get; init; }
 
+    /// <summary>Takes bodies for apart from whatever another did before its newest segment.</summary>
+    internal bool OverlooksPastPaths { get; init; }
+
     /// <summary>Takes no contact for one that lasts.</summary>
     internal bool IgnoresIslands { get; init; }
 
@@ -68,10 +71,12 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override CollisionSearch CollisionSearch(
         BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-        StepMarks stepMarks) =>
+        SegmentLookup view, StepMarks stepMarks) =>
         TakesNoShortcut
-            ? new LongSearch(bodies, timelines, flights, surfaces, predictor)
-            : base.CollisionSearch(bodies, timelines, flights, surfaces, predictor, stepMarks);
+            ? new LongSearch(bodies, timelines, flights, surfaces, predictor, view)
+            : OverlooksPastPaths
+            ? new HastySearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks)
+            : base.CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks);
 
     internal override EventPredictor EventPredictor(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,

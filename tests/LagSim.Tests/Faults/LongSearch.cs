@@ -7,12 +7,15 @@ using LagSim.Timelines;
 namespace LagSim.Tests.Faults;
 
 /// <summary>
-/// A search that takes no shortcut: it looks at the paths of all candidates, also of bodies in free flight and of one contact step.
+/// A search that takes no shortcut: it looks for the contact with every path of all candidates, also of bodies in free flight, of one
+/// contact step, and of those that surely stay apart.
 /// </summary>
 internal sealed class LongSearch(
-    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor)
-    : CollisionSearch(bodies, timelines, flights, surfaces, predictor, new StepMarks())
+    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor, SegmentLookup view)
+    : CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, new StepMarks())
 {
     internal override void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next) =>
         FindAlong(slot, candidates, from, until, ref next);
+
+    private protected override bool StayApart(int slot, int other, int piece, SimTime until) => false;
 }

@@ -33,7 +33,7 @@ internal sealed class RewoundWorld
         Log.TryAdd(1, Later, Later.Key, forwarded: false);
         SegmentLookup view = new(Timelines, Rollback);
         CollisionPredictor collisions = Predictor(scene, Bodies, Timelines, view);
-        CollisionSearch search = new(Bodies, Timelines, flights, scene.Surfaces, collisions, new StepMarks());
+        CollisionSearch search = new(Bodies, Timelines, flights, scene.Surfaces, collisions, view, new StepMarks());
         AdaptiveBroadPhase broadPhase = new(scene, Bodies, Timelines, bruteForceLimit: 2);
         broadPhase.Begin();
         EventPredictor predictor = new(Bodies, Timelines, Log, Scheduler, Rollback, flights, broadPhase, search, view);
