@@ -108,7 +108,6 @@ public sealed class InterruptedTabTests(ServedPage served)
     private static async Task ActsAsync(JoinedPage joined, string scene)
     {
         (string acts, string seen) = scene == "air-hockey" ? ("w", "frame[17] - frame[10]") : ("", "frame[9]"); // over the puck, which nobody has struck
-        await AgreesFromNowOnAsync(joined);
         double before = await joined.Page.EvaluateAsync<double>($"() => {{ const {{ frame }} = lagsim.peers[0]; return {seen} }}");
         if (scene == "air-hockey")
         {
@@ -124,6 +123,8 @@ public sealed class InterruptedTabTests(ServedPage served)
         {
             await joined.Page.Keyboard.UpAsync(acts);
         }
+
+        await AgreesFromNowOnAsync(joined);
     }
 
     private static async Task AgreesFromNowOnAsync(JoinedPage joined)
