@@ -123,11 +123,16 @@ internal static class Program
     /// </summary>
     private static string[] Problems(ParseResult parsed, bool isOfRoot)
     {
-        string[] all = [.. parsed.Errors.Select(problem => problem.Message)];
+        string[] all = [.. parsed.Errors.Select(problem => Missing(problem, parsed.CommandResult.Command) ?? problem.Message)];
         string[] ofWords = [.. all.Where(message => parsed.UnmatchedTokens.Any(word => message.Contains($"'{word}'", StringComparison.Ordinal)))];
         string[] problems = isOfRoot && ofWords.Length > 0 ? ofWords : all;
         return [.. problems, .. parsed.UnmatchedTokens.Select(word => OtherName(parsed, word)).OfType<string>()];
     }
+
+    /// <summary>Names the argument that a problem says is missing; null for another problem.</summary>
+    private static string? Missing(ParseError problem, Command command) =>
+        problem.SymbolResult is ArgumentResult { Tokens.Count: 0 } result
+            ? $"{result.Argument.Name} is missing: lagsim {command.Name} {string.Join(' ', command.Arguments.Select(argument => argument.Name))}." : null;
 
     /// <summary>
     /// Returns a hint if a duration option was given under the name that other commands use; else null.

@@ -4,12 +4,10 @@ using System.Linq;
 using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Cli.Web;
-using LagSim.Harness.SceneFiles;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Play;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -23,7 +21,7 @@ internal static class HostCommand
         CommonOptions common = new();
         SessionArguments shared = new();
         WebOptions web = new();
-        Option<string> scene = new("--scene") { Description = $"{CommonOptions.SceneText}, or {AirHockeyGame.Name}, a game for two who join.", HelpName = "SCENE", Required = true };
+        Option<string> scene = new("--scene") { Description = HostedScene.Text, HelpName = "SCENE", Required = true };
         Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 picks a free one", 0, 0, 65535);
         Option<string> address = new("--address")
         {
@@ -67,7 +65,7 @@ internal static class HostCommand
         command.SetAction(parsed =>
         {
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
-            Scene loaded = LoadScene(parsed.GetValue(scene)!, parsed.GetValue(common.Seed));
+            Scene loaded = HostedScene.Load(parsed.GetValue(scene)!, parsed.GetValue(common.Seed));
             SessionRequest request = shared.Read(parsed);
             foreach (ScriptedAction action in request.Actions)
             {
@@ -86,7 +84,7 @@ internal static class HostCommand
                 Protection = self is null ? null : new SecureHost(self, Key(parsed.GetValue(tokens))),
                 PlayerBudget = HarmCommand.Budget(parsed.GetValue(budget)),
                 ConfirmsEarly = parsed.GetValue(early),
-                ExpectedClients = AirHockeyGame.IsOf(loaded) && parsed.GetResult(clients)?.Implicit != false ? AirHockeyGame.Players : parsed.GetValue(clients),
+                ExpectedClients = parsed.GetResult(clients)?.Implicit != false ? HostedScene.ExpectedClients(loaded) : parsed.GetValue(clients),
                 Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
             };
             if (parsed.GetValue(perAddress) is int most and > 0)
@@ -137,10 +135,6 @@ internal static class HostCommand
         });
         return command;
     }
-
-    /// <summary>A scene that all commands know, or the game of two players that has rules of its own, at whose host nobody plays.</summary>
-    private static Scene LoadScene(string text, ulong seed) =>
-        text == AirHockeyGame.Name ? AirHockeyGame.Build(AirHockeyGame.Players, seed, isDedicated: true) : SceneSource.Load(text);
 
     private static HostPage OpenPage(SessionDoor door, WebRequest browsers, IPAddress local, ToolConsole console) => HostPage.Start(
         door, new IPEndPoint(local, browsers.Port), ReachableAddresses.Of(local), browsers.Origins, browsers.Certificate, console.Error, console.Stop);

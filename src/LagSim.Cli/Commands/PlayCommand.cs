@@ -43,7 +43,7 @@ internal static class PlayCommand
             console.Output.WriteLine(server.Address);
             console.Output.Flush();
             server.Serve(await PageFolder.FindAsync(console.Error, console.Stop));
-            console.Error.WriteLine("the page is there; Ctrl-C ends it");
+            console.Error.WriteLine($"the page is there: {server.Address} Ctrl-C ends it");
             if (opens)
             {
                 Open(server.Address, console);

@@ -68,6 +68,11 @@ internal sealed class WebOptions
 
     private static X509Certificate2 ReadCertificate(string file)
     {
+        if (!File.Exists(file))
+        {
+            throw new InputException($"--web-certificate is '{file}'; there is no such file.");
+        }
+
         try
         {
             X509Certificate2 read = X509Certificate2.GetCertContentType(file) == X509ContentType.Pfx
@@ -77,7 +82,8 @@ internal sealed class WebOptions
         }
         catch (Exception failure) when (failure is CryptographicException or IOException or UnauthorizedAccessException)
         {
-            throw new InputException($"--web-certificate '{file}' cannot be used: {Sentence.Of(failure)}", failure);
+            throw new InputException(
+                $"--web-certificate '{file}' cannot be used; it must hold a certificate and its private key, as PEM or as PFX without a password: {Sentence.Of(failure)}", failure);
         }
     }
 }

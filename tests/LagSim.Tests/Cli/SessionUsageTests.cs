@@ -41,7 +41,7 @@ public sealed class SessionUsageTests
     [InlineData("join ws://127.0.0.1:8080#1234", "'ws://127.0.0.1:8080#1234' has no fingerprint after '#'")]
     [InlineData("join http://127.0.0.1:8080", "'http://127.0.0.1:8080' is the address of a page, for browsers; a native peer joins it as ws://127.0.0.1:8080.")]
     [InlineData("join https://lagsim.example", "a native peer joins it as wss://lagsim.example.")]
-    [InlineData("join", "'join'")]
+    [InlineData("join", "ADDRESS is missing: lagsim join ADDRESS.")]
     [InlineData("join 127.0.0.1:9 --for-s 0", "--for-s is '0'")]
     [InlineData("join 127.0.0.1:9 --scene drop", "'--scene'")]
     [InlineData("join 127.0.0.1:9 --pass -", "--pass is '-'; a pass is not for stdout, it must be a file.")]
@@ -50,9 +50,14 @@ public sealed class SessionUsageTests
     [InlineData("relay 127.0.0.1:9", "--profile")]
     [InlineData("relay 127.0.0.1:9 --profile dreadful", "There is no link profile 'dreadful'; there are loopback")]
     [InlineData("relay :9 --profile lan", "':9' does not say where the host is")]
-    [InlineData("diff a.lagsim", "'diff'")]
-    [InlineData("replay", "'replay'")]
+    [InlineData("diff a.lagsim", "B is missing: lagsim diff A B.")]
+    [InlineData("replay", "FILE is missing: lagsim replay FILE.")]
     public void Call_ThatCannotBe_IsRefusedWithWhatIsWrong(string line, string says) => Tool.Refuses(Usage, line.Split(' '), says);
+
+    [Theory]
+    [InlineData("host --scene nope", "nope: this is neither a built-in scene (drop, pair, cradle, billiards, crowd, goals, crowd-N for N from 1 to 100000, air-hockey) nor a file that exists")]
+    [InlineData("host --scene drop --web 0 --web-certificate nope.pem", "--web-certificate is 'nope.pem'; there is no such file.")]
+    public void File_ThatIsNotThere_IsRefusedByName(string line, string says) => Tool.Refuses(Input, line.Split(' '), says);
 
     [Fact]
     public void Key_ThatIsTooLong_IsRefused() =>
