@@ -185,7 +185,7 @@ public sealed class UsageTests
     [InlineData("jump", "'jump'")]
     [InlineData("drop --speed 3", "'--speed'")]
     [InlineData("drop 5", "'5'")]
-    [InlineData("run", "'run'")]
+    [InlineData("run", "SCENE is missing: lagsim run SCENE.")]
     [InlineData("run drop pair", "'pair'")]
     [InlineData("drop --peers", "'--peers'")]
     [InlineData("drop --peers 2 --peers 3", "--peers")]
