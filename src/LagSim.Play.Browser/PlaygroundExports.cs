@@ -20,7 +20,6 @@ internal static partial class PlaygroundExports
     private static Playground? playground;
     private static readonly List<double> paths = [];
 
-
     /// <summary>The panes that are shown.</summary>
     internal static IReadOnlyList<Pane> Panes => playground!.Panes;
 
@@ -39,6 +38,30 @@ internal static partial class PlaygroundExports
             return refused.Message;
         }
     }
+
+    /// <summary>Begins a playground of all that can be of a link that came from elsewhere.</summary>
+    /// <returns>A sentence for each part that cannot be, with what is shown instead.</returns>
+    [JSExport]
+    internal static string[] Arrive(string query)
+    {
+        (PlaySetup setup, IReadOnlyList<WrongPart> wrong) = SetupReader.Read(query);
+        List<string> sentences = [.. wrong.Select(part => $"{part.Sentence} {part.Instead}")];
+        try
+        {
+            playground = new Playground(setup);
+        }
+        catch (InvalidOperationException refused)
+        {
+            sentences.Add($"{refused.Message} The usual set-up is shown instead.");
+            playground = new Playground(new PlaySetup());
+        }
+
+        return [.. sentences];
+    }
+
+    /// <summary>What the worlds are set up with otherwise than a step says.</summary>
+    [JSExport]
+    internal static string[] Changes(string step) => [.. GuidedSteps.Named(step).ChangesIn(playground!.Setup)];
 
     /// <summary>From now on the links are those of a set-up.</summary>
     /// <returns>A sentence on what cannot be; empty if they are.</returns>
@@ -82,6 +105,8 @@ internal static partial class PlaygroundExports
             WriteStrings(json, "scenes", [.. PlayScene.Names]);
             WriteStrings(json, "strategies", [.. PlaySetup.StrategyNames.Reverse()]);
             WriteStrings(json, "links", [.. LinkSettings.Names]);
+            SetupJson.WriteNumbers(json);
+            SetupJson.WriteProfiles(json);
             json.WriteEndObject();
         }
 

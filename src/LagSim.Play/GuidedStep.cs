@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Linq;
 
 namespace LagSim.Play;
 
@@ -13,7 +14,24 @@ namespace LagSim.Play;
 /// <param name="Variants">Other set-ups to hold it against: what each is, and its query.</param>
 internal sealed record GuidedStep(
     string Name, string Title, string Subtitle, string Query, IReadOnlyList<string> Sentences, string? Test,
-    IReadOnlyList<GuidedDeed> Deeds, IReadOnlyList<(string Text, string Query)> Variants);
+    IReadOnlyList<GuidedDeed> Deeds, IReadOnlyList<(string Text, string Query)> Variants)
+{
+    /// <summary>What a set-up has otherwise than the step, in words, so that what the step says need not be so of it; none if it is that of
+    /// the step or of a variant.</summary>
+    /// <remarks>Seed and speed may be any: what the step says does not depend on them.</remarks>
+    internal IReadOnlyList<string> ChangesIn(PlaySetup setup)
+    {
+        string[][] changes = [.. Variants.Select(variant => variant.Query).Prepend(Query).Select(query => Changes(PlaySetup.Parse(query), setup))];
+        return changes.Any(none => none.Length == 0) ? [] : changes[0];
+    }
+
+    private static string[] Changes(PlaySetup own, PlaySetup setup) =>
+    [
+        .. PlaySetup.Names
+            .Where(name => name is not ("seed" or "speed") && setup.ValueOf(name) is string value && value != own.ValueOf(name))
+            .Select(name => own.ValueOf(name) is string before ? $"{name} is {setup.ValueOf(name)}, not {before}" : $"{name} is {setup.ValueOf(name)}"),
+    ];
+}
 
 /// <summary>What a button of a step does.</summary>
 /// <param name="Text">What the button says.</param>

@@ -32,7 +32,7 @@ internal sealed record LinkSettings
     /// <summary>How much longer the way to the host takes than the way back, in milliseconds; at most twice the delay, either way.</summary>
     internal double AsymmetryMilliseconds { get; init; }
 
-    /// <summary>How far the clocks of clients are ahead of the host's, in milliseconds, up to an hour either way.</summary>
+    /// <summary>How far the clocks of clients are ahead of the host's, in milliseconds, up to ten seconds either way.</summary>
     internal double ClockOffsetMilliseconds { get; init; }
 
     /// <summary>Returns what the virtual network makes of it.</summary>

@@ -162,6 +162,26 @@ public sealed class GuidedStepPageTests(ServedPage served)
         await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
         Assert.Equal("step", await page.Page.Locator("#steps ol a[data-step=loss]").GetAttributeAsync("aria-current"));
         Assert.Equal("40", await page.Page.Locator("input[name=loss]").InputValueAsync());
+
+        // Another set-up than the step's is said to be one, until it is the step's again; seed and speed may be any.
+        ILocator changed = page.Page.Locator(".changed"), deed = page.Page.Locator("#step .deeds button");
+        await page.Page.Locator("select[name=speed]").SelectOptionAsync("0.5");
+        Assert.False(await changed.IsVisibleAsync());
+        await page.Page.Locator("input[name=delay]").FillAsync("300");
+        Assert.StartsWith(
+            "The worlds are not set up as this step says: delay is 300, not 60. What it says need not be so here.", await changed.InnerTextAsync(), StringComparison.Ordinal);
+        Assert.True(await deed.IsEnabledAsync());
+        await page.Page.Locator("select[name=scene]").SelectOptionAsync("drop");
+        Assert.Contains("says: scene is drop, not room; delay is 300, not 60.", await changed.InnerTextAsync(), StringComparison.Ordinal);
+        Assert.False(await deed.IsEnabledAsync()); // it throws balls that are not there
+        await changed.GetByRole(AriaRole.Button).ClickAsync();
+        Assert.False(await changed.IsVisibleAsync());
+        Assert.True(await deed.IsEnabledAsync());
+        Assert.EndsWith("?step=loss&scene=room&panes=healing,healing,none&delay=60&jitter=20&loss=40&burst=10&speed=0.5", page.Page.Url, StringComparison.Ordinal);
+        Assert.Equal("60", await page.Page.Locator("input[name=delay]").InputValueAsync());
+        await page.Page.GetByRole(AriaRole.Link, new() { Name = "The same without loss" }).ClickAsync();
+        Assert.Equal("0", await page.Page.Locator("input[name=loss]").InputValueAsync());
+        Assert.False(await changed.IsVisibleAsync()); // the step itself offers this one
     }
 
     [Fact]
@@ -227,9 +247,15 @@ public sealed class GuidedStepPageTests(ServedPage served)
     public async Task Step_ThatThereIsNot_IsNamed()
     {
         await using OpenedPage page = await OpenedPage.OpenAsync(served, "step=moon");
-        Assert.Equal("There is no step 'moon'; there are lift, hand, break, loss, later.", await page.Page.Locator("#problem").InnerTextAsync());
+        Assert.StartsWith(
+            "There is no step 'moon'; there are lift, hand, break, loss, later. No step is shown.\n", await page.Page.Locator("#problem").InnerTextAsync(), StringComparison.Ordinal);
+        Assert.EndsWith("?step=moon", page.Page.Url, StringComparison.Ordinal);
         Assert.False(await page.Page.Locator("#step").IsVisibleAsync());
         await page.AgreeAsync(2);
+        await page.Page.GotoAsync($"{served.Address}?step=loss&step=later");
+        await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+        Assert.StartsWith(
+            "'step' is there 2 times, as 'loss', 'later'; once is allowed. No step is shown.\n", await page.Page.Locator("#problem").InnerTextAsync(), StringComparison.Ordinal);
     }
 
     private static string OfBest(JsonElement prediction)

@@ -90,9 +90,7 @@ internal sealed class OpenedPage : IAsyncDisposable
     /// <summary>Takes a ball with the mouse, drags it, and lets go while it moves.</summary>
     internal async Task ThrowAsync(int pane, int ball, float dx, float dy)
     {
-        (float x, float y) = await BallAsync(pane, ball);
-        await Page.Mouse.MoveAsync(x, y);
-        await Page.Mouse.DownAsync();
+        (float x, float y) = await TakeAsync(pane, ball);
         for (int n = 1; n <= 12; n++)
         {
             await Page.Mouse.MoveAsync(x + (dx * n / 12), y + (dy * n / 12));
@@ -100,6 +98,26 @@ internal sealed class OpenedPage : IAsyncDisposable
         }
 
         await Page.Mouse.UpAsync();
+    }
+
+    /// <summary>Takes a ball with the mouse, which stays down, and returns where. A ball that has gone on meanwhile is gone after.</summary>
+    private async Task<(float X, float Y)> TakeAsync(int pane, int ball)
+    {
+        for (int n = 0; n < 20; n++)
+        {
+            (float x, float y) = await BallAsync(pane, ball);
+            await Page.Mouse.MoveAsync(x, y);
+            await Page.Mouse.DownAsync();
+            if (await Canvas(pane).EvaluateAsync<bool>("canvas => canvas.classList.contains('holding')"))
+            {
+                return (x, y);
+            }
+
+            await Page.Mouse.UpAsync();
+        }
+
+        Assert.Fail($"Ball {ball} of pane {pane} cannot be taken.");
+        return default;
     }
 
     private void Note(bool isComplaint, string text)

@@ -130,8 +130,8 @@ public sealed class PlayPageTests(ServedPage served)
             await page.Page.Keyboard.PressAsync("ArrowRight");
         }
 
-        Assert.Equal("250", await ahead.InputValueAsync());
-        Assert.Contains("ahead=250", page.Page.Url, StringComparison.Ordinal);
+        Assert.Equal("130", await ahead.InputValueAsync());
+        Assert.Contains("ahead=130", page.Page.Url, StringComparison.Ordinal);
         LocatorBoundingBoxResult box = (await ahead.BoundingBoxAsync())!;
         await page.Page.Mouse.MoveAsync(box.X + (0.3f * box.Width), box.Y + (box.Height / 2));
         await page.Page.Mouse.DownAsync();
@@ -156,12 +156,66 @@ public sealed class PlayPageTests(ServedPage served)
         Assert.Equal("none", await page.Page.Locator(".pane").Nth(1).Locator("select").InputValueAsync());
     }
 
+    /// <summary>What in an address cannot be costs that alone, is named, and stays in the address until a person changes something.</summary>
     [Fact]
-    public async Task SetUp_ThatCannotBe_IsNamed()
+    public async Task SetUp_ThatCannotBe_IsNamedAndAllElseOfItIsShown()
     {
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=moon&delay=9");
-        Assert.Equal("'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits, air-hockey.", await page.Page.Locator("#problem").InnerTextAsync());
-        await page.AgreeAsync(2); // and the usual set-up is shown
+        const string Query = "scene=moon&delay=30&players=9&loss=2&loss=3&jitter=abc&ahead=300";
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, Query);
+        string[] lines = (await page.Page.Locator("#problem").InnerTextAsync()).Split('\n');
+        Assert.Equal(
+            [
+                "'loss' is there 2 times, as '2', '3'; once is allowed. 'loss=0' is shown instead.",
+                "'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits, air-hockey. 'scene=room' is shown instead.",
+                "'players' is no part of a set-up; there are scene, link, panes, seed, delay, jitter, loss, burst, asymmetry, clock, ahead, lag, smooth, speed. It is left out.",
+                "'jitter' is 'abc'; it must be a number from 0 to 500. 'jitter=0' is shown instead.",
+                "All else is as the address has it. The address stays as it is until you change something.",
+            ], lines);
+        Assert.Equal(["30", "0", "0", "300"], await ValuesAsync(page, "delay", "loss", "jitter", "ahead"));
+        Assert.EndsWith($"?{Query}", page.Page.Url, StringComparison.Ordinal);
+        await page.AgreeAsync(2);
+        await page.Page.Locator("input[name=loss]").FillAsync("4");
+        Assert.EndsWith("?scene=room&panes=healing,healing&delay=30&ahead=300&loss=4", page.Page.Url, StringComparison.Ordinal);
+        Assert.False(await page.Page.Locator("#problem").IsVisibleAsync());
+    }
+
+    /// <summary>The sliders show what a profile is, and who moves one goes on from there.</summary>
+    [Fact]
+    public async Task Profile_Chosen_IsWhatTheSlidersShowAndAreMovedFrom()
+    {
+        string[] link = ["link", "delay", "jitter", "loss", "burst", "asymmetry", "clock"];
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "link=awful&delay=30&loss=1");
+        Assert.StartsWith(
+            "'link=awful' and 'delay=30', 'loss=1' disagree: a profile has its own delay, jitter, loss, burst, asymmetry, clock. The profile 'awful' is shown, as it is.",
+            await page.Page.Locator("#problem").InnerTextAsync(), StringComparison.Ordinal);
+        Assert.Equal(["awful", "200", "60", "10", "5", "0", "0"], await ValuesAsync(page, link));
+        Assert.Contains("5 % reordered; 2 % twice", await page.Page.Locator(".besides").InnerTextAsync(), StringComparison.Ordinal);
+        await page.Page.Locator("select[name=link]").SelectOptionAsync("5g");
+        Assert.Equal(["5g", "12.5", "3", "0.1", "1.5", "11", "0"], await ValuesAsync(page, link));
+        Assert.Equal("12.5 ms", await page.Page.Locator("label:has(input[name=delay]) output").InnerTextAsync());
+        Assert.EndsWith("?scene=room&panes=healing,healing&link=5g", page.Page.Url, StringComparison.Ordinal);
+        await page.Page.Locator("input[name=loss]").FocusAsync();
+        await page.Page.Keyboard.PressAsync("End");
+        Assert.Equal(["custom", "12.5", "3", "50", "1.5", "11", "0"], await ValuesAsync(page, link));
+        Assert.False(await page.Page.Locator(".besides").IsVisibleAsync());
+        Assert.EndsWith("&delay=12.5&jitter=3&loss=50&burst=1.5&asymmetry=11", page.Page.Url, StringComparison.Ordinal);
+        await page.Page.ReloadAsync();
+        await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+        Assert.Equal(["custom", "12.5", "3", "50", "1.5", "11", "0"], await ValuesAsync(page, link));
+        Assert.Equal("own figures", await page.Page.EvaluateAsync<string>("() => document.querySelector('select[name=link]').selectedOptions[0].text"));
+
+        // Whatever the address may have the sliders show, to their ends and between their steps.
+        foreach (string query in new[] { "delay=2000&asymmetry=-995&clock=10000&ahead=1000&lag=500&speed=0.3", "jitter=12.5&loss=50&burst=20&speed=2" })
+        {
+            await page.Page.GotoAsync($"{served.Address}?{query}");
+            await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+            foreach (string part in query.Split('&'))
+            {
+                Assert.Equal(part, $"{part.Split('=')[0]}={(await ValuesAsync(page, part.Split('=')[0]))[0]}");
+            }
+
+            Assert.False(await page.Page.Locator("#problem").IsVisibleAsync());
+        }
     }
 
     [Theory]
@@ -180,16 +234,64 @@ public sealed class PlayPageTests(ServedPage served)
         Assert.Equal(["H1 LagSim"], await Pale(page)); // the control
     }
 
+    /// <summary>Whatever its width the page fits, with all that it may have to say, and figures side by side are at one height.</summary>
+    [Fact]
+    public async Task Page_OfAnyWidth_FitsAndHasItsFiguresInRows()
+    {
+        const string Complaints =
+            """
+            () => {
+              const all = document.documentElement.scrollWidth > innerWidth ? [`the page is ${document.documentElement.scrollWidth} wide`] : []
+              for (const list of document.querySelectorAll('.figures')) {
+                const heights = new Set([...list.querySelectorAll('dd')].map(dd => Math.round(dd.getBoundingClientRect().bottom)))
+                const rows = 6 / getComputedStyle(list).gridTemplateColumns.split(' ').length
+                heights.size !== rows && all.push(`${heights.size} heights in ${rows} rows`)
+              }
+              for (const says of document.querySelectorAll('.agrees span')) {
+                const box = says.getBoundingClientRect(), hash = says.parentElement.querySelector('code').getBoundingClientRect()
+                box.left < hash.right && box.top < hash.bottom && all.push('the hash is written over')
+              }
+              return all
+            }
+            """;
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "step=loss&scene=break&panes=healing,healing&link=starlink&players=9");
+        Assert.True(await page.Page.Locator("#problem").IsVisibleAsync() && await page.Page.Locator(".changed").IsVisibleAsync() && await page.Page.Locator(".besides").IsVisibleAsync());
+        await page.AgreeAsync(2); // the hashes are there
+        foreach (string scene in new[] { "break", "air-hockey" })
+        {
+            if (scene != "break")
+            {
+                await page.Page.Locator("select[name=scene]").SelectOptionAsync(scene); // after that the sentence is gone
+            }
+
+            foreach (int width in new[] { 1600, 1280, 1024, 700, 390, 320, 280, 240 })
+            {
+                await page.Page.SetViewportSizeAsync(width, 900);
+                Assert.Equal([], (await page.Page.EvaluateAsync<string[]>(Complaints)).Select(complaint => $"{scene}, {width}: {complaint}"));
+            }
+        }
+
+        // The control: as it was.
+        await page.Page.AddStyleTagAsync(new() { Content = "#controls { grid-template-columns: auto } label { grid-template-columns: 6.5rem 1fr 4rem !important }" });
+        Assert.StartsWith("the page is ", (await page.Page.EvaluateAsync<string[]>(Complaints))[0], StringComparison.Ordinal);
+        await page.Page.SetViewportSizeAsync(1280, 900);
+        await page.Page.AddStyleTagAsync(new() { Content = ".pane .figures { grid-template-columns: repeat(6, auto); align-items: stretch }" });
+        Assert.Contains("2 heights in 1 rows", await page.Page.EvaluateAsync<string[]>(Complaints));
+    }
+
     [Fact]
     public async Task Folder_ServedByAnotherServer_PlaysAsWell()
     {
         string folder = System.IO.Path.Combine(ServedPage.Root, "src/LagSim.Play.Browser/bin/page/wwwroot");
         await using OtherServer other = await OtherServer.StartAsync(folder);
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=50", address: other.Address);
-        await page.ThrowAsync(0, 5, 40, -60);
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=break&panes=healing,healing&delay=50", address: other.Address);
+        await page.ThrowAsync(0, 0, 70, -10); // which rests until then
         await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
         await page.AgreeAsync(2);
     }
+
+    private static async Task<string[]> ValuesAsync(OpenedPage page, params string[] names) =>
+        await page.Page.EvaluateAsync<string[]>("names => names.map(name => document.getElementById('controls').elements[name].value)", names);
 
     /// <summary>The texts that stand out too little from what is behind them: by less than 4.5 to 1, as WCAG 2 measures it.</summary>
     private static async Task<string[]> Pale(OpenedPage page)

@@ -16,6 +16,11 @@ export function short(number) {
   return String(Number(number.toPrecision(4)))
 }
 
+/** A figure that was set: as it is, to six digits. */
+export function figure(number) {
+  return String(Number(number.toPrecision(6)))
+}
+
 /** Sets a text only if it is another one. */
 export function set(element, text) {
   if (element.textContent !== text) {

@@ -22,7 +22,8 @@ const keyboard = new SharedKeyboard((player, x, y) => {
 
 const controls = new Controls(found('controls'), {
   begin,
-  link: query => say(engine.SetLink(query)),
+  link,
+  speed: () => say(),
   pause: isPaused => isPaused || scrubber.reset(),
   step: () => { scrubber.reset(); advance(1 / 60, 1 / 60) },
 })
@@ -35,7 +36,7 @@ const summary = new Summary(found('summary'))
 try {
   const { PlaygroundExports, AirHockeyExports } = await loadRuntime({ takePaths: view => scrubber.take(view) })
   engine = { ...PlaygroundExports, speed: () => controls.speed, heals: () => panes.map(pane => pane.heals), airHockey: AirHockeyExports }
-  steps = new Steps(found('steps'), JSON.parse(engine.Steps()), { open: openStep, close: closeStep, act, seed })
+  steps = new Steps(found('steps'), JSON.parse(engine.Steps()), { open: openStep, close: closeStep, restore, act, seed })
   arrive()
   found('loading').hidden = true
   requestAnimationFrame(tick)
@@ -56,20 +57,26 @@ addEventListener('keydown', event => {
   }
 })
 
-// For scripts and tests: where a pane draws a ball on the screen, in CSS pixels.
-window.lagsim = { placeOnScreen: (pane, ball) => panes[pane].placeOnScreen(ball) }
+// For scripts and tests: where a pane draws a ball on the screen, in CSS pixels, and at how many seconds of the worlds that is.
+window.lagsim = { placeOnScreen: (pane, ball) => panes[pane].placeOnScreen(ball), seconds: () => frame[0] }
 
-/** Shows what the address of the page says: a set-up, and a step beside it. */
+/** Shows what the address of the page says: a set-up, and a step beside it. What in it cannot be is said, and the address left as it is. */
 function arrive() {
-  if (!begin(controls.query || steps.queryOf(controls.step))) {
-    begin('') // the sentence says what was wrong; the page shows the usual set-up
-  }
+  const wrong = [...controls.wrong]
   if (controls.step !== null && !steps.has(controls.step)) {
-    say(`There is no step '${controls.step}'; there are ${steps.names.join(', ')}.`)
+    wrong.push(`There is no step '${controls.step}'; there are ${steps.names.join(', ')}. No step is shown.`)
     controls.step = null
+  }
+  wrong.unshift(...engine.Arrive(controls.query || steps.queryOf(controls.step)))
+  show()
+  if (wrong.length === 0) {
+    say()
     controls.remember()
+  } else {
+    say(...wrong, 'All else is as the address has it. The address stays as it is until you change something.')
   }
   steps.show(controls.step, controls.values.get('seed') ?? '1')
+  compare()
 }
 
 function openStep(name, values) {
@@ -82,6 +89,7 @@ function closeStep() {
   const name = controls.step
   controls.step = null
   controls.remember()
+  say()
   steps.show(null)
   document.querySelector(`[data-step=${name}]`).focus()
 }
@@ -94,6 +102,15 @@ function act(name, deed) {
   }
 }
 
+/** The set-up of a step once more; seed and speed stay, and so does the test beside it. */
+function restore(name) {
+  const values = new URLSearchParams(steps.queryOf(name))
+  for (const key of ['seed', 'speed'].filter(one => controls.values.has(one))) {
+    values.set(key, controls.values.get(key))
+  }
+  begin(values.toString())
+}
+
 /** Another seed for the worlds, and for the test beside them. */
 function seed(text) {
   controls.values.set('seed', text)
@@ -103,12 +120,33 @@ function seed(text) {
 /** Begins a set-up; says what is wrong with it, and goes on with the one before, if it cannot be. */
 function begin(query) {
   const wrong = engine.Begin(query)
+  say(wrong)
   if (wrong) {
-    say(wrong)
-    setup && controls.build(setup)
+    setup = JSON.parse(engine.Describe())
+    controls.build(setup, controls.values.get('speed'))
     return false
   }
-  query !== '' && say('')
+  show()
+  controls.remember()
+  compare()
+  return true
+}
+
+/** Other links, in the same worlds; whether they can be. */
+function link(query) {
+  const wrong = engine.SetLink(query)
+  say(wrong)
+  compare()
+  return wrong === ''
+}
+
+/** Holds the worlds against the step that is open. */
+function compare() {
+  controls.step !== null && steps.compare(engine.Changes(controls.step), setup)
+}
+
+/** Shows the worlds that the engine has begun. */
+function show() {
   setup = JSON.parse(engine.Describe())
   panes = setup.panes.map((_, number) => new Pane(number, setup, engine, (pane, name) => controls.strategy(pane, name, setup.panes)))
   document.documentElement.dataset.scene = setup.scene
@@ -122,12 +160,13 @@ function begin(query) {
   controls.build(setup)
   panes.forEach(pane => pane.resize())
   lastHash = -1
-  return true
 }
 
-function say(sentence) {
-  found('problem').textContent = sentence
-  found('problem').hidden = sentence === ''
+/** Says sentences on what is wrong; none for nothing. */
+function say(...sentences) {
+  const text = sentences.join('\n')
+  found('problem').textContent = text
+  found('problem').hidden = text === ''
 }
 
 function tick(now) {

@@ -1,5 +1,5 @@
 // Things to try: five steps, each an ordinary link that holds its set-up. An opened step says what to look at, and does what it needs.
-import { make } from './figures.mjs'
+import { make, set } from './figures.mjs'
 import { ThesisTest } from './thesis.mjs'
 
 /** The list of steps, and the one that is open. */
@@ -7,7 +7,8 @@ export class Steps {
   /**
    * @param section where it is built
    * @param steps what the engine offers
-   * @param on what is called: `open(name, query)` for the set-up of a step, `close()`, `act(name, deed)`, and `seed(text)`, whether it can be
+   * @param on what is called: `open(name, query)` for the set-up of a step, `close()`, `restore(name)`, `act(name, deed)`, and
+   *   `seed(text)`, whether it can be
    */
   constructor(section, steps, on) {
     this.section = section
@@ -55,6 +56,14 @@ export class Steps {
     }
     const close = make('button', { type: 'button', class: 'close', 'aria-label': 'Close this step' }, '×')
     close.addEventListener('click', () => this.on.close())
+    this.open = step
+    this.says = make('span')
+    const restore = make('button', { type: 'button' }, 'Set the worlds up as the step says')
+    restore.addEventListener('click', () => {
+      this.on.restore(step.name)
+      close.focus() // this button is gone
+    })
+    this.changed = make('div', { class: 'changed', role: 'status', hidden: '' }, this.says, restore)
     const buttons = step.deeds.map((text, number) => {
       const button = make('button', { type: 'button', class: 'main' }, text)
       button.addEventListener('click', () => this.on.act(step.name, number))
@@ -62,12 +71,22 @@ export class Steps {
     })
     const links = [...step.variants, { text: 'Start this step again', query: step.query }].map(({ text, query }) =>
       make('a', { href: address(step.name, query), 'data-step': step.name }, text))
-    this.panel.append(close, make('h3', {}, step.title), ...step.sentences.map(text => make('p', {}, text)), make('p', { class: 'deeds' }, ...buttons, ...links))
+    this.deeds = buttons
+    this.panel.append(close, make('h3', {}, step.title), this.changed, ...step.sentences.map(text => make('p', {}, text)), make('p', { class: 'deeds' }, ...buttons, ...links))
     if (step.test) {
       this.test = new ThesisTest(step.test, seed, this.on.seed)
       this.panel.append(this.test.element)
       this.test.run()
     }
+  }
+
+  /** Says what the worlds are set up with otherwise than the open step says; its buttons need its scene and its players. */
+  compare(changes, setup) {
+    const own = new URLSearchParams(this.open.query)
+    this.changed.hidden = changes.length === 0
+    set(this.says, changes.length === 0 ? '' : `The worlds are not set up as this step says: ${changes.join('; ')}. What it says need not be so here.`)
+    const canAct = setup.scene === own.get('scene') && setup.panes.length >= own.get('panes').split(',').length
+    this.deeds.forEach(button => { button.disabled = !canAct })
   }
 }
 

@@ -36,6 +36,26 @@ public sealed class GuidedStepTests
         }
     }
 
+    /// <summary>A step knows its own set-up and those it offers, with any seed and at any speed; any other it tells apart, by what differs.</summary>
+    [Theory]
+    [MemberData(nameof(Names))]
+    public void ChangesIn_OfASetUp_AreWhatItHasOtherwise(string name)
+    {
+        GuidedStep step = GuidedSteps.Named(name);
+        foreach (string query in step.Variants.Select(variant => variant.Query).Prepend(step.Query))
+        {
+            Assert.Empty(step.ChangesIn(PlaySetup.Parse($"{query}&seed=7&speed=0.25")));
+            PlaySetup setup = PlaySetup.Parse(query);
+            Assert.Contains("smooth is 0, not 1", step.ChangesIn(setup with { IsSmooth = false }));
+            Assert.Contains("link is awful, not custom", step.ChangesIn(setup with { Link = new LinkSettings { Profile = "awful" } }));
+        }
+
+        PlaySetup own = PlaySetup.Parse(step.Query);
+        Assert.Equal([$"scene is cradle, not {own.Scene}"], step.ChangesIn(own with { Scene = "cradle" }));
+        Assert.Equal(
+            [$"delay is 35, not {own.Link.DelayMilliseconds}"], step.ChangesIn(own with { Link = own.Link with { DelayMilliseconds = 35 } }));
+    }
+
     [Fact]
     public void Break_Seen200MillisecondsLate_IsAnotherGameWithoutHealing()
     {
