@@ -40,6 +40,19 @@ internal static partial class AirHockeyExports
         return names;
     }
 
+    /// <summary>Whether each player is there, as a <see cref="PlayerPresence"/>.</summary>
+    [JSExport]
+    internal static int[] Presences(int pane)
+    {
+        int[] presences = new int[BoardOf(pane).Players];
+        for (int player = 0; player < presences.Length; player++)
+        {
+            presences[player] = (int)BoardOf(pane).PresenceOf(player);
+        }
+
+        return presences;
+    }
+
     /// <summary>Keys of a pane's player are down.</summary>
     [JSExport]
     internal static void Steer(int pane, double x, double y) => PlayerOf(pane)?.Steer(x, y);

@@ -23,8 +23,10 @@ internal static partial class JoinExports
 {
     private static readonly TimeSpan LongestWait = TimeSpan.FromSeconds(1);
 
-    private static readonly List<(JoinedWorld World, WebSocketClientPort Port)> Peers = [];
+    private static readonly Dictionary<int, (JoinedWorld World, WebSocketClientPort Port)> Peers = [];
     private static readonly FrameWriter Frame = new();
+
+    private static int joined;
 
     /// <summary>Joins a host's session, with one more peer of this page.</summary>
     /// <param name="address">Of its WebSocket.</param>
@@ -34,10 +36,11 @@ internal static partial class JoinExports
     /// <param name="pass">Of the player that this one was before; empty for none.</param>
     /// <param name="timeoutSeconds">How long the host may be silent.</param>
     /// <param name="rejoinSeconds">How long it is asked again when it was.</param>
-    /// <returns>A sentence on what cannot be; empty if it asks now. Peers are counted from 0 in the other calls.</returns>
+    /// <returns>A sentence on what cannot be; empty if it asks now. In the other calls it has the next number, from 0.</returns>
     [JSExport]
     internal static string Join(string address, string fingerprint, string key, string name, string pass, double timeoutSeconds, double rejoinSeconds)
     {
+        WebSocketClientPort? port = null;
         try
         {
             PlayerPass.TryParse(pass, out PlayerPass former);
@@ -51,30 +54,32 @@ internal static partial class JoinExports
                 Timeout = SimDuration.FromSeconds(timeoutSeconds),
                 RejoinTime = SimDuration.FromSeconds(rejoinSeconds),
             };
-            WebSocketClientPort port = new(new Uri(address));
+            port = new WebSocketClientPort(new Uri(address));
             JoinedWorld world = new(port, WebSocketClientPort.Host, options, new StopwatchClock());
-            Peers.Add((world, port));
-            AirHockeyExports.PlayerOf = peer => Peers[peer].World.Player;
-            AirHockeyExports.BoardOf = peer => Peers[peer].World.Board!;
+            Peers.Add(joined++, (world, port));
+            AirHockeyExports.PlayerOf = peer => Held(peer)?.Player;
+            AirHockeyExports.BoardOf = peer => WorldOf(peer).Board!;
             port.Arrived += () => world.Step();
             _ = StepWhenDueAsync(world);
             return "";
         }
         catch (Exception refused) when (refused is FormatException or ArgumentException or InvalidOperationException)
         {
-            return refused.Message;
+            port?.Dispose(); // it would go on connecting
+            string ofCode = refused is ArgumentException { ParamName: string parameter } ? $" (Parameter '{parameter}')" : "\n";
+            return refused.Message.Replace(ofCode, "", StringComparison.Ordinal);
         }
     }
 
     /// <summary>What is drawn of a peer, as JSON: the rectangle of the view, what stands still in it, and the bodies; empty until the scene is there.</summary>
     [JSExport]
-    internal static string Describe(int peer) => Peers[peer].World.View is not PlayScene view ? "" : Encoding.UTF8.GetString(Json(json =>
+    internal static string Describe(int peer) => WorldOf(peer).View is not PlayScene view ? "" : Encoding.UTF8.GetString(Json(json =>
     {
         json.WriteString("scene", view.IsAirHockey ? AirHockeyGame.Name : view.Scene.Name);
-        json.WriteNumber("began", Peers[peer].World.Session.World?.Simulation.Start.Ticks ?? 0); // another session of a host has another time
+        json.WriteNumber("began", WorldOf(peer).Session.World?.Simulation.Start.Ticks ?? 0); // another session of a host has another time
         SceneJson.WriteView(json, view);
         json.WriteStartArray("bodies");
-        foreach (JoinedBody body in Peers[peer].World.Bodies)
+        foreach (JoinedBody body in WorldOf(peer).Bodies)
         {
             json.WriteStartObject();
             json.WriteString("name", body.Body.ToString());
@@ -93,7 +98,11 @@ internal static partial class JoinExports
         ClientSession session = world.Session;
         json.WriteString("state", session.State.ToString());
         json.WriteString("end", session.EndReason);
+        json.WriteString("ended_by", session.EndedBy.ToString());
+        json.WriteBoolean("key_wrong", world.IsKeyWrong);
         json.WriteString("connection", port.Failure);
+        json.WriteBoolean("connected", port.IsConnected);
+        json.WriteNumber("reconnections", port.Reconnections);
         json.WriteNumber("player", session.Peer);
         json.WriteBoolean("looks_on", world.View?.IsAirHockey == true && world.Player is null);
         json.WriteString("pass", session.Pass?.ToString());
@@ -113,6 +122,7 @@ internal static partial class JoinExports
             json.WriteNumber("number", one.Number);
             json.WriteString("name", one.Name);
             json.WriteBoolean("silent", one.SilentSince is not null);
+            json.WriteBoolean("plays", one.Number > 0 && one.Role != PeerRole.Spectator);
             json.WriteEndObject();
         }
 
@@ -124,7 +134,7 @@ internal static partial class JoinExports
     internal static string[] TakeCommits(int peer)
     {
         List<string> taken = [];
-        while (Peers[peer].World.TryTakeCommit(out double seconds, out CommittedState state))
+        while (WorldOf(peer).TryTakeCommit(out double seconds, out CommittedState state))
         {
             taken.Add(string.Create(CultureInfo.InvariantCulture, $"T {seconds} s state {state.StateHash:x16} events {state.EventHash:x16}"));
         }
@@ -156,20 +166,47 @@ internal static partial class JoinExports
 
     /// <summary>The person at a peer takes a body.</summary>
     [JSExport]
-    internal static bool Grab(int peer, double x, double y, double reach) => Peers[peer].World.Grab(x, y, reach);
+    internal static bool Grab(int peer, double x, double y, double reach) => Held(peer)?.Grab(x, y, reach) == true;
 
     /// <summary>The hand moves.</summary>
     [JSExport]
     internal static void MoveHand(int peer, double x, double y, double velocityX, double velocityY) =>
-        Peers[peer].World.MoveHand(x, y, velocityX, velocityY);
+        Held(peer)?.MoveHand(x, y, velocityX, velocityY);
 
     /// <summary>The hand lets go.</summary>
     [JSExport]
-    internal static void Release(int peer, double velocityX, double velocityY) => Peers[peer].World.Release(velocityX, velocityY);
+    internal static void Release(int peer, double velocityX, double velocityY) => Held(peer)?.Release(velocityX, velocityY);
 
     /// <summary>All peers of this page leave the session.</summary>
     [JSExport]
-    internal static void Leave() => Peers.ForEach(one => one.World.Dispose());
+    internal static void Leave()
+    {
+        foreach ((JoinedWorld world, _) in Peers.Values)
+        {
+            world.Dispose();
+        }
+    }
+
+    /// <summary>Gives up the world of a peer that has ended, and its connection, which would otherwise be opened again for ever.</summary>
+    [JSExport]
+    internal static void Drop(int peer)
+    {
+        WorldOf(peer).Dispose();
+        Peers.Remove(peer);
+    }
+
+    /// <summary>How many worlds are held, for scripts and tests.</summary>
+    [JSExport]
+    internal static int CountHeld() => Peers.Count;
+
+    /// <summary>Why a name cannot be, as a sentence; empty if it can.</summary>
+    [JSExport]
+    internal static string WhyNoName(string name) => JoinedName.WhyNot(name) ?? "";
+
+    private static JoinedWorld WorldOf(int peer) => Peers[peer].World;
+
+    /// <summary>The world of a peer; null if it was given up: what a hand does that was still on it goes nowhere.</summary>
+    private static JoinedWorld? Held(int peer) => Peers.TryGetValue(peer, out (JoinedWorld World, WebSocketClientPort) one) ? one.World : null;
 
     private static HostFingerprint Fingerprint(string text) =>
         HostFingerprint.TryParse(text, out HostFingerprint read) ? read : throw new FormatException($"'{text}' is no fingerprint of a host.");

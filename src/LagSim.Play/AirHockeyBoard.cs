@@ -56,6 +56,25 @@ internal sealed class AirHockeyBoard
         return name;
     }
 
+    /// <summary>Whether a player is there, as far as this peer has been told.</summary>
+    /// <param name="player">Its number, from 0.</param>
+    internal PlayerPresence PresenceOf(int player)
+    {
+        byte peer = Table.PeerOf(session.Scene!, player);
+        bool isTold = false;
+        foreach (RosterMember one in session.Roster)
+        {
+            if (one.Number == peer)
+            {
+                return one.SilentSince is null ? PlayerPresence.Here : PlayerPresence.Silent;
+            }
+
+            isTold |= one.Number == session.Peer;
+        }
+
+        return isTold ? PlayerPresence.Away : PlayerPresence.Here; // who is not in the roster itself has none yet
+    }
+
     /// <summary>A frame: reads what is shown.</summary>
     /// <param name="display">Where bodies are drawn.</param>
     internal void Look(DisplayOffsets display)

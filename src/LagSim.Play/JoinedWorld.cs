@@ -4,6 +4,7 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Clients;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -44,6 +45,10 @@ internal sealed class JoinedWorld : IDisposable
 
     /// <summary>The peer.</summary>
     internal ClientSession Session { get; }
+
+    /// <summary>Whether the host did not let it in because it asks for another key.</summary>
+    internal bool IsKeyWrong =>
+        Session.EndedBy == SessionEnd.Refused && Session.EndReason!.EndsWith(JoinRequests.KeyIsWrong, StringComparison.Ordinal);
 
     /// <summary>What is drawn; null until the host has sent its scene.</summary>
     internal PlayScene? View => view;

@@ -75,11 +75,16 @@ public sealed class AirHockeyJoinTests(ServedPage served)
     {
         await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0");
         await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
-        JoinedPage tab = await JoinedPage.OpenAsync(context, await host.AfterAsync("browsers join at "));
+        string address = await host.AfterAsync("browsers join at ");
+        JoinedPage tab = await JoinedPage.OpenAsync(context, address);
         await tab.AskAsync("Ann");
         await tab.Page.GetByText("waiting for the others").WaitForAsync();
+        string waiting = await tab.Page.InnerTextAsync("#waiting");
+        Assert.All(new[] { "One more player is needed.", "another tab or browser on this computer", address, "at this keyboard" }, part => Assert.Contains(part, waiting, StringComparison.Ordinal));
+        Assert.StartsWith("air hockey", waiting, StringComparison.OrdinalIgnoreCase);
         await tab.Page.GetByRole(AriaRole.Button, new() { Name = "A second player at this keyboard" }).ClickAsync();
         await tab.Page.WaitForFunctionAsync("() => document.querySelectorAll('.pane').length === 2 && lagsim.peers[1].status.state === 'Running'", null, new() { Timeout = 30_000 });
+        Assert.False(await tab.Page.Locator("#waiting").IsVisibleAsync(), "Nobody is waited for any more.");
         (double x, double y) left = await MalletAsync(tab.Page, 1, 0), right = await MalletAsync(tab.Page, 0, 1);
         await tab.Page.Keyboard.DownAsync("w");
         await tab.Page.Keyboard.DownAsync("ArrowDown");
@@ -93,7 +98,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         JoinedPage.AssertSame(host.States, await tab.StatesAsync(), 3);
 
         await using IBrowserContext another = await served.Browser.NewContextAsync(JoinedPage.Screen);
-        JoinedPage third = await JoinedPage.JoinAsync(another, await host.AfterAsync("browsers join at "), "Cas");
+        JoinedPage third = await JoinedPage.JoinAsync(another, address, "Cas");
         Assert.False(await third.Page.Locator("#second").IsVisibleAsync(), "There is a second place for who has not even one.");
         await third.Page.GetByText("looking on: both mallets are taken").WaitForAsync();
         await SeesTheMatchAsync(third.Page, "You look on");
@@ -107,7 +112,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
     [Fact]
     public async Task Onlooker_OnAPhone_SeesTheTableAndTheNamesAndCannotPlay()
     {
-        await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0", "--seed", "5");
+        await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "8", "--web", "0", "--seed", "5", "--timeout-s", "6");
         string address = await host.AfterAsync("browsers join at ");
         await using IBrowserContext one = await served.Browser.NewContextAsync(JoinedPage.Screen), other = await served.Browser.NewContextAsync(Phone);
         await using IBrowserContext third = await served.Browser.NewContextAsync(Phone);
@@ -140,6 +145,18 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         string told = await onlooker.Page.Locator(".told").InnerTextAsync();
         Assert.Matches("Goal for (Ann|<b>W+</b>)", told);
         JoinedPage.AssertSame(host.States, await onlooker.StatesAsync(), 3);
+        Assert.Equal(["", ""], await onlooker.Page.Locator(".side em").AllTextContentsAsync()); // the control: both are there
+        await players[1].Page.CloseAsync();
+        foreach (string presence in new[] { "not answering", "away" })
+        {
+            foreach (IPage page in new[] { onlooker.Page, players[0].Page })
+            {
+                await page.Locator(".side.second em").Filter(new() { HasText = presence }).WaitForAsync(new() { Timeout = 20_000 });
+                Assert.Equal("Ann, <b>WWWWWWWWWWWWWWWWW</b>", string.Join(", ", await page.Locator(".board bdi").AllInnerTextsAsync())); // whose place it is
+            }
+        }
+
+        Assert.Equal("", await onlooker.Page.Locator(".side.first em").TextContentAsync());
         Assert.Empty(onlooker.Complaints);
     }
 

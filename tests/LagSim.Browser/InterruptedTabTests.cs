@@ -100,9 +100,48 @@ public sealed class InterruptedTabTests(ServedPage served)
         await next.AfterAsync("browsers join at ");
         await next.SaysAsync(line => line == "here: 0 player, 1 player Ann");
         await ann.RunningAsync();
+        Assert.False(await ann.Page.Locator("#again").IsVisibleAsync(), "It has to be pressed to go on, though it is the same host.");
         await ActsAsync(ann, scene);
         Directory.Delete(Path.GetDirectoryName(identity)!, recursive: true);
     }
+
+    /// <summary>A host that cannot prove to be the one before is another: the person is told, and decides. Meanwhile nothing agrees.</summary>
+    [Fact]
+    public async Task Tab_AtWhoseAddressAnotherHostAnswers_SaysSoAndIsInAtOnePress()
+    {
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        JoinedPage ann;
+        ILocator agrees;
+        string port;
+        await using (ToolProcess host = new("host", "--scene", "billiards", "--web", "0", "--key", "open sesame", "--timeout-s", $"{LongestSilence}"))
+        {
+            string page = await host.AfterAsync("browsers join at ");
+            port = new Uri(page).Port.ToString(CultureInfo.InvariantCulture);
+            ann = await JoinedPage.JoinAsync(context, page, "Ann", "open sesame");
+            await ann.Page.WaitForFunctionAsync("() => window.lagsim.status.agreed >= 1", null, new() { Timeout = 30_000 });
+            agrees = ann.Page.Locator(".agrees");
+            Assert.Contains("the host's", await agrees.InnerTextAsync(), StringComparison.Ordinal);
+            Assert.False(await IsStaleAsync(ann.Page));
+        }
+
+        await ann.Page.GetByText("There is no connection to the host. Trying again.").WaitForAsync(new() { Timeout = 20_000 });
+        Assert.Equal((true, true), (await IsStaleAsync(ann.Page), (await agrees.InnerTextAsync()).EndsWith("not compared now", StringComparison.Ordinal)));
+        await using ToolProcess next = new("host", "--scene", "billiards", "--web", port, "--key", "open sesame", "--timeout-s", $"{LongestSilence}");
+        await next.AfterAsync("browsers join at ");
+        await ann.Page.GetByText("Another host answers at this address now").WaitForAsync(new() { Timeout = 30_000 });
+        Assert.Equal("again", await ann.Page.EvaluateAsync<string>("() => document.activeElement.id"));
+        Assert.True(await IsStaleAsync(ann.Page));
+        Assert.DoesNotContain("Ann", string.Join('\n', next.Lines), StringComparison.Ordinal); // not unasked
+        await ann.Page.GetByRole(AriaRole.Button, new() { Name = "Join the other host" }).ClickAsync();
+        await next.SaysAsync(line => line == "here: 0 player, 1 player Ann");
+        await ann.RunningAsync();
+        await ActsAsync(ann, "billiards");
+        Assert.Equal((1, false), (await ann.Page.EvaluateAsync<int>("() => lagsim.held"), await IsStaleAsync(ann.Page)));
+    }
+
+    /// <summary>Whether the line of hashes has the colour of what is not known now.</summary>
+    private static Task<bool> IsStaleAsync(IPage page) => page.EvaluateAsync<bool>(
+        "() => getComputedStyle(document.querySelector('.agrees')).color === getComputedStyle(document.querySelector('#session dt')).color");
 
     /// <summary>What the person does is seen: a key moves the mallet up, or a ball flies to the right that was thrown there.</summary>
     private static async Task ActsAsync(JoinedPage joined, string scene)

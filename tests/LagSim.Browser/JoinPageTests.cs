@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Security.Cryptography;
@@ -72,19 +74,54 @@ public sealed class JoinPageTests(ServedPage served)
         }
     }
 
+    /// <summary>Who is not let in has the form still, with what was typed, and the reason below its field. What was left is given up.</summary>
     [Fact]
-    public async Task Key_ThatIsWrong_IsRefusedWithTheReason()
+    public async Task Form_WithAWrongKeyOrName_StaysAndSaysSo()
     {
         await using ToolProcess host = new("host", "--scene", "billiards", "--web", "0", "--key", "open sesame");
         string address = await host.AfterAsync("browsers join at ");
         await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
         JoinedPage joined = await JoinedPage.OpenAsync(context, address);
-        await joined.AskAsync("Ann", "open rye");
         IPage page = joined.Page;
-        await page.GetByRole(AriaRole.Button, new() { Name = "Join again" }).WaitForAsync();
-        Assert.Contains("key", await page.Locator("#state").InnerTextAsync(), StringComparison.Ordinal);
+        List<IWebSocket> sockets = [];
+        page.WebSocket += (_, socket) => sockets.Add(socket);
+        await joined.AskAsync("Ann");
+        await IsWrongAsync(page, "key", "This session has a key: ask whoever has started it.");
+        Assert.Empty(sockets);
+        await joined.AskAsync("Ann", "open rye");
+        await IsWrongAsync(page, "key", "This key is wrong.");
+        Assert.Equal("Ann", await page.InputValueAsync("#name"));
+        Assert.False(await page.Locator("#session").IsVisibleAsync(), "What it says of a session replaces the form.");
+
+        await page.EvaluateAsync("() => { localStorage.clear(); localStorage.setItem('lagsim name', 'W'.repeat(40)) }");
+        await joined.LoadAsync(address);
+        Assert.Equal(new string('W', 40), await page.InputValueAsync("#name")); // a name that was kept is not cut either
+        await page.FillAsync("#key", "open sesame");
+        await page.ClickAsync("#enter button");
+        await IsWrongAsync(page, "name", "A name has at most 24 characters; this one has 40.");
+        sockets.Clear();
+        await joined.AskAsync("Ann", "open rye");
+        await IsWrongAsync(page, "key", "This key is wrong.");
+        await joined.AskAsync("Ann", "open sesame");
+        await joined.RunningAsync();
+        Assert.Equal("", await page.InnerTextAsync("#key-problem"));
+        Assert.Equal((2, 1), (sockets.Count, sockets.Count(socket => !socket.IsClosed))); // else the one before would be opened again for ever
+        Assert.Equal(1, await page.EvaluateAsync<int>("() => lagsim.held"));
+        Assert.Empty(joined.Complaints);
+
+        await host.EndInOrderAsync();
+        await page.GetByText("The host ended the session. Once it is there again, you can join again.").WaitForAsync();
+        Assert.True(await page.EvaluateAsync<bool>(
+            """
+            () => {
+              const { activeElement } = document, { top, bottom } = activeElement.getBoundingClientRect()
+              return activeElement.id === 'again' && top >= 0 && bottom <= innerHeight
+            }
+            """), "Who goes by keys, or looks at a phone, does not find the button.");
+        Assert.Equal(0, await page.EvaluateAsync<int>("() => lagsim.held"));
+        await using ToolProcess next = new("host", "--scene", "billiards", "--web", new Uri(address).Port.ToString(CultureInfo.InvariantCulture), "--key", "open sesame");
+        await next.AfterAsync("browsers join at "); // another host, since it has no identity
         await page.GetByRole(AriaRole.Button, new() { Name = "Join again" }).ClickAsync();
-        Assert.Equal("key", await page.EvaluateAsync<string>("() => document.activeElement.id"));
         await joined.AskAsync("Ann", "open sesame");
         await joined.RunningAsync();
     }
@@ -136,6 +173,50 @@ public sealed class JoinPageTests(ServedPage served)
         Assert.Equal("open", await ConnectAsync(at, own));
         await at.GotoAsync(own.Replace("127.0.0.1", "localhost", StringComparison.Ordinal));
         Assert.Equal("open", await ConnectAsync(at, own.Replace("127.0.0.1", "localhost", StringComparison.Ordinal)));
+    }
+
+    /// <summary>Only the page knows where it was opened: a server between it and the host may call the host something else.</summary>
+    [Fact]
+    public async Task Page_OpenedByANameThatTheHostDoesNotKnow_SaysWhatHelps()
+    {
+        await using ToolProcess host = new("host", "--scene", "drop", "--web", "0");
+        string own = await host.AfterAsync("browsers join at "), named = own.Replace("127.0.0.1", "friend.localhost", StringComparison.Ordinal);
+        string origin = named.TrimEnd('/'), authority = new Uri(own).Authority;
+        await using IBrowserContext context = await served.Browser.NewContextAsync();
+        await JoinedPage.OpenAsync(context, own); // the control: by a name that it knows
+        IPage page = await context.NewPageAsync();
+        string said = await ProblemAsync(page, named);
+        Assert.Contains($"open {own} instead", said, StringComparison.Ordinal);
+        Assert.Contains($"--web-origin {origin} it lets in", said, StringComparison.Ordinal);
+
+        string passedOn = "backend:8080";
+        await page.RouteAsync("**/session", async route => await route.FulfillAsync(new()
+        {
+            Response = await route.FetchAsync(new() { Url = $"{own}session", Headers = [new("Host", passedOn)] }),
+        }));
+        said = await ProblemAsync(page, named);
+        Assert.Contains($"by the name '{passedOn}'", said, StringComparison.Ordinal);
+        Assert.Contains($"--web-origin {origin} --web-origin http://{passedOn}", said, StringComparison.Ordinal);
+        passedOn = authority; // as many servers do
+        said = await ProblemAsync(page, named);
+        Assert.Equal($"The host does not let in pages from {origin}. Started with --web-origin {origin} it does.", said);
+    }
+
+    private static async Task<string> ProblemAsync(IPage page, string address)
+    {
+        await page.GotoAsync(address);
+        await page.Locator("#problem").WaitForAsync();
+        return await page.InnerTextAsync("#problem");
+    }
+
+    /// <summary>Waits until a field of the form says what is wrong with it, and asserts that a person finds that, with whatever senses.</summary>
+    private static async Task IsWrongAsync(IPage page, string field, string sentence)
+    {
+        await page.Locator($"#{field}-problem").Filter(new() { HasText = sentence }).WaitForAsync();
+        await page.WaitForFunctionAsync("field => document.activeElement.id === field", field, new() { Timeout = 5_000 });
+        Assert.Equal("true", await page.GetAttributeAsync($"#{field}", "aria-invalid"));
+        Assert.Contains($"{field}-problem", await page.GetAttributeAsync($"#{field}", "aria-describedby"), StringComparison.Ordinal);
+        Assert.True(await page.Locator("#enter button").IsEnabledAsync());
     }
 
     private static async Task<string> ConnectAsync(IPage page, string host) => await page.EvaluateAsync<string>(

@@ -84,6 +84,14 @@ internal sealed class ToolProcess : IAsyncDisposable
         return process.ExitCode;
     }
 
+    /// <summary>Has it end as a person does who presses Ctrl+C.</summary>
+    internal async Task EndInOrderAsync()
+    {
+        using Process kill = Process.Start("kill", ["-TERM", $"{process.Id}"]);
+        await kill.WaitForExitAsync();
+        await EndAsync();
+    }
+
     public async ValueTask DisposeAsync()
     {
         if (!process.HasExited)

@@ -28,7 +28,9 @@ internal sealed class SessionDoor : IDisposable
     private static readonly TimeSpan AskEvery = TimeSpan.FromSeconds(10);
 
     private readonly WebSocketHostPort port;
-    private readonly byte[] description;
+    private readonly Scene scene;
+    private readonly HostFingerprint? fingerprint;
+    private readonly HostOptions options;
 
     /// <param name="port">Carries what comes; closed with the door.</param>
     /// <param name="scene">The scene of the session.</param>
@@ -36,16 +38,15 @@ internal sealed class SessionDoor : IDisposable
     /// <param name="options">Of the session: what a client has to do likewise.</param>
     internal SessionDoor(WebSocketHostPort port, Scene scene, HostFingerprint? fingerprint, HostOptions options)
     {
-        this.port = port;
-        description = Describe(scene, fingerprint, options);
+        (this.port, this.scene, this.fingerprint, this.options) = (port, scene, fingerprint, options);
     }
 
     /// <summary>Returns what answers at <see cref="Path"/>.</summary>
     /// <param name="services">The server's services.</param>
-    /// <param name="origins">Where pages may come from.</param>
+    /// <param name="origins">Where pages may come from. The first is that of the address which others are told.</param>
     internal RequestDelegate Build(IServiceProvider services, IReadOnlyList<string> origins)
     {
-        string[] names = [.. origins.Select(origin => new Uri(origin).Authority)];
+        byte[] description = Describe(origins);
         WebSocketOptions options = new() { KeepAliveInterval = AskEvery, KeepAliveTimeout = AskEvery };
         foreach (string origin in origins)
         {
@@ -54,38 +55,52 @@ internal sealed class SessionDoor : IDisposable
 
         ApplicationBuilder pipeline = new(services);
         pipeline.UseWebSockets(options);
-        pipeline.Run(context => AnswerAsync(context, names));
+        pipeline.Run(context => AnswerAsync(context, origins, description));
         return pipeline.Build();
     }
 
     /// <summary>Ends the connections of all who came in.</summary>
     public void Dispose() => port.Dispose();
 
-    private static byte[] Describe(Scene scene, HostFingerprint? fingerprint, HostOptions options)
+    private static byte[] Json(Action<Utf8JsonWriter> write)
     {
         using MemoryStream stream = new();
         using (Utf8JsonWriter json = new(stream))
         {
             json.WriteStartObject();
-            json.WriteNumber("wire_version", Session.WireVersion);
-            json.WriteString("scene", scene.Name);
-            json.WriteString("fingerprint", fingerprint?.ToString());
-            json.WriteBoolean("needs_key", options.ConnectKey.Length > 0);
-            json.WriteNumber("timeout_s", options.Timeout.ToSeconds());
-            json.WriteNumber("rejoin_s", options.RejoinTime.ToSeconds());
+            write(json);
             json.WriteEndObject();
         }
 
         return stream.ToArray();
     }
 
-    private async Task AnswerAsync(HttpContext context, string[] names)
+    private byte[] Describe(IReadOnlyList<string> origins) => Json(json =>
+    {
+        json.WriteNumber("wire_version", Session.WireVersion);
+        json.WriteString("scene", scene.Name);
+        json.WriteString("fingerprint", fingerprint?.ToString());
+        json.WriteBoolean("needs_key", options.ConnectKey.Length > 0);
+        json.WriteNumber("timeout_s", options.Timeout.ToSeconds());
+        json.WriteNumber("rejoin_s", options.RejoinTime.ToSeconds());
+        json.WriteNumber("waits_for", options.ExpectedClients);
+        json.WriteString("address", $"{origins[0]}/");
+        json.WriteStartArray("origins");
+        foreach (string origin in origins)
+        {
+            json.WriteStringValue(origin);
+        }
+
+        json.WriteEndArray();
+    });
+
+    private async Task AnswerAsync(HttpContext context, IReadOnlyList<string> origins, byte[] description)
     {
         if (!context.WebSockets.IsWebSocketRequest)
         {
-            if (!names.Contains(context.Request.Host.Value, StringComparer.OrdinalIgnoreCase))
+            if (!origins.Any(origin => IsName(context.Request.Host.Value, origin)))
             {
-                await RefuseNameAsync(context);
+                await RefuseNameAsync(context, origins);
                 return;
             }
 
@@ -105,14 +120,24 @@ internal sealed class SessionDoor : IDisposable
         await port.ServeAsync(socket, context.Connection.RemoteIpAddress ?? IPAddress.None, CancellationToken.None);
     }
 
-    /// <summary>A page under a name that the host was not told of could not open the WebSocket either, and would not know why.</summary>
-    private static Task RefuseNameAsync(HttpContext context)
+    private static bool IsName(string? name, string origin) =>
+        string.Equals(name, new Uri(origin).Authority, StringComparison.OrdinalIgnoreCase);
+
+    /// <summary>A page under a name that the host was not told of could not open the WebSocket either, and would not know why. It is told
+    /// the name, which something on the way may have changed, and the address that it has reached; not those that it has not.</summary>
+    private static Task RefuseNameAsync(HttpContext context, IReadOnlyList<string> origins)
     {
+        IPAddress? local = context.Connection.LocalIpAddress;
+        local = local?.IsIPv4MappedToIPv6 == true ? local.MapToIPv4() : local;
+        string? reached = origins.FirstOrDefault(origin => IPAddress.TryParse(new Uri(origin).Host, out IPAddress? own) && own.Equals(local));
         context.Response.StatusCode = StatusCodes.Status421MisdirectedRequest;
-        context.Response.ContentType = "text/plain; charset=utf-8";
-        string origin = $"{context.Request.Scheme}://{context.Request.Host.Value}";
-        return context.Response.WriteAsync(
-            $"The host does not know itself by the name '{context.Request.Host.Value}'."
-            + $" Started with --web-origin {origin} it lets in who comes from there.");
+        context.Response.ContentType = "application/json";
+        return context.Response.Body.WriteAsync(Json(json =>
+        {
+            json.WriteString("problem", $"The host does not know itself by the name '{context.Request.Host.Value}'.");
+            json.WriteString("name", context.Request.Host.Value);
+            json.WriteString("scheme", context.Request.Scheme);
+            json.WriteString("address", reached is null ? null : $"{reached}/");
+        })).AsTask();
     }
 }

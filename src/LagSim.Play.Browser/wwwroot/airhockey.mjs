@@ -7,6 +7,7 @@ import { drawGlow, drawTruth } from './marks.mjs'
 
 const Phases = { CountDown: 0, Play: 1, Over: 2 }
 const Keys = ['W A S D', 'arrow keys']
+const Presences = ['', 'not answering', 'away'] // here, silent, not in the session now
 const NamesEvery = 500 // milliseconds
 const Prizes = ['+1', '»', '∩'] // a second puck, a faster puck, a shield
 
@@ -17,29 +18,29 @@ matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { ow
 export class AirHockeyTable {
   /**
    * @param pane the pane: `number`, `setup`, `offset`, `scale`, `sx`, `sy`, `toView`
-   * @param game what is asked: `Measures`, `Names`, `Look`, `News`, `Aim`, `EndAim`, `SetBot`, `PlayAgain`
+   * @param game what is asked: `Measures`, `Names`, `Presences`, `Look`, `News`, `Aim`, `EndAim`, `SetBot`, `PlayAgain`
    */
   constructor(pane, game) {
     this.pane = pane
     this.game = game
     const [halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player] = game.Measures(pane.number)
-    Object.assign(this, { halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player: player < 0 ? null : player, named: -Infinity })
+    Object.assign(this, { halfLength, halfWidth, corner, post, halfMouth, puck, toWin, players, player: player < 0 ? null : player, named: -Infinity, known: [] })
   }
 
   /** Puts the score over the canvas, and what the rules tell on it. */
   build(element, canvas) {
     const board = document.createElement('div')
     board.className = 'board'
-    board.innerHTML = `<span class="side first"><i></i><bdi></bdi></span>
+    board.innerHTML = `<span class="side first"><i></i><span class="who"><bdi></bdi><em role="status"></em></span></span>
       <div class="score" role="group" aria-label="Score and time left"><b></b><small></small></div>
-      <span class="side second"><bdi></bdi><i></i></span>`
+      <span class="side second"><span class="who"><bdi></bdi><em role="status"></em></span><i></i></span>`
     const news = document.createElement('div')
     news.className = 'news'
     news.innerHTML = '<p class="told" role="status"></p>'
     canvas.before(board, news)
     element.dataset.game = 'air-hockey'
     this.parts = {
-      title: element.querySelector('h2').firstChild, sides: board.querySelectorAll('bdi'),
+      title: element.querySelector('h2').firstChild, sides: board.querySelectorAll('bdi'), presences: board.querySelectorAll('em'),
       score: board.querySelector('b'), clock: board.querySelector('small'), told: news.firstChild,
     }
     this.plays ? this.buildHand(canvas) : element.classList.add('looks-on')
@@ -113,11 +114,16 @@ export class AirHockeyTable {
     this.tell(left, right, phase, seconds, bot)
   }
 
-  /** Who plays on which side, as far as their names are known. */
+  /** Who plays on which side, as far as their names are known, and who is not there: whoever is away keeps the name. */
   tellNames() {
-    const { title, sides } = this.parts, names = this.game.Names(this.pane.number).map((name, n) => name || `Player ${n + 1}`)
+    const { title, sides, presences } = this.parts, there = this.game.Presences(this.pane.number)
+    this.known = this.game.Names(this.pane.number).map((name, n) => Presences[there[n]] ? name || this.known[n] : name)
+    const names = this.known.map((name, n) => name || `Player ${n + 1}`)
     const shown = this.players > 2 ? ['Left', 'Right'] : names
-    shown.forEach((name, side) => set(sides[side], name))
+    shown.forEach((name, side) => {
+      set(sides[side], name)
+      set(presences[side], this.players > 2 ? '' : Presences[there[side]])
+    })
     set(title, this.plays ? `${names[this.player]} ` : 'You look on')
   }
 

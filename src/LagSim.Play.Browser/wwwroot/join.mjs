@@ -1,6 +1,7 @@
 // The page of a host: joins its session with one more peer, or with two where two people share a keyboard, beside native ones.
 import { readColours } from './colours.mjs'
 import { set as setText } from './figures.mjs'
+import { addressToSend, askHost, isOfThisMachine } from './hosts.mjs'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { frame, loadRuntime } from './runtime.mjs'
@@ -8,12 +9,16 @@ import { Seat } from './seats.mjs'
 import { tab } from './store.mjs'
 
 const LookEvery = 250 // milliseconds
+const PatientFor = 1000 // the same: how long it is not told that one is still asking to be let in
+const Other = 'Another host answers at this address now: the former one has ended, or was started again without its --identity. You can be in its session as a new player.'
 const IsIn = 'lagsim in', Key = 'lagsim key' // of a tab that is loaded again: the seat that it was in, and by which key
 const found = id => document.getElementById(id)
 const isCalm = matchMedia('(prefers-reduced-motion: reduce)')
 let exports, host, last = 0, colours
 const peers = []
 let joined = 0, looking = 0, isLost = false, gone = null, seating = null, isEntering = false
+let asked = 0, wasIn = false // when it asked to be let in, and whether it was
+let reconnections = 0, mayBeOther = false, isOther = false // whether another host may answer, and does
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
 const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
@@ -23,6 +28,7 @@ window.lagsim = {
   peers,
   get commits() { return (peers[0] ?? gone)?.commits ?? [] },
   get status() { return (peers[0] ?? gone)?.status ?? null },
+  get held() { return exports.CountHeld() },
   placeOnScreen: ball => peers[0].pane.placeOnScreen(ball),
 }
 
@@ -30,7 +36,7 @@ try {
   host = await askHost()
   const { JoinExports, AirHockeyExports } = await loadRuntime()
   exports = { ...JoinExports, airHockey: AirHockeyExports }
-  found('key-row').hidden = !host.needs_key
+  askForKey()
   const former = tab.read(`${IsIn} ${hostName()}`)
   seating = Seat.take(hostName(), former === '' ? undefined : Number(former))
   const seat = await seating
@@ -54,29 +60,36 @@ found('enter').addEventListener('submit', event => {
 found('again').addEventListener('click', () => {
   seating = Seat.take(hostName())
   found('session').hidden = found('panes').hidden = true
+  found('panes').replaceChildren()
   found('enter').hidden = false
   found(host.needs_key ? 'key' : 'name').focus()
+  isOther && enter()
 })
 found('second').addEventListener('click', async () => {
-  await once(async () => join(`${found('name').value.trim()} 2`.trim().slice(0, 24), await Seat.take(hostName())))
+  await once(async () => join(nameOfSecond(found('name').value.trim()), await Seat.take(hostName())))
   offerSecond()
 })
 found('leave').addEventListener('click', () => exports.Leave())
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = null })
 new ResizeObserver(() => peers.forEach(peer => peer.pane?.resize())).observe(found('panes'))
 
-async function askHost() {
-  const answer = await fetch('session').catch(() => null)
-  if (answer?.status === 421) {
-    throw new Error(await answer.text())
+function hostName() { return host.fingerprint ?? location.host }
+
+/** Asks again who the host is: since the page was loaded, another one may have been started. */
+async function meet() {
+  const before = hostName()
+  host = await askHost()
+  askForKey()
+  if (hostName() !== before) {
+    (await seating).leave()
+    seating = Seat.take(hostName())
   }
-  if (!answer?.ok || !answer.headers.get('content-type')?.includes('json')) {
-    throw new Error('No host serves this page, so there is no session to join. lagsim host --web serves one.')
-  }
-  return answer.json()
 }
 
-function hostName() { return host.fingerprint ?? location.host }
+/** What was typed for a host before is no key of one that asks for none. */
+function keyForHost() { return host.needs_key ? found('key').value : '' }
+
+function askForKey() { found('key-row').hidden = !host.needs_key }
 
 /** Does what takes a while, and not a second time meanwhile. */
 async function once(what) {
@@ -87,21 +100,39 @@ async function once(what) {
   try {
     await what()
   } finally {
-    isEntering = found('second').disabled = found('enter').inert = false
+    isEntering = found('second').disabled = false
+    found('enter').inert = peers.length > 0
   }
+  focusWhatIsWrong()
 }
 
 /** Goes in with what stands in the form. */
 function enter() { return once(goIn) }
 
 async function goIn() {
+  const name = found('name').value.trim()
+  try {
+    await meet()
+  } catch (failure) {
+    return say(failure.message)
+  }
+  const key = keyForHost()
+  complain('name', exports.WhyNoName(name))
+  complain('key', host.needs_key && key === '' ? 'This session has a key: ask whoever has started it.' : '')
+  if (isWrong('name') || isWrong('key')) {
+    return say('')
+  }
   const seat = await seating
-  seat.name = found('name').value
-  if (join(found('name').value.trim(), seat)) {
+  seat.name = name
+  if (join(name, seat)) {
     tab.write(`${IsIn} ${hostName()}`, String(seat.number))
-    tab.write(Key, found('key').value)
-    found('enter').hidden = found('again').hidden = true
-    found('session').hidden = found('leave').hidden = false
+    tab.write(Key, key)
+    asked = performance.now()
+    reconnections = 0
+    wasIn = mayBeOther = isOther = false
+    found('again').hidden = true
+    found('leave').hidden = false
+    set('again', 'Join again')
     look()
     offerSecond()
     looking = setInterval(look, LookEvery)
@@ -109,11 +140,34 @@ async function goIn() {
   }
 }
 
+/** Says below a field of the form what is wrong with it; nothing if nothing is. */
+function complain(field, sentence) {
+  set(`${field}-problem`, sentence)
+  found(`${field}-problem`).hidden = sentence === ''
+  found(field).setAttribute('aria-invalid', String(sentence !== ''))
+}
+
+function isWrong(field) { return found(field).getAttribute('aria-invalid') === 'true' }
+
+function focusWhatIsWrong() {
+  const field = ['name', 'key'].find(isWrong)
+  if (field && !found('enter').hidden && !found('enter').inert) {
+    found(field).focus()
+    found(field).select()
+  }
+}
+
+/** A name of two at one keyboard that would be too long is left out, not cut: the second is then called by its number. */
+function nameOfSecond(first) {
+  const name = `${first} 2`.trim()
+  return exports.WhyNoName(name) ? '' : name
+}
+
 /** One more peer of this page asks to be let in. Returns whether it does. */
 function join(name, seat) {
   const address = new URL('session', location.href)
   address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:'
-  const wrong = exports.Join(address.href, host.fingerprint ?? '', found('key').value, name, seat.pass, host.timeout_s, host.rejoin_s)
+  const wrong = exports.Join(address.href, host.fingerprint ?? '', keyForHost(), name, seat.pass, host.timeout_s, host.rejoin_s)
   say(wrong)
   if (!wrong) {
     peers.push(new JoinedPeer(joined++, exports, seat))
@@ -140,18 +194,62 @@ function tick(now) {
   }
 }
 
-/** All have left, or were ended: the form is one click away. */
+/** All have left, or were ended: the form is one click away. Who was not even let in has it still. */
 function end() {
   clearInterval(looking)
   tab.remove(`${IsIn} ${hostName()}`)
   tab.remove(Key)
-  peers.forEach(peer => peer.seat.leave())
+  peers.forEach(peer => peer.drop())
   gone = peers[0]
   peers.length = 0
+  found('enter').inert = isEntering
   keyboard.turn(false)
-  found('leave').hidden = found('second').hidden = true
-  found('again').hidden = false
-  found('again').focus()
+  found('leave').hidden = found('second').hidden = found('waiting').hidden = true
+  if (wasIn || isOther) {
+    set('again', isOther ? 'Join the other host' : 'Join again')
+    found('enter').hidden = true
+    found('session').hidden = found('again').hidden = false
+    found('again').focus()
+  } else {
+    stayOut(gone.status)
+  }
+}
+
+/** The host has refused: what was typed stays, and why is told where it can be mended. */
+function stayOut({ end, ended_by, key_wrong }) {
+  seating = Seat.take(hostName(), gone.seat.number)
+  found('session').hidden = true
+  complain('key', key_wrong ? 'This key is wrong.' : '')
+  say(key_wrong || ended_by === 'Left' ? '' : end)
+  key_wrong ? focusWhatIsWrong() : found('name').focus()
+}
+
+/** After a connection has broken, the host may be another one than before. It could not prove to be the same, and this peer would ask it
+ * for ever; nor is it joined unasked, since who is on the way could have put it there. */
+async function checkHost() {
+  mayBeOther = false
+  const told = await askHost().catch(() => null)
+  if (told === null) {
+    mayBeOther = true // asks again
+  } else if (told.fingerprint !== host.fingerprint && peers.length > 0) {
+    isOther = true
+    exports.Leave()
+    look()
+  }
+}
+
+/** While a host waits for others: for how many, and what brings them. */
+function tellWaiting({ state, here }) {
+  const needed = host.waits_for - here.filter(one => one.plays).length
+  found('waiting').hidden = state !== 'Waiting' || needed <= 0
+  if (!found('waiting').hidden) {
+    const address = addressToSend(host), others = needed === 1 ? 'the other' : 'the others'
+    set('game', host.scene)
+    set('needed', needed === 1 ? 'One more player is needed.' : `${needed} more players are needed.`)
+    set('send', isOfThisMachine(address) ? 'Open this address in another tab or browser on this computer:' : `Send ${others} this address:`)
+    set('address', address)
+    document.querySelector('.of-two').hidden = found('second').hidden
+  }
 }
 
 /** Two may share the keyboard where the game is one for two, as long as one of its mallets may be free. */
@@ -183,10 +281,19 @@ function look() {
   peers.forEach(peer => peer.look())
   const { status } = peers[0]
   const is = { Joining: 'asking to be let in', Waiting: 'waiting for the others', Running: status.looks_on ? 'looking on: both mallets are taken' : `player ${status.player}`, Rejoining: 'coming back' }
-  set('state', status.end ?? is[status.state] ?? status.state)
+  set('state', isOther ? Other : status.ended_by === 'HostEnded' ? `${status.end} Once it is there again, you can join again.` : status.end ?? is[status.state] ?? status.state)
+  wasIn ||= status.state !== 'Joining' && !status.end
+  found('enter').hidden = wasIn
+  found('session').hidden = !wasIn && performance.now() - asked < PatientFor
+  tellWaiting(status)
+  mayBeOther ||= Boolean(status.connection) || status.reconnections !== reconnections
+  reconnections = status.reconnections
+  if (mayBeOther && status.connected) {
+    checkHost()
+  }
   const lost = status.connection && !status.end && status.state !== 'Running'
   if (lost || isLost) {
-    say(lost ? `There is no connection to the host (${status.connection}). Trying again.` : '')
+    say(lost ? 'There is no connection to the host. Trying again.' : '')
   }
   isLost = lost
   const own = peers.map(peer => peer.status.player)

@@ -42,7 +42,7 @@ export class JoinedPeer {
   build() {
     const { exports, index } = this
     const bound = (source, names) => Object.fromEntries(names.map(name => [name, (_, ...rest) => source[name](index, ...rest)]))
-    const airHockey = bound(exports.airHockey, ['Measures', 'Names', 'Steer', 'Aim', 'EndAim', 'SetBot', 'PlayAgain', 'Look', 'News'])
+    const airHockey = bound(exports.airHockey, ['Measures', 'Names', 'Presences', 'Steer', 'Aim', 'EndAim', 'SetBot', 'PlayAgain', 'Look', 'News'])
     this.game = this.setup.scene === 'air-hockey' ? airHockey : null
     this.pane = new Pane(0, this.setup, { ...bound(exports, ['Grab', 'MoveHand', 'Release']), airHockey, speed: () => 1 }, () => {})
     const title = this.pane.element.querySelector('h2')
@@ -68,14 +68,31 @@ export class JoinedPeer {
     }
   }
 
+  /** Whether it hears from the host, so that hashes are compared. */
+  get isInTouch() {
+    const { state, connected, here } = this.status
+    return state === 'Running' && connected && !here.some(one => one.number === 0 && one.silent)
+  }
+
   /** Shows its newest hash, and what came of holding hashes against the host's, which each second brings. */
   tell() {
     const { hash, agreed, differed, at } = this.status, agrees = this.pane?.agrees
     if (agrees) {
       agrees.classList.toggle('differs', differed > 0)
+      agrees.classList.toggle('stale', differed === 0 && !this.isInTouch)
       set(agrees.querySelector('code'), hash ?? '…')
-      set(agrees.querySelector('span'), differed > 0 ? `differed from the host's ${differed} times` : agreed > 0 ? `the host's, ${agreed} times` : 'not compared yet')
+      set(agrees.querySelector('span'), differed > 0 ? `differed from the host's ${differed} times` : !this.isInTouch ? 'not compared now'
+        : agreed > 0 ? `the host's, ${agreed} times` : 'not compared yet')
       agrees.title = `at ${at.toFixed(2)} s`
+    }
+  }
+
+  /** It has ended: its seat, its world and its connection are given up; what it saw last stays in its pane. */
+  drop() {
+    this.seat.leave()
+    this.exports.Drop(this.index)
+    if (this.pane) {
+      this.pane.element.inert = true
     }
   }
 

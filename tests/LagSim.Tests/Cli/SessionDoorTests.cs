@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Linq;
 using System.Net;
 using System.Net.Http;
 using System.Net.Sockets;
@@ -29,7 +30,7 @@ public sealed class SessionDoorTests : IAsyncLifetime
 
     private readonly ManualClock clock = new();
     private readonly WebSocketHostPort port;
-    private readonly HostOptions options = new() { ConnectKey = "open sesame", Timeout = SimDuration.FromSeconds(3) };
+    private readonly HostOptions options = new() { ConnectKey = "open sesame", ExpectedClients = 2, Timeout = SimDuration.FromSeconds(3) };
     private readonly HttpClient http = new() { Timeout = Deadline };
     private readonly HostFingerprint fingerprint;
     private PageServer server = null!;
@@ -62,6 +63,8 @@ public sealed class SessionDoorTests : IAsyncLifetime
         Assert.Equal("drop", told.GetProperty("scene").GetString());
         Assert.Equal(fingerprint.ToString(), told.GetProperty("fingerprint").GetString());
         Assert.True(told.GetProperty("needs_key").GetBoolean());
+        Assert.Equal((2, server.Address), (told.GetProperty("waits_for").GetInt32(), told.GetProperty("address").GetString()));
+        Assert.Equal([server.Address.TrimEnd('/'), Friend], told.GetProperty("origins").EnumerateArray().Select(one => one.GetString()));
         Assert.Equal((3, 120), (told.GetProperty("timeout_s").GetDouble(), told.GetProperty("rejoin_s").GetDouble()));
     }
 
@@ -76,7 +79,15 @@ public sealed class SessionDoorTests : IAsyncLifetime
         Assert.Equal(status, answer.StatusCode);
         string text = await answer.Content.ReadAsStringAsync(TestContext.Current.CancellationToken);
         Assert.Equal(status == HttpStatusCode.OK, text.Contains(fingerprint.ToString(), StringComparison.Ordinal));
-        Assert.Equal(status != HttpStatusCode.OK, text.Contains($"--web-origin http://{name}", StringComparison.Ordinal));
+        if (status != HttpStatusCode.OK)
+        {
+            JsonElement told = JsonDocument.Parse(text).RootElement;
+            Assert.Equal(
+                (name, "http", server.Address),
+                (told.GetProperty("name").GetString(), told.GetProperty("scheme").GetString(), told.GetProperty("address").GetString()));
+            Assert.Equal($"The host does not know itself by the name '{name}'.", told.GetProperty("problem").GetString());
+            Assert.DoesNotContain(Friend, text, StringComparison.Ordinal); // it has reached one address, and is told of no other
+        }
     }
 
     /// <summary>Over TCP, where the system keeps what a client does not read: it is bounded, and then the client loses its connection.</summary>

@@ -1,0 +1,14 @@
+namespace LagSim.Play;
+
+/// <summary>Whether a player of a game is there.</summary>
+internal enum PlayerPresence
+{
+    /// <summary>It is heard.</summary>
+    Here,
+
+    /// <summary>It has been silent for half the host's timeout: its tab hangs, say, or its phone sleeps.</summary>
+    Silent,
+
+    /// <summary>It has left or was lost. The host may keep its place, for it to come back.</summary>
+    Away,
+}
