@@ -20,7 +20,6 @@ public sealed class JoinedNameTests
     [InlineData("W", 25, "A name has at most 24 characters; this one has 25.")]
     [InlineData("\u6F22", 22, "66 bytes of UTF-8; at most 64 are allowed.")]
     [InlineData("\u0007", 1, "control character U+0007")]
-    [InlineData("\uD800", 1, "half a surrogate pair")]
     public void Name_ThatCannotBe_IsRefusedWithTheReason(string character, int count, string why) =>
         Assert.Contains(why, JoinedName.WhyNot(string.Concat(Enumerable.Repeat(character, count))));
 }
