@@ -215,6 +215,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
     /// <summary>A finger goes over the table, to the side of the first player.</summary>
     private static async Task DragAsync(IPage page)
     {
+        await page.Locator("#waiting").WaitForAsync(new() { State = WaitForSelectorState.Hidden }); // the table moves up into its place
         LocatorBoundingBoxResult box = (await page.Locator(".pane canvas").First.BoundingBoxAsync())!;
         ICDPSession devices = await page.Context.NewCDPSessionAsync(page);
         for (int n = 0; n <= 30; n++)
