@@ -157,6 +157,7 @@ public sealed class AirHockeyPageTests(ServedPage served)
                   const text = told.dataset.known + ': ' + told.textContent
                   window.said[n].at(-1) !== text && window.said[n].push(text)
                 })
+                document.querySelector('.again:not([hidden])')?.click() // a match in which nobody has scored
                 requestAnimationFrame(look)
               }
               look()
