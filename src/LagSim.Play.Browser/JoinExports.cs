@@ -203,6 +203,11 @@ internal static partial class JoinExports
     [JSExport]
     internal static string WhyNoName(string name) => JoinedName.WhyNot(name) ?? "";
 
+    /// <summary>Why a key cannot be that of any session, as a sentence; empty if it can.</summary>
+    [JSExport]
+    internal static string WhyNoKey(string key) => key.Length <= SessionOptions.MaxKeyLength ? ""
+        : FormattableString.Invariant($"A key has at most {SessionOptions.MaxKeyLength} characters; this one has {key.Length}.");
+
     private static JoinedWorld WorldOf(int peer) => Peers[peer].World;
 
     /// <summary>The world of a peer; null if it was given up: what a hand does that was still on it goes nowhere.</summary>

@@ -50,17 +50,11 @@ internal sealed class Playground
         for (int n = 0; n < setup.Strategies.Count; n++)
         {
             Add(n, setup.Strategies[n], n == 0 ? null : link, notices[n]);
+            Await(pane => pane.Number == 0 || pane.Session.State != SessionState.Joining); // one after another: the host numbers them as they come
         }
 
         Session host = panes[0].Session;
-        WaitEnd end = run.RunUntil(
-            () => panes.All(pane => pane.Session is { State: SessionState.Running, World: not null }),
-            () => panes.Any(pane => pane.Session.State == SessionState.Ended), Timeout);
-        if (end != WaitEnd.Met)
-        {
-            IEnumerable<string> states = panes.Select(pane => $"player {pane.Number + 1} is {pane.Session.State}. {pane.Session.EndReason}");
-            throw new InvalidOperationException($"Not every player got in over that link: {string.Join("; ", states)}");
-        }
+        Await(pane => pane.Session is { State: SessionState.Running, World: not null });
 
         truth = new Truth(Scene.Scene, host.World!.Simulation.Start);
         host.Logged += truth.Hear;
@@ -228,6 +222,17 @@ internal sealed class Playground
                 ? new HostSession(Scene.Scene, port, clock, host, Setup.Seed)
                 : new ClientSession(null, port, clock, client, VirtualRun.HostAddress, Setup.Seed + (ulong)number));
         panes.Add(new Pane(number, session, strategy, Scene, Setup.IsSmooth, () => run.Steps.Wake(place)));
+    }
+
+    /// <exception cref="InvalidOperationException">A player does not get so far.</exception>
+    private void Await(Func<Pane, bool> isSoFar)
+    {
+        WaitEnd end = run.RunUntil(() => panes.All(isSoFar), () => panes.Any(pane => pane.Session.State == SessionState.Ended), Timeout);
+        if (end != WaitEnd.Met)
+        {
+            IEnumerable<int> outside = panes.Where(pane => !isSoFar(pane)).Select(pane => pane.Number + 1);
+            throw new InvalidOperationException($"Over that link not every player gets in; not in after a minute: player {string.Join(", ", outside)}.");
+        }
     }
 
     private void AdvanceTo(SimTime shared)

@@ -104,8 +104,28 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await SeesTheMatchAsync(third.Page, "You look on");
         Assert.Equal("Ann, Ann 2", await SidesAsync(third.Page));
         Assert.Equal(["Ann", "Ann 2"], (await tab.Page.Locator(".pane h2").AllInnerTextsAsync()).Select(title => title.Trim()));
-        Assert.Empty(tab.Complaints);
         Assert.Empty(third.Complaints);
+
+        await tab.Page.Keyboard.DownAsync("w");
+        await host.EndInOrderAsync();
+        await tab.Page.GetByRole(AriaRole.Button, new() { Name = "Join again" }).WaitForAsync(); // whatever keys are down
+        Assert.Empty(tab.Complaints);
+    }
+
+    /// <summary>Where the second of two at one keyboard is not let in, that is told, and the first plays on.</summary>
+    [Fact]
+    public async Task SecondPlayer_WhoIsRefused_IsToldSoAndTheFirstStays()
+    {
+        await using ToolProcess host = new("host", "--scene", "air-hockey", "--per-address", "1", "--web", "0");
+        await using IBrowserContext context = await served.Browser.NewContextAsync(JoinedPage.Screen);
+        JoinedPage tab = await JoinedPage.OpenAsync(context, await host.AfterAsync("browsers join at "));
+        await tab.AskAsync("Ann");
+        ILocator second = tab.Page.GetByRole(AriaRole.Button, new() { Name = "A second player at this keyboard" });
+        await second.ClickAsync();
+        await tab.Page.GetByText("A player at this keyboard is not in the session any more: ").WaitForAsync();
+        await second.WaitForAsync(); // it may be tried again
+        Assert.Equal(1, await tab.Page.EvaluateAsync<int>("() => lagsim.held"));
+        await tab.Page.GetByText("waiting for the others").WaitForAsync();
     }
 
     /// <summary>Who looks on sees the table of the players, with the same score, and has nothing to play with.</summary>
@@ -122,6 +142,9 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await players[0].RunningAsync();
         await players[1].RunningAsync();
         JoinedPage onlooker = await JoinedPage.JoinAsync(third, address, "Cas");
+        await players[0].Page.WaitForFunctionAsync("() => lagsim.status.here.length === 4");
+        Assert.False(await players[0].Page.Locator("#second").IsVisibleAsync(), "A second place is offered, and both mallets are taken.");
+        await onlooker.Page.GetByText("looking on: both mallets are taken").WaitForAsync();
         await SeesTheMatchAsync(onlooker.Page, "You look on");
         await SeesTheMatchAsync(players[0].Page, "Ann"); // the control: a player has the same, and a hand
         Assert.Equal((0, 1), (await onlooker.Page.Locator(".hand").CountAsync(), await players[0].Page.Locator(".hand").CountAsync()));
@@ -157,6 +180,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         }
 
         Assert.Equal("", await onlooker.Page.Locator(".side.first em").TextContentAsync());
+        await onlooker.Page.GetByText("A mallet may be free").WaitForAsync();
         Assert.Empty(onlooker.Complaints);
     }
 
@@ -171,12 +195,14 @@ public sealed class AirHockeyJoinTests(ServedPage served)
             await using IBrowserContext first = await served.Browser.NewContextAsync(device), second = await served.Browser.NewContextAsync(device);
             JoinedPage page = await JoinedPage.OpenAsync(first, address), rival = await JoinedPage.OpenAsync(second, address);
             await page.AskAsync("Ann");
+            await page.Page.GetByText("waiting for the others").WaitForAsync();
+            string text = await page.Page.InnerTextAsync("body");
+            Assert.Equal(device == Phone, !text.Contains("at this keyboard", StringComparison.Ordinal));
             await rival.AskAsync("Bob");
             await page.RunningAsync();
             await page.Page.Locator(".hand").WaitForAsync();
-            string text = await page.Page.InnerTextAsync("body");
+            text = await page.Page.InnerTextAsync("body");
             Assert.Equal(device == Phone, !text.Contains("arrow keys", StringComparison.Ordinal));
-            Assert.Equal(device == Phone, !text.Contains("at this keyboard", StringComparison.Ordinal));
             Assert.Equal(device == Phone, text.Contains("follows your finger", StringComparison.Ordinal));
         }
     }

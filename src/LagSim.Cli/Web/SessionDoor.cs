@@ -46,7 +46,6 @@ internal sealed class SessionDoor : IDisposable
     /// <param name="origins">Where pages may come from. The first is that of the address which others are told.</param>
     internal RequestDelegate Build(IServiceProvider services, IReadOnlyList<string> origins)
     {
-        byte[] description = Describe(origins);
         WebSocketOptions options = new() { KeepAliveInterval = AskEvery, KeepAliveTimeout = AskEvery };
         foreach (string origin in origins)
         {
@@ -55,7 +54,7 @@ internal sealed class SessionDoor : IDisposable
 
         ApplicationBuilder pipeline = new(services);
         pipeline.UseWebSockets(options);
-        pipeline.Run(context => AnswerAsync(context, origins, description));
+        pipeline.Run(context => AnswerAsync(context, origins));
         return pipeline.Build();
     }
 
@@ -75,7 +74,9 @@ internal sealed class SessionDoor : IDisposable
         return stream.ToArray();
     }
 
-    private byte[] Describe(IReadOnlyList<string> origins) => Json(json =>
+    /// <summary>What a page has to know. It says where it comes from, since a browser does not tell that of its own server; of where others
+    /// come from, and of the host's addresses, only a page that was opened on this machine is told one.</summary>
+    private byte[] Describe(HttpRequest request, IReadOnlyList<string> origins) => Json(json =>
     {
         json.WriteNumber("wire_version", Session.WireVersion);
         json.WriteString("scene", scene.Name);
@@ -84,17 +85,12 @@ internal sealed class SessionDoor : IDisposable
         json.WriteNumber("timeout_s", options.Timeout.ToSeconds());
         json.WriteNumber("rejoin_s", options.RejoinTime.ToSeconds());
         json.WriteNumber("waits_for", options.ExpectedClients);
-        json.WriteString("address", $"{origins[0]}/");
-        json.WriteStartArray("origins");
-        foreach (string origin in origins)
-        {
-            json.WriteStringValue(origin);
-        }
-
-        json.WriteEndArray();
+        json.WriteBoolean("lets_in", origins.Contains(request.Query["from"].ToString()));
+        bool isOfThisMachine = request.Host.Host == "localhost" || (IPAddress.TryParse(request.Host.Host, out IPAddress? name) && IPAddress.IsLoopback(name));
+        json.WriteString("address", isOfThisMachine ? $"{origins[0]}/" : null);
     });
 
-    private async Task AnswerAsync(HttpContext context, IReadOnlyList<string> origins, byte[] description)
+    private async Task AnswerAsync(HttpContext context, IReadOnlyList<string> origins)
     {
         if (!context.WebSockets.IsWebSocketRequest)
         {
@@ -105,7 +101,7 @@ internal sealed class SessionDoor : IDisposable
             }
 
             context.Response.ContentType = "application/json";
-            await context.Response.Body.WriteAsync(description, context.RequestAborted);
+            await context.Response.Body.WriteAsync(Describe(context.Request, origins), context.RequestAborted);
             return;
         }
 

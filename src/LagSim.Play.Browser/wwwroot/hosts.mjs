@@ -3,7 +3,7 @@
 
 /** Asks the host at the page's own address. Throws a sentence where there is none, or where it would not let this page in. */
 export async function askHost() {
-  const answer = await fetch('session').catch(() => null)
+  const answer = await fetch(`session?from=${encodeURIComponent(location.origin)}`).catch(() => null)
   if (!answer) {
     throw new Error(`No host answers at ${location.host} now.`)
   }
@@ -11,7 +11,7 @@ export async function askHost() {
     throw new Error('No host serves this page, so there is no session to join. lagsim host --web serves one.')
   }
   const told = await answer.json()
-  const why = answer.status === 421 ? ofName(told) : told.origins.includes(location.origin) ? '' : ofOrigin()
+  const why = answer.status === 421 ? ofName(told) : told.lets_in ? '' : ofOrigin()
   if (why) {
     throw new Error(why)
   }
@@ -37,7 +37,7 @@ function ofName({ problem, name, scheme, address }) {
       + `and start the host with --web-origin ${location.origin}; or start it with --web-origin ${location.origin} --web-origin ${scheme}://${name}.`
   }
   const instead = address ? `${isOfThisMachine(address) ? 'On its own machine, open' : 'Open'} ${address} instead. ` : ''
-  return `${problem} ${instead}Started with --web-origin ${location.origin} it lets in who comes from here.`
+  return `${problem} ${instead}Started with --web-origin ${location.origin} the host would know it.`
 }
 
 /** A server between the host and this page calls it by a name that the host knows, but the page has come from elsewhere. */

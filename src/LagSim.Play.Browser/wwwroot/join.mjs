@@ -21,7 +21,11 @@ let asked = 0, wasIn = false // when it asked to be let in, and whether it was
 let reconnections = 0, mayBeOther = false, isOther = false // whether another host may answer, and does
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
-const keyboard = new SharedKeyboard((player, x, y) => (peers[player] ?? peers[0]).game?.Steer(0, x, y))
+const keyboard = new SharedKeyboard((player, x, y) => {
+  const playing = peers.filter(peer => peer.plays)
+  const one = playing[player] ?? playing[0]
+  one?.game.Steer(0, x, y)
+})
 
 // For scripts and tests: of the first peer, the committed states that it has told, how it stands, and where it draws a ball, in CSS pixels.
 window.lagsim = {
@@ -36,6 +40,7 @@ try {
   host = await askHost()
   const { JoinExports, AirHockeyExports } = await loadRuntime()
   exports = { ...JoinExports, airHockey: AirHockeyExports }
+  document.documentElement.dataset.scene = isGame() ? 'air-hockey' : ''
   askForKey()
   const former = tab.read(`${IsIn} ${hostName()}`)
   seating = Seat.take(hostName(), former === '' ? undefined : Number(former))
@@ -44,6 +49,7 @@ try {
   found('loading').hidden = true
   found('enter').hidden = false
   found('name').focus()
+  found('name').select()
   if (seat.pass && former === String(seat.number)) {
     found('key').value = tab.read(Key)
     enter() // the tab was loaded again
@@ -58,7 +64,7 @@ found('enter').addEventListener('submit', event => {
   enter()
 })
 found('again').addEventListener('click', () => {
-  seating = Seat.take(hostName())
+  seating = Seat.take(hostName(), isOther ? undefined : gone.seat.number)
   found('session').hidden = found('panes').hidden = true
   found('panes').replaceChildren()
   found('enter').hidden = false
@@ -66,7 +72,10 @@ found('again').addEventListener('click', () => {
   isOther && enter()
 })
 found('second').addEventListener('click', async () => {
-  await once(async () => join(nameOfSecond(found('name').value.trim()), await Seat.take(hostName())))
+  await once(async () => {
+    const seat = await Seat.take(hostName())
+    peers.length > 0 ? join(nameOfSecond(found('name').value.trim()), seat) : seat.leave() // the session may have ended meanwhile
+  })
   offerSecond()
 })
 found('leave').addEventListener('click', () => exports.Leave())
@@ -75,15 +84,19 @@ new ResizeObserver(() => peers.forEach(peer => peer.pane?.resize())).observe(fou
 
 function hostName() { return host.fingerprint ?? location.host }
 
-/** Asks again who the host is: since the page was loaded, another one may have been started. */
+/** Asks again who the host is: since the page was loaded, another one may have been started. Returns whether one was; it gets no key that
+ * was typed for the one before. */
 async function meet() {
   const before = hostName()
   host = await askHost()
   askForKey()
-  if (hostName() !== before) {
-    (await seating).leave()
+  const isNew = hostName() !== before
+  if (isNew) {
+    found('key').value = ''
+    ;(await seating).leave()
     seating = Seat.take(hostName())
   }
+  return isNew
 }
 
 /** What was typed for a host before is no key of one that asks for none. */
@@ -112,13 +125,15 @@ function enter() { return once(goIn) }
 async function goIn() {
   const name = found('name').value.trim()
   try {
-    await meet()
+    if (await meet() && !isOther) {
+      return say(Other) // and goes in if it is asked once more
+    }
   } catch (failure) {
     return say(failure.message)
   }
   const key = keyForHost()
   complain('name', exports.WhyNoName(name))
-  complain('key', host.needs_key && key === '' ? 'This session has a key: ask whoever has started it.' : '')
+  complain('key', host.needs_key && key === '' ? 'This session has a key: ask whoever has started it.' : exports.WhyNoKey(key))
   if (isWrong('name') || isWrong('key')) {
     return say('')
   }
@@ -197,13 +212,16 @@ function tick(now) {
 /** All have left, or were ended: the form is one click away. Who was not even let in has it still. */
 function end() {
   clearInterval(looking)
+  keyboard.turn(false) // which lifts the keys that are down
   tab.remove(`${IsIn} ${hostName()}`)
   tab.remove(Key)
   peers.forEach(peer => peer.drop())
   gone = peers[0]
   peers.length = 0
   found('enter').inert = isEntering
-  keyboard.turn(false)
+  found('here').replaceChildren()
+  delete found('here').dataset.is
+  set('round-trip', '')
   found('leave').hidden = found('second').hidden = found('waiting').hidden = true
   if (wasIn || isOther) {
     set('again', isOther ? 'Join the other host' : 'Join again')
@@ -246,21 +264,27 @@ function tellWaiting({ state, here }) {
     const address = addressToSend(host), others = needed === 1 ? 'the other' : 'the others'
     set('game', host.scene)
     set('needed', needed === 1 ? 'One more player is needed.' : `${needed} more players are needed.`)
-    set('send', isOfThisMachine(address) ? 'Open this address in another tab or browser on this computer:' : `Send ${others} this address:`)
+    const withKey = host.needs_key ? ', and the key' : ''
+    set('send', isOfThisMachine(address) ? 'Open this address in another tab or browser on this computer:' : `Send ${others} this address${withKey}:`)
     set('address', address)
     document.querySelector('.of-two').hidden = found('second').hidden
   }
 }
 
+function isGame() { return host.scene === 'air hockey' }
+
+/** How many of the game's two players are here: they have the first two numbers, whoever comes later looks on. */
+function playing({ here }) { return here.filter(one => one.plays && one.number <= 2).length }
+
 /** Two may share the keyboard where the game is one for two, as long as one of its mallets may be free. */
 function offerSecond() {
-  found('second').hidden = host.scene !== 'air hockey' || peers.length !== 1 || peers[0].status?.looks_on === true
+  const status = peers[0]?.status
+  found('second').hidden = !isGame() || peers.length !== 1 || !status || status.looks_on || playing(status) >= 2
 }
 
 /** A peer has a pane now that it had not. */
 function show() {
-  const isGame = peers.some(peer => peer.game)
-  document.documentElement.dataset.scene = isGame ? 'air-hockey' : ''
+  document.documentElement.dataset.scene = isGame() ? 'air-hockey' : ''
   colours = null
   keyboard.turn(peers.some(peer => peer.plays))
   found('panes').replaceChildren(...peers.filter(peer => peer.pane).map(peer => peer.pane.element))
@@ -272,16 +296,45 @@ function show() {
     peer.pane?.resize()
   })
   if (document.activeElement === document.body) {
-    isGame || peers[0].pane?.canvas.focus({ preventScroll: true }) // the button that was pressed is gone
+    isGame() || peers[0].pane?.canvas.focus({ preventScroll: true }) // the button that was pressed is gone
+  }
+}
+
+/** How the session stands, in words. */
+function stateOf(status) {
+  const { state, player, looks_on, end, ended_by } = status
+  if (isOther) {
+    return Other
+  }
+  if (end) {
+    return ended_by === 'Left' ? 'You have left.' : ended_by === 'HostEnded' ? `${end} Once it is there again, you can join again.` : end
+  }
+  const isFree = looks_on && playing(status) < 2
+  return {
+    Joining: 'asking to be let in',
+    Synchronising: 'getting the world',
+    Waiting: 'waiting for the others',
+    Running: !looks_on ? `player ${player}` : isFree ? 'looking on. A mallet may be free: leave and join again to play' : 'looking on: both mallets are taken',
+    Rejoining: 'coming back',
+  }[state]
+}
+
+/** Of two players at one keyboard, one may have been refused or ended: the other plays on. */
+function dropEnded() {
+  for (const peer of peers.filter(one => one.status.end)) {
+    peer.drop()
+    peers.splice(peers.indexOf(peer), 1)
+    show()
+    say(`A player at this keyboard is not in the session any more: ${peer.status.end}`)
   }
 }
 
 /** How the session stands. */
 function look() {
   peers.forEach(peer => peer.look())
+  peers.every(peer => peer.status.end) || dropEnded()
   const { status } = peers[0]
-  const is = { Joining: 'asking to be let in', Waiting: 'waiting for the others', Running: status.looks_on ? 'looking on: both mallets are taken' : `player ${status.player}`, Rejoining: 'coming back' }
-  set('state', isOther ? Other : status.ended_by === 'HostEnded' ? `${status.end} Once it is there again, you can join again.` : status.end ?? is[status.state] ?? status.state)
+  set('state', stateOf(status))
   wasIn ||= status.state !== 'Joining' && !status.end
   found('enter').hidden = wasIn
   found('session').hidden = !wasIn && performance.now() - asked < PatientFor
@@ -309,9 +362,7 @@ function look() {
       return item
     }))
   }
-  if (status.looks_on) {
-    offerSecond()
-  }
+  offerSecond()
   set('round-trip', status.round_trip_ms ? `${status.round_trip_ms.toFixed(0)} ms` : '')
   set('states', `${status.agreed} agree, ${status.differed} differ`)
   if (peers.every(peer => peer.status.end)) {

@@ -79,7 +79,7 @@ export class JoinedPeer {
     const { hash, agreed, differed, at } = this.status, agrees = this.pane?.agrees
     if (agrees) {
       agrees.classList.toggle('differs', differed > 0)
-      agrees.classList.toggle('stale', differed === 0 && !this.isInTouch)
+      agrees.classList.toggle('stale', differed === 0 && (agreed === 0 || !this.isInTouch))
       set(agrees.querySelector('code'), hash ?? '…')
       set(agrees.querySelector('span'), differed > 0 ? `differed from the host's ${differed} times` : !this.isInTouch ? 'not compared now'
         : agreed > 0 ? `the host's, ${agreed} times` : 'not compared yet')

@@ -64,8 +64,26 @@ public sealed class SessionDoorTests : IAsyncLifetime
         Assert.Equal(fingerprint.ToString(), told.GetProperty("fingerprint").GetString());
         Assert.True(told.GetProperty("needs_key").GetBoolean());
         Assert.Equal((2, server.Address), (told.GetProperty("waits_for").GetInt32(), told.GetProperty("address").GetString()));
-        Assert.Equal([server.Address.TrimEnd('/'), Friend], told.GetProperty("origins").EnumerateArray().Select(one => one.GetString()));
         Assert.Equal((3, 120), (told.GetProperty("timeout_s").GetDouble(), told.GetProperty("rejoin_s").GetDouble()));
+    }
+
+    [Theory]
+    [InlineData("?from=https://friend.example", true)]
+    [InlineData("?from=https%3A%2F%2Ffriend.example", true)]
+    [InlineData("?from=http://friend.example", false)]
+    [InlineData("?from=", false)]
+    [InlineData("", false)]
+    public async Task Get_OfTheSession_TellsAPageWhetherItIsLetInAndNothingOfOthers(string query, bool isLetIn)
+    {
+        using HttpRequestMessage request = new(HttpMethod.Get, new Uri($"{server.Address}session{query}"));
+        request.Headers.Host = "friend.example";
+        using HttpResponseMessage answer = await http.SendAsync(request, TestContext.Current.CancellationToken);
+        string text = await answer.Content.ReadAsStringAsync(TestContext.Current.CancellationToken);
+        JsonElement told = JsonDocument.Parse(text).RootElement;
+        Assert.Equal(isLetIn, told.GetProperty("lets_in").GetBoolean());
+        Assert.Equal(JsonValueKind.Null, told.GetProperty("address").ValueKind); // who knows the name needs no other
+        Assert.DoesNotContain("127.0.0.1", text, StringComparison.Ordinal);
+        Assert.DoesNotContain(Friend, text, StringComparison.Ordinal);
     }
 
     [Theory]
