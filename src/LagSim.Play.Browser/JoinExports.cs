@@ -77,6 +77,7 @@ internal static partial class JoinExports
     {
         json.WriteString("scene", view.IsAirHockey ? AirHockeyGame.Name : view.Scene.Name);
         json.WriteNumber("began", WorldOf(peer).Session.World?.Simulation.Start.Ticks ?? 0); // another session of a host has another time
+        json.WriteNumber("peer", WorldOf(peer).Peer); // which can be another in the same session, too
         SceneJson.WriteView(json, view);
         json.WriteStartArray("bodies");
         foreach (JoinedBody body in WorldOf(peer).Bodies)

@@ -20,7 +20,7 @@ internal sealed class JoinedWorld : IDisposable
 
     private readonly IDatagramPort port;
     private readonly RuleNotices notices = new();
-    private readonly Queue<CommittedState> commits = new();
+    private readonly Queue<(double Seconds, CommittedState State)> commits = new();
     private readonly List<JoinedBody> bodies = [];
     private readonly RewrittenGlow glow = new();
     private PlayScene? view;
@@ -58,6 +58,10 @@ internal sealed class JoinedWorld : IDisposable
 
     /// <summary>What it sees of the match, in a game of air hockey, whether it plays or only looks on; null in any other scene.</summary>
     internal AirHockeyBoard? Board { get; private set; }
+
+    /// <summary>The number that its player and its hand act by: the peer's when its world began. A host that lost it can let it in again
+    /// under another.</summary>
+    internal byte Peer { get; private set; }
 
     /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the board has the rest), where they are drawn,
     /// in their canonical order.</summary>
@@ -139,11 +143,11 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>The hand lets go; see <see cref="HandOfPerson.Release"/>.</summary>
     internal void Release(double velocityX, double velocityY) => hand?.Release(display!, velocityX, velocityY);
 
-    /// <summary>The oldest committed state that was not taken yet, with its time in seconds since the world began.</summary>
+    /// <summary>The oldest committed state that was not taken yet, with its time in seconds since its world began.</summary>
     internal bool TryTakeCommit(out double seconds, out CommittedState state)
     {
-        bool any = commits.TryDequeue(out state);
-        seconds = any ? (state.Time - Session.World!.Simulation.Start).ToSeconds() : 0;
+        bool any = commits.TryDequeue(out (double Seconds, CommittedState State) oldest);
+        (seconds, state) = oldest;
         return any;
     }
 
@@ -167,7 +171,8 @@ internal sealed class JoinedWorld : IDisposable
 
     private void Keep(CommittedState state)
     {
-        commits.Enqueue(state);
+        // By the world that it is of: when it is taken, another session may have begun.
+        commits.Enqueue(((state.Time - Session.World!.Simulation.Start).ToSeconds(), state));
         if (commits.Count > MaxCommits)
         {
             commits.Dequeue();
@@ -176,12 +181,19 @@ internal sealed class JoinedWorld : IDisposable
 
     /// <summary>Another session than before, if there was one: a host that was started again has a time and perhaps a scene of its
     /// own.</summary>
-    private void Begin()
+    private void BeginSession()
     {
-        HandOfPerson hand = new(Session, view = PlayScene.Of(Session.Scene!), () => Session.Step());
-        this.hand = hand;
-        bool plays = view.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Session.Peer) is not null;
+        view = PlayScene.Of(Session.Scene!);
         Board = view.IsAirHockey ? new AirHockeyBoard(Session, notices) : null;
+    }
+
+    /// <summary>Another number than before, or the first: what acts by it begins anew.</summary>
+    private void TakeNumber()
+    {
+        HandOfPerson hand = new(Session, view!, () => Step());
+        this.hand = hand;
+        Peer = Session.Peer;
+        bool plays = view!.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Peer) is not null;
         Player = plays ? new AirHockeyPlayer(Session, action => hand.Do(action)) : null;
         BodiesVersion++;
     }
@@ -194,9 +206,15 @@ internal sealed class JoinedWorld : IDisposable
             return;
         }
 
-        if (watched?.Simulation.Start != world.Simulation.Start)
+        bool isOtherSession = watched?.Simulation.Start != world.Simulation.Start;
+        if (isOtherSession)
         {
-            Begin();
+            BeginSession();
+        }
+
+        if (isOtherSession || Peer != Session.Peer)
+        {
+            TakeNumber();
         }
 
         watched = world;

@@ -29,7 +29,7 @@ export class JoinedPeer {
       return false
     }
     const setup = { ...JSON.parse(text), strategies: [], panes: [] }
-    if (this.pane && setup.scene === this.setup.scene && setup.began === this.setup.began) {
+    if (this.pane && ['scene', 'began', 'peer'].every(part => setup[part] === this.setup[part])) {
       Object.assign(this.setup, setup)
       return false
     }
