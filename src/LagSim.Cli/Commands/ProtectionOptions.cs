@@ -29,10 +29,11 @@ internal static class ProtectionOptions
     /// <param name="text">What the user wrote: <c>lagsim://HOST:PORT#FINGERPRINT</c>, or <c>HOST:PORT</c>.</param>
     /// <param name="place">Receives <c>HOST:PORT</c>.</param>
     /// <returns>The fingerprint; null if there is none.</returns>
-    /// <exception cref="UsageException">The text begins like an address with a fingerprint, and is none.</exception>
+    /// <exception cref="UsageException">The text begins like an address with a fingerprint, and is none, or it is that of a page.</exception>
     internal static HostFingerprint? ReadFingerprint(string text, out string place)
     {
         text = text.Trim(); // as it was pasted
+        WebSocketText.ThrowIfOfPage(text);
         if (WebSocketText.Is(text))
         {
             return WebSocketText.ReadFingerprint(text, out place);

@@ -10,11 +10,18 @@ namespace LagSim.Cli.Commands;
 internal static class WebSocketText
 {
     /// <summary>Whether a text is meant as one.</summary>
-    /// <exception cref="UsageException">It is the address of the page, which browsers open.</exception>
     internal static bool Is(string text) =>
-        text.StartsWith("http://", StringComparison.Ordinal) || text.StartsWith("https://", StringComparison.Ordinal)
-            ? throw new UsageException($"'{text}' is the address of a page, for browsers; a native peer joins it as ws{text[4..]}.")
-            : text.StartsWith("ws://", StringComparison.Ordinal) || text.StartsWith("wss://", StringComparison.Ordinal);
+        text.StartsWith("ws://", StringComparison.Ordinal) || text.StartsWith("wss://", StringComparison.Ordinal);
+
+    /// <summary>Refuses the address of a host's page, which browsers open.</summary>
+    /// <exception cref="UsageException">The text is one.</exception>
+    internal static void ThrowIfOfPage(string text)
+    {
+        if (text.StartsWith("http://", StringComparison.Ordinal) || text.StartsWith("https://", StringComparison.Ordinal))
+        {
+            throw new UsageException($"'{text}' is the address of a page, for browsers; a native peer joins it as ws{text[4..]}.");
+        }
+    }
 
     /// <summary>Reads the address, without a fingerprint. Without a path it is that of the tool's own hosts.</summary>
     /// <exception cref="UsageException">The text is none.</exception>
