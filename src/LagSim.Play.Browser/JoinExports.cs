@@ -66,8 +66,9 @@ internal static partial class JoinExports
         catch (Exception refused) when (refused is FormatException or ArgumentException or InvalidOperationException)
         {
             port?.Dispose(); // it would go on connecting
-            string ofCode = refused is ArgumentException { ParamName: string parameter } ? $" (Parameter '{parameter}')" : "\n";
-            return refused.Message.Replace(ofCode, "", StringComparison.Ordinal);
+            string ofCode = refused is ArgumentException { ParamName: string parameter } ? $" (Parameter '{parameter}')" : "";
+            string why = ofCode.Length > 0 ? refused.Message.Replace(ofCode, "", StringComparison.Ordinal) : refused.Message;
+            return why.ReplaceLineEndings(" ");
         }
     }
 
@@ -97,8 +98,8 @@ internal static partial class JoinExports
     {
         (JoinedWorld world, WebSocketClientPort port) = Peers[peer];
         ClientSession session = world.Session;
-        json.WriteString("state", session.State.ToString());
-        json.WriteString("end", session.EndReason);
+        json.WriteString("state", (world.HasEnded ? SessionState.Ended : session.State).ToString());
+        json.WriteString("end", world.EndReason);
         json.WriteString("ended_by", session.EndedBy.ToString());
         json.WriteBoolean("key_wrong", world.IsKeyWrong);
         json.WriteString("connection", port.Failure);
@@ -219,10 +220,15 @@ internal static partial class JoinExports
 
     private static async Task StepWhenDueAsync(JoinedWorld world)
     {
-        while (world.Session.State != SessionState.Ended)
+        while (!world.HasEnded)
         {
             TimeSpan due = TimeSpan.FromSeconds(Math.Max(0, world.Step().ToSeconds()));
             await Task.Delay(due < LongestWait ? due : LongestWait);
+        }
+
+        if (world.Failure is Exception thrown)
+        {
+            await Console.Error.WriteLineAsync(thrown.ToString()); // the stack, for the browser's console; the page has the sentence
         }
     }
 

@@ -17,6 +17,7 @@ internal sealed class AirHockeyBoard
 {
     private readonly Session session;
     private readonly List<AirHockeyThing> things = [];
+    private readonly HashSet<byte> toldOf = []; // the peers that have been in the roster since it began to look
     private Match match;
 
     /// <summary>Begins to look.</summary>
@@ -26,6 +27,12 @@ internal sealed class AirHockeyBoard
     {
         this.session = session;
         News = new AirHockeyNews(notices, Players, NameOf);
+        foreach (RosterMember one in session.Roster)
+        {
+            toldOf.Add(one.Number);
+        }
+
+        session.RosterChanged += change => toldOf.Add(change.Member.Number); // also in a tab that is hidden, which has no frames
     }
 
     /// <summary>How many play.</summary>
@@ -72,7 +79,8 @@ internal sealed class AirHockeyBoard
             isTold |= one.Number == session.Peer;
         }
 
-        return isTold ? PlayerPresence.Away : PlayerPresence.Here; // who is not in the roster itself has none yet
+        return !isTold ? PlayerPresence.Here // who is not in the roster itself has none yet
+            : toldOf.Contains(peer) ? PlayerPresence.Away : PlayerPresence.NotYet;
     }
 
     /// <summary>A frame: reads what is shown.</summary>

@@ -4,7 +4,7 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Display;
 using LagSim.Net.Sessions;
-using LagSim.Net.Sessions.Clients;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -47,8 +47,18 @@ internal sealed class JoinedWorld : IDisposable
     internal ClientSession Session { get; }
 
     /// <summary>Whether the host did not let it in because it asks for another key.</summary>
-    internal bool IsKeyWrong =>
-        Session.EndedBy == SessionEnd.Refused && Session.EndReason!.EndsWith(JoinRequests.KeyIsWrong, StringComparison.Ordinal);
+    internal bool IsKeyWrong => Session.RefusedFor == RefusalReason.WrongKey;
+
+    /// <summary>What a step threw, which no session does but by a mistake in its code; null if none did. It is not stepped any more
+    /// then.</summary>
+    internal Exception? Failure { get; private set; }
+
+    /// <summary>Whether it is over: its session has ended, or it failed.</summary>
+    internal bool HasEnded => Failure is not null || Session.State == SessionState.Ended;
+
+    /// <summary>Why it is over, as a sentence; null while it goes on.</summary>
+    internal string? EndReason =>
+        Failure is Exception thrown ? $"This peer cannot go on, by a mistake in its code. {thrown.Message}" : Session.EndReason;
 
     /// <summary>What is drawn; null until the host has sent its scene.</summary>
     internal PlayScene? View => view;
@@ -84,7 +94,19 @@ internal sealed class JoinedWorld : IDisposable
 
     /// <summary>Does what is due.</summary>
     /// <returns>How long until something is due again, unless a datagram or the person comes first.</returns>
-    internal SimDuration Step() => Session.State == SessionState.Ended ? SimDuration.FromSeconds(1) : Session.Step();
+    /// <remarks>Nothing is thrown: its callers are timers and sockets, where nobody would see it. See <see cref="Failure"/>.</remarks>
+    internal SimDuration Step()
+    {
+        try
+        {
+            return HasEnded ? SimDuration.FromSeconds(1) : Session.Step();
+        }
+        catch (Exception thrown) when (thrown is not OutOfMemoryException)
+        {
+            Failure = thrown;
+            return SimDuration.FromSeconds(1);
+        }
+    }
 
     /// <summary>Finds what is drawn now.</summary>
     /// <param name="seconds">How much real time has passed since the last frame.</param>

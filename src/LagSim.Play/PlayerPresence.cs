@@ -11,4 +11,8 @@ internal enum PlayerPresence
 
     /// <summary>It has left or was lost. The host may keep its place, for it to come back.</summary>
     Away,
+
+    /// <summary>This peer has never been told of it: the place waits for its first player, or its player had left before this peer
+    /// came.</summary>
+    NotYet,
 }

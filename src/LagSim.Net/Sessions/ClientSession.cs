@@ -3,6 +3,7 @@ using LagSim.Net.Carriers;
 using LagSim.Net.Clocks;
 using LagSim.Net.Sessions.Clients;
 using LagSim.Net.Sessions.Core;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -100,6 +101,10 @@ public sealed class ClientSession : Session
 
     /// <summary>How late the host accepts an event, as announced by the host; zero before that.</summary>
     public SimDuration History => client.Connection.History;
+
+    /// <summary>What the host's refusal says that ended the session; null if none did. From any thread, as
+    /// <see cref="Session.EndReason"/>.</summary>
+    internal RefusalReason? RefusedFor => client.Parts.Status.RefusedFor;
 
     /// <summary>The estimate of the offset between the two clocks.</summary>
     internal ClockSync ClockSync => client.Seat.Clock;

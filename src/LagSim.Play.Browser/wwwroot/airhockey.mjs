@@ -7,7 +7,7 @@ import { drawGlow, drawTruth } from './marks.mjs'
 
 const Phases = { CountDown: 0, Play: 1, Over: 2 }
 const Keys = ['W A S D', 'arrow keys']
-const Presences = ['', 'not answering', 'away'] // here, silent, not in the session now
+const Presences = ['', 'not answering', 'away', 'not here yet'] // here, silent, not in the session any more, never heard of
 const NamesEvery = 500 // milliseconds
 const Prizes = ['+1', '»', '∩'] // a second puck, a faster puck, a shield
 

@@ -4,6 +4,7 @@ using System.Linq;
 using System.Threading;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
 using LagSim.Play;
 using LagSim.Testing.Links;
 using LagSim.Testing.Running;
@@ -98,25 +99,81 @@ public sealed class JoinedWorldTests
         Assert.All(seconds, at => Assert.InRange(at, 0, 20));
     }
 
+    [Fact]
+    public void IsKeyWrong_OfOtherRefusals_IsFalse()
+    {
+        OpenHost(new HostOptions { ConnectKey = "right", SpectatorPlaces = 0, ExpectedClients = 1 });
+        JoinedWorld wrong = Join(new ClientOptions { ConnectKey = "wrong" }), first = Join(new ClientOptions { ConnectKey = "right" });
+        Assert.False(wrong.IsKeyWrong);
+        RunUntil(() => wrong.HasEnded && first.Player is not null);
+        JoinedWorld second = Join(new ClientOptions { ConnectKey = "right", Role = PeerRole.Spectator }); // for whom there is no place
+        RunUntil(() => second.HasEnded);
+        Assert.Equal((true, RefusalReason.WrongKey), (wrong.IsKeyWrong, wrong.Session.RefusedFor));
+        Assert.Equal((false, RefusalReason.Full), (second.IsKeyWrong, second.Session.RefusedFor));
+        Assert.Equal((false, null), (first.IsKeyWrong, first.Session.RefusedFor));
+        Assert.All([wrong, second], refused => Assert.Equal(SessionEnd.Refused, refused.Session.EndedBy));
+    }
+
+    [Fact]
+    public void Step_ThatThrows_EndsItWithTheReason()
+    {
+        OpenHost();
+        JoinedWorld ann = Join();
+        RunUntil(() => ann.Player is not null);
+        Assert.Equal((false, null, null), (ann.HasEnded, ann.EndReason, ann.Failure));
+        ann.Session.StateCommitted += _ => throw new NotSupportedException("Not so.");
+        for (int n = 0; n < 600 && !ann.HasEnded; n++)
+        {
+            run.Network.DeliverUntil(run.Clock.Now + SimDuration.FromSeconds(Frame)); // a page steps its peer itself
+            run.Steps.Sessions[0].Step();
+            ann.Step();
+        }
+
+        Assert.True(ann.HasEnded);
+        Assert.IsType<NotSupportedException>(ann.Failure);
+        Assert.Equal("This peer cannot go on, by a mistake in its code. Not so.", ann.EndReason);
+        Assert.Equal(SimDuration.FromSeconds(1), ann.Step());
+    }
+
+    [Fact]
+    public void PresenceOf_WhoHasNeverBeenThere_IsNotAway()
+    {
+        OpenHost();
+        JoinedWorld ann = Join();
+        RunUntil(() => ann.Player is not null && ann.Session.Roster.Count == 2);
+        Assert.Equal((PlayerPresence.Here, PlayerPresence.NotYet), Presences(ann));
+        JoinedWorld bob = Join();
+        RunUntil(() => bob.Player is not null && ann.Session.Roster.Count == 3);
+        Assert.Equal((PlayerPresence.Here, PlayerPresence.Here), Presences(ann));
+        bob.Dispose();
+        RunUntil(() => ann.Session.Roster.Count == 2);
+        Assert.Equal((PlayerPresence.Here, PlayerPresence.Away), Presences(ann));
+    }
+
+    private static (PlayerPresence First, PlayerPresence Second) Presences(JoinedWorld of) => (of.Board!.PresenceOf(0), of.Board.PresenceOf(1));
+
     private static (double X, double Y)[] Mallets(JoinedWorld of) => [of.Bodies[1].Place, of.Bodies[2].Place];
 
-    private IDatagramPort OpenHost()
+    private IDatagramPort OpenHost(HostOptions? options = null)
     {
         IDatagramPort opened = null!;
-        run.Open(0, null, 0, SimDuration.Zero, (port, _) => NewHost(opened = port, 1));
+        run.Open(0, null, 0, SimDuration.Zero, (port, _) => NewHost(opened = port, 1, options));
         return opened;
     }
 
     /// <summary>Nobody plays at it, one is enough to begin, and it keeps no place for who falls silent.</summary>
-    private HostSession NewHost(IDatagramPort port, ulong number)
+    private HostSession NewHost(IDatagramPort port, ulong number, HostOptions? options = null)
     {
-        HostOptions options = new() { ExpectedClients = 1, Warmup = false, Timeout = SimDuration.FromSeconds(2), RejoinTime = SimDuration.Zero };
+        options = (options ?? new HostOptions { ExpectedClients = 1 }) with
+        {
+            Warmup = false, Timeout = SimDuration.FromSeconds(2), RejoinTime = SimDuration.Zero,
+        };
         return new HostSession(AirHockeyGame.Build(2, 1, isDedicated: true), port, run.Clock, options, number);
     }
 
-    private JoinedWorld Join()
+    private JoinedWorld Join(ClientOptions? asked = null)
     {
-        ClientOptions options = new()
+        ClientOptions options = (asked ?? new ClientOptions()) with
         {
             Warmup = false, Timeout = SimDuration.FromSeconds(2), RejoinTime = SimDuration.FromSeconds(60),
         };

@@ -13,9 +13,6 @@ internal sealed class JoinRequests(
     JoinAttempts attempts, HostConnection connection, PlayerSeat seat, UnprovenAnswers unproven, SharedWorld world,
     SessionStatus status, DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
-    /// <summary>How the sentence of a session ends that was refused for its key.</summary>
-    internal const string KeyIsWrong = "the key is wrong.";
-
     /// <summary>
     /// How many joins are made a second, and how many answers tried, and at once: each costs an agreement or two. Only somebody on the path
     /// can make it more than a few.
@@ -172,7 +169,7 @@ internal sealed class JoinRequests(
     {
         RefusalReason.VersionDiffers => "it speaks another version of the protocol.",
         RefusalReason.SceneDiffers => "its scene is another one.",
-        RefusalReason.WrongKey => KeyIsWrong,
+        RefusalReason.WrongKey => "the key is wrong.",
         RefusalReason.Full => "the session is full.",
         RefusalReason.TooLarge => "its world is too large to be copied.",
         RefusalReason.FoldDiffers => $"it computes worlds by other rules than this peer, whose fold version is {Simulation.FoldVersion}."
@@ -286,7 +283,7 @@ internal sealed class JoinRequests(
         }
         else
         {
-            status.End(SessionEnd.Refused, $"The {connection.Name} refused: {why}");
+            status.Refuse(reason, $"The {connection.Name} refused: {why}");
         }
     }
 }

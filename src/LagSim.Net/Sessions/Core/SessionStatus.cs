@@ -1,4 +1,5 @@
 using System;
+using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
@@ -9,6 +10,7 @@ internal sealed class SessionStatus
     private volatile SessionState state;
     private volatile string? endReason;
     private volatile SessionEnd endedBy;
+    private volatile RefusalReason refusedFor; // 0 for none
     private volatile Exception? failure;
 
     internal SessionStatus(SessionState first) => state = first;
@@ -31,6 +33,9 @@ internal sealed class SessionStatus
 
     internal SessionEnd EndedBy => endedBy;
 
+    /// <summary>What the host's refusal says that ended it; null if none did, or it was for another version of the protocol.</summary>
+    internal RefusalReason? RefusedFor => refusedFor == 0 ? null : refusedFor;
+
     /// <summary>The exception that ended it; null if none did.</summary>
     internal Exception? Failure => failure;
 
@@ -50,6 +55,18 @@ internal sealed class SessionStatus
         if (state is not (SessionState.Ended or SessionState.Rejoining))
         {
             state = SessionState.Running;
+        }
+    }
+
+    /// <summary>Ends the session because the host refuses to let this peer in, as <see cref="End"/> does.</summary>
+    /// <param name="reason">What its refusal says; null if it has no reason.</param>
+    /// <param name="why">The same, as a sentence.</param>
+    internal void Refuse(RefusalReason? reason, string why)
+    {
+        if (!HasEnded)
+        {
+            refusedFor = reason ?? 0;
+            End(SessionEnd.Refused, why);
         }
     }
 
