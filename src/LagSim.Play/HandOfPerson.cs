@@ -16,6 +16,12 @@ internal sealed class HandOfPerson(Session session, PlayScene scene, Action wake
     private BodyId held;
     private HandSender? sender;
 
+    /// <summary>What is drawn there.</summary>
+    internal PlayScene Scene { get; } = scene;
+
+    /// <summary>The number that it acts by: the peer's when it began. A host that lost the peer can let it in again under another.</summary>
+    internal byte Peer { get; } = session.Peer;
+
     /// <summary>Whether it holds a body.</summary>
     internal bool IsHolding => sender is not null;
 
@@ -47,8 +53,8 @@ internal sealed class HandOfPerson(Session session, PlayScene scene, Action wake
             return null;
         }
 
-        Vector3D place = scene.FromView(x, y, like.Position);
-        Vector3D velocity = scene.FromView(velocityX, velocityY, Vector3D.Zero);
+        Vector3D place = Scene.FromView(x, y, like.Position);
+        Vector3D velocity = Scene.FromView(velocityX, velocityY, Vector3D.Zero);
         display.SetHand(held, session.Peer, place);
         return sender.TrySample(session.SharedTime.Now, place, velocity, out PlayerAction keyframe) ? Do(keyframe) : null;
     }
@@ -64,13 +70,13 @@ internal sealed class HandOfPerson(Session session, PlayScene scene, Action wake
 
         sender = null;
         display.ClearHand(held);
-        return Do(PlayerAction.Release(held, scene.FromView(velocityX, velocityY, Vector3D.Zero)));
+        return Do(PlayerAction.Release(held, Scene.FromView(velocityX, velocityY, Vector3D.Zero)));
     }
 
     /// <summary>Gives a body a velocity, in metres a second of the view, as a cue does.</summary>
     /// <returns>What was done; null if it could not be.</returns>
     internal ExternalEvent? Strike(BodyId body, double velocityX, double velocityY) =>
-        Do(PlayerAction.SetVelocity(body, scene.FromView(velocityX, velocityY, Vector3D.Zero)));
+        Do(PlayerAction.SetVelocity(body, Scene.FromView(velocityX, velocityY, Vector3D.Zero)));
 
     /// <summary>Does an action.</summary>
     /// <returns>What was done; null if the session refused it.</returns>

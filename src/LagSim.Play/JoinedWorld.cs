@@ -23,7 +23,6 @@ internal sealed class JoinedWorld : IDisposable
     private readonly Queue<(double Seconds, CommittedState State)> commits = new();
     private readonly List<JoinedBody> bodies = [];
     private readonly RewrittenGlow glow = new();
-    private PlayScene? view;
     private HandOfPerson? hand;
     private DisplayOffsets? display;
     private LiveWorld? watched;
@@ -61,7 +60,7 @@ internal sealed class JoinedWorld : IDisposable
         Failure is Exception thrown ? $"This peer cannot go on, by a mistake in its code. {thrown.Message}" : Session.EndReason;
 
     /// <summary>What is drawn; null until the host has sent its scene.</summary>
-    internal PlayScene? View => view;
+    internal PlayScene? View => hand?.Scene;
 
     /// <summary>Its player, in a game of air hockey; null in any other scene, and for who only looks on.</summary>
     internal AirHockeyPlayer? Player { get; private set; }
@@ -69,9 +68,8 @@ internal sealed class JoinedWorld : IDisposable
     /// <summary>What it sees of the match, in a game of air hockey, whether it plays or only looks on; null in any other scene.</summary>
     internal AirHockeyBoard? Board { get; private set; }
 
-    /// <summary>The number that its player and its hand act by: the peer's when its world began. A host that lost it can let it in again
-    /// under another.</summary>
-    internal byte Peer { get; private set; }
+    /// <summary>The number that its player and its hand act by; 0 before there are any. See <see cref="HandOfPerson.Peer"/>.</summary>
+    internal byte Peer => hand?.Peer ?? 0;
 
     /// <summary>The bodies that there are (in a game of air hockey those of the table alone; the board has the rest), where they are drawn,
     /// in their canonical order.</summary>
@@ -121,6 +119,7 @@ internal sealed class JoinedWorld : IDisposable
         }
 
         Watch(world);
+        PlayScene view = View!;
         Player?.Move();
         display!.Update(snapshot, Session.DisplayTime);
         Player?.ShowHand(display);
@@ -128,13 +127,13 @@ internal sealed class JoinedWorld : IDisposable
         for (int n = 0; n < snapshot.BodyCount; n++)
         {
             BodyId body = snapshot.BodyAt(n);
-            if ((view!.IsAirHockey && body.Sequence > 0) || !display.TryRead(body, out DrawnBody drawn))
+            if ((view.IsAirHockey && body.Sequence > 0) || !display.TryRead(body, out DrawnBody drawn))
             {
                 continue;
             }
 
             double shine = glow.Of(body, drawn.Jump > 0, shownSeconds);
-            bodies.Add(new JoinedBody(body, view!.ToView(drawn.Position), snapshot.RadiusOf(body), shine, drawn.IsInHand));
+            bodies.Add(new JoinedBody(body, view.ToView(drawn.Position), snapshot.RadiusOf(body), shine, drawn.IsInHand));
         }
 
         BodiesVersion += Identity() == before ? 0 : 1;
@@ -201,21 +200,12 @@ internal sealed class JoinedWorld : IDisposable
         }
     }
 
-    /// <summary>Another session than before, if there was one: a host that was started again has a time and perhaps a scene of its
-    /// own.</summary>
-    private void BeginSession()
-    {
-        view = PlayScene.Of(Session.Scene!);
-        Board = view.IsAirHockey ? new AirHockeyBoard(Session, notices) : null;
-    }
-
-    /// <summary>Another number than before, or the first: what acts by it begins anew.</summary>
+    /// <summary>Takes part by another number than before, or the first: what acts by it begins anew.</summary>
     private void TakeNumber()
     {
-        HandOfPerson hand = new(Session, view!, () => Step());
+        HandOfPerson hand = new(Session, PlayScene.Of(Session.Scene!), () => Step());
         this.hand = hand;
-        Peer = Session.Peer;
-        bool plays = view!.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Peer) is not null;
+        bool plays = hand.Scene.IsAirHockey && AirHockeyGame.PlayerAt(Session.Scene!, Peer) is not null;
         Player = plays ? new AirHockeyPlayer(Session, action => hand.Do(action)) : null;
         BodiesVersion++;
     }
@@ -228,15 +218,16 @@ internal sealed class JoinedWorld : IDisposable
             return;
         }
 
+        // A host that was started again has a time and perhaps a scene of its own.
         bool isOtherSession = watched?.Simulation.Start != world.Simulation.Start;
-        if (isOtherSession)
-        {
-            BeginSession();
-        }
-
         if (isOtherSession || Peer != Session.Peer)
         {
             TakeNumber();
+        }
+
+        if (isOtherSession)
+        {
+            Board = View!.IsAirHockey ? new AirHockeyBoard(Session, notices) : null;
         }
 
         watched = world;
