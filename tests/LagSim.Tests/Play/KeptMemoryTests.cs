@@ -15,9 +15,9 @@ public sealed class KeptMemoryTests
     private const double Furthest = 1.5; // metres that a hand goes each way
     private const int FramesPerMinute = 3600, FramesPerThrow = 36, FramesInHand = 15;
 
-    /// <summary>How much more than in its first third may be kept in its last: with six seeds it was 0.98 to 1.12. What is kept has the
-    /// room of the liveliest moment of each pool.</summary>
-    private const double Slack = 1.2;
+    /// <summary>How much more than in its first third may be kept in its last. What is kept has the room of the liveliest moment of each pool:
+    /// with six seeds it was 0.98 to 1.12 times as much, with this one 1.01. While snapshots gave no room back it was 1.17.</summary>
+    private const double Slack = 1.1;
 
     /// <summary>A leak that is seen: some lines of a report kept for each heal.</summary>
     private const int LeakedBytesPerHeal = 200;
