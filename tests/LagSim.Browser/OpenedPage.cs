@@ -80,6 +80,10 @@ internal sealed class OpenedPage : IAsyncDisposable
         return double.Parse(text.Split(' ')[0], System.Globalization.CultureInfo.InvariantCulture);
     }
 
+    /// <summary>The values of controls, by their names.</summary>
+    internal Task<string[]> ValuesAsync(params string[] names) =>
+        Page.EvaluateAsync<string[]>("names => names.map(name => document.getElementById('controls').elements[name].value)", names);
+
     /// <summary>Where a ball is on the screen, as a pane draws it.</summary>
     internal async Task<(float X, float Y)> BallAsync(int pane, int ball)
     {

@@ -171,7 +171,7 @@ public sealed class PlayPageTests(ServedPage served)
                 "'jitter' is 'abc'; it must be a number from 0 to 500. 'jitter=0' is shown instead.",
                 "All else is as the address has it. The address stays as it is until you change something.",
             ], lines);
-        Assert.Equal(["30", "0", "0", "300"], await ValuesAsync(page, "delay", "loss", "jitter", "ahead"));
+        Assert.Equal(["30", "0", "0", "300"], await page.ValuesAsync("delay", "loss", "jitter", "ahead"));
         Assert.EndsWith($"?{Query}", page.Page.Url, StringComparison.Ordinal);
         await page.AgreeAsync(2);
         await page.Page.Locator("input[name=loss]").FillAsync("4");
@@ -188,20 +188,20 @@ public sealed class PlayPageTests(ServedPage served)
         Assert.StartsWith(
             "'link=awful' and 'delay=30', 'loss=1' disagree: a profile has its own delay, jitter, loss, burst, asymmetry, clock. The profile 'awful' is shown, as it is.",
             await page.Page.Locator("#problem").InnerTextAsync(), StringComparison.Ordinal);
-        Assert.Equal(["awful", "200", "60", "10", "5", "0", "0"], await ValuesAsync(page, link));
+        Assert.Equal(["awful", "200", "60", "10", "5", "0", "0"], await page.ValuesAsync(link));
         Assert.Contains("5 % reordered; 2 % twice", await page.Page.Locator(".besides").InnerTextAsync(), StringComparison.Ordinal);
         await page.Page.Locator("select[name=link]").SelectOptionAsync("5g");
-        Assert.Equal(["5g", "12.5", "3", "0.1", "1.5", "11", "0"], await ValuesAsync(page, link));
+        Assert.Equal(["5g", "12.5", "3", "0.1", "1.5", "11", "0"], await page.ValuesAsync(link));
         Assert.Equal("12.5 ms", await page.Page.Locator("label:has(input[name=delay]) output").InnerTextAsync());
         Assert.EndsWith("?scene=room&panes=healing,healing&link=5g", page.Page.Url, StringComparison.Ordinal);
         await page.Page.Locator("input[name=loss]").FocusAsync();
         await page.Page.Keyboard.PressAsync("End");
-        Assert.Equal(["custom", "12.5", "3", "50", "1.5", "11", "0"], await ValuesAsync(page, link));
+        Assert.Equal(["custom", "12.5", "3", "50", "1.5", "11", "0"], await page.ValuesAsync(link));
         Assert.False(await page.Page.Locator(".besides").IsVisibleAsync());
         Assert.EndsWith("&delay=12.5&jitter=3&loss=50&burst=1.5&asymmetry=11", page.Page.Url, StringComparison.Ordinal);
         await page.Page.ReloadAsync();
         await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
-        Assert.Equal(["custom", "12.5", "3", "50", "1.5", "11", "0"], await ValuesAsync(page, link));
+        Assert.Equal(["custom", "12.5", "3", "50", "1.5", "11", "0"], await page.ValuesAsync(link));
         Assert.Equal("own figures", await page.Page.EvaluateAsync<string>("() => document.querySelector('select[name=link]').selectedOptions[0].text"));
 
         // Whatever the address may have the sliders show, to their ends and between their steps.
@@ -211,7 +211,7 @@ public sealed class PlayPageTests(ServedPage served)
             await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
             foreach (string part in query.Split('&'))
             {
-                Assert.Equal(part, $"{part.Split('=')[0]}={(await ValuesAsync(page, part.Split('=')[0]))[0]}");
+                Assert.Equal(part, $"{part.Split('=')[0]}={(await page.ValuesAsync(part.Split('=')[0]))[0]}");
             }
 
             Assert.False(await page.Page.Locator("#problem").IsVisibleAsync());
@@ -289,9 +289,6 @@ public sealed class PlayPageTests(ServedPage served)
         await page.Page.WaitForFunctionAsync("() => Number(document.querySelectorAll('dd[data-is=heals]')[1].textContent) > 0");
         await page.AgreeAsync(2);
     }
-
-    private static async Task<string[]> ValuesAsync(OpenedPage page, params string[] names) =>
-        await page.Page.EvaluateAsync<string[]>("names => names.map(name => document.getElementById('controls').elements[name].value)", names);
 
     /// <summary>The texts that stand out too little from what is behind them: by less than 4.5 to 1, as WCAG 2 measures it.</summary>
     private static async Task<string[]> Pale(OpenedPage page)

@@ -22,8 +22,8 @@ const Texts = { link: { [Custom]: 'own figures' } }
 export class Controls {
   /**
    * @param form where it is built
-   * @param on what is called: `begin(query)` for another set-up, `link(query)` for other links only, whether they can be, `speed()`,
-   *   `pause(isPaused)`, `step()`
+   * @param on what is called: `begin(query)` for another set-up, `link(query)` for other links only, whether they can be (if not, it
+   *   gives `takeBack`), `speed()`, `pause(isPaused)`, `step()`
    */
   constructor(form, on) {
     this.form = form
@@ -55,7 +55,7 @@ export class Controls {
     this.setup = setup
     this.sliders = {}
     this.values = new URLSearchParams(setup.query)
-    speed !== null && this.values.set('speed', speed)
+    speed !== null && this.put('speed', speed)
     const focused = this.form.contains(document.activeElement) ? document.activeElement : null
     this.form.replaceChildren()
     this.heading('World')
@@ -126,8 +126,16 @@ export class Controls {
   }
 
   relink() {
-    this.showLink()
     this.on.link(this.query) && this.remember()
+    this.showLink()
+  }
+
+  /** What was set could not be: takes what the engine has. The form stays, so that a slider can be pulled on. */
+  takeBack(setup) {
+    const { speed } = this
+    this.setup = setup
+    this.values = new URLSearchParams(setup.query)
+    this.put('speed', speed)
   }
 
   /** Shows what the link is, and what a profile has that no slider shows. */

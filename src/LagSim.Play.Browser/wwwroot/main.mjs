@@ -123,7 +123,7 @@ function begin(query) {
   say(wrong)
   if (wrong) {
     setup = JSON.parse(engine.Describe())
-    controls.build(setup, controls.values.get('speed'))
+    controls.build(setup, controls.speed)
     return false
   }
   show()
@@ -132,10 +132,14 @@ function begin(query) {
   return true
 }
 
-/** Other links, in the same worlds; whether they can be. */
+/** Other links, in the same worlds; whether they can be. If not, the controls show those before, which the worlds still have. */
 function link(query) {
   const wrong = engine.SetLink(query)
   say(wrong)
+  if (wrong) {
+    setup = JSON.parse(engine.Describe())
+    controls.takeBack(setup)
+  }
   compare()
   return wrong === ''
 }
