@@ -1,5 +1,4 @@
 using System;
-using System.Linq;
 using System.Threading.Tasks;
 using Microsoft.Playwright;
 using Xunit;
@@ -34,9 +33,10 @@ public sealed class ControlsPageTests(ServedPage served)
         Assert.False(await page.Page.Locator("#problem").IsVisibleAsync());
     }
 
-    /// <summary>Only a step, of one frame, moves paused worlds. Who restarts, or opens the copied link, has the same set-up.</summary>
+    /// <summary>A correction glides over frames or is drawn in one. Only a step, of one frame, moves paused worlds; who restarts, or opens
+    /// the copied link, has the same set-up.</summary>
     [Fact]
-    public async Task StepRestartAndCopiedLink_Pressed_DoWhatTheySay()
+    public async Task TickBoxAndButtons_Pressed_DoWhatTheySay()
     {
         const string Seconds =
             "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(window.lagsim.seconds()))))";
@@ -45,22 +45,24 @@ public sealed class ControlsPageTests(ServedPage served)
             () => [...document.querySelectorAll('#controls :is(input, select), .pane select')]
               .map(one => `${one.name} ${one.type === 'checkbox' ? one.checked : one.value}`).join('; ')
             """;
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, "scene=drop&panes=none,healing,healing&ahead=250", Clipboard);
-        await page.Page.Locator("input[name=clock]").FillAsync("300");
-        await page.Page.GetByLabel("Corrections glide").UncheckAsync();
-        string setUp = await page.Page.EvaluateAsync<string>(SetUp);
-        await page.Page.WaitForFunctionAsync("() => window.lagsim.seconds() > 0.5");
+        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=200&ahead=250", Clipboard);
         ILocator step = page.Page.GetByRole(AriaRole.Button, new() { Name = "Step", Exact = true });
+        ILocator restart = page.Page.GetByRole(AriaRole.Button, new() { Name = "Restart" });
         await step.ClickAsync(); // which pauses, too
         double at = await page.Page.EvaluateAsync<double>(Seconds);
         Assert.Equal(at, await page.Page.EvaluateAsync<double>(Seconds)); // the control: no step, no time
-        for (int n = 1; n <= 3; n++)
-        {
-            await step.ClickAsync();
-            Assert.Equal(at + (n / 60.0), await page.Page.EvaluateAsync<double>(Seconds), 1e-9);
-        }
+        await step.ClickAsync();
+        Assert.Equal(at + (1 / 60.0), await page.Page.EvaluateAsync<double>(Seconds), 1e-9);
+        double gliding = await FurthestAsync(page);
+        Assert.DoesNotContain("smooth", page.Page.Url, StringComparison.Ordinal);
+        await page.Page.GetByLabel("Corrections glide").UncheckAsync();
+        Assert.EndsWith("&smooth=0", page.Page.Url, StringComparison.Ordinal);
+        double sudden = await FurthestAsync(page);
+        Assert.True(sudden > 2 * gliding, $"{sudden} pixels at once, {gliding} when it glides");
 
-        await page.Page.GetByRole(AriaRole.Button, new() { Name = "Restart" }).ClickAsync();
+        string setUp = await page.Page.EvaluateAsync<string>(SetUp);
+        Assert.True(await page.Page.EvaluateAsync<double>(Seconds) > 1);
+        await restart.ClickAsync();
         double begun = await page.Page.EvaluateAsync<double>(Seconds);
         Assert.InRange(begun, 0, 0.25);
         await step.ClickAsync();
@@ -69,43 +71,33 @@ public sealed class ControlsPageTests(ServedPage served)
 
         await page.Page.EvaluateAsync("() => navigator.clipboard.writeText('something else')");
         string copied = await CopyAsync(page);
-        await page.Page.GotoAsync("about:blank");
-        string other = copied.Replace("clock=300", "clock=200", StringComparison.Ordinal); // the control
-        foreach ((string address, bool isSame) in new[] { (copied, true), (other, false) })
-        {
-            await page.Page.GotoAsync(address);
-            await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
-            Assert.Equal(isSame, setUp == await page.Page.EvaluateAsync<string>(SetUp));
-        }
+        await page.Page.GetByLabel("Clock ahead").FillAsync("300");
+        Assert.NotEqual(setUp, await page.Page.EvaluateAsync<string>(SetUp)); // the control
+        await page.Page.GotoAsync(copied);
+        await page.Page.WaitForSelectorAsync("#panes:not([hidden])");
+        Assert.Equal(setUp, await page.Page.EvaluateAsync<string>(SetUp));
     }
 
-    /// <summary>A correction that glides is drawn over several frames, one that does not in one.</summary>
-    [Fact]
-    public async Task Corrections_ThatGlide_AreDrawnOverMoreFrames()
+    /// <summary>How many pixels a ball goes at most in one frame in the second pane, which hears late that the first has taken it. Every
+    /// frame is a step from the beginning on, so the clock does not matter.</summary>
+    private static async Task<double> FurthestAsync(OpenedPage page)
     {
-        const string Step =
-            "const press = () => [...document.querySelectorAll('#controls button')].find(one => one.textContent === 'Step').click()";
-        await using OpenedPage page = await OpenedPage.OpenAsync(served, "panes=healing,healing&delay=200");
-        double[] furthest = [0, 0]; // in pixels, from one frame to the next
-        foreach (bool glides in new[] { true, false })
-        {
-            await page.Page.GetByLabel("Corrections glide").SetCheckedAsync(glides);
-            Assert.Equal(!glides, page.Page.Url.Contains("smooth=0", StringComparison.Ordinal));
-            await page.Page.GetByRole(AriaRole.Button, new() { Name = "Step", Exact = true }).ClickAsync();
-            await page.Page.GetByRole(AriaRole.Button, new() { Name = "Restart" }).ClickAsync();
-            await page.Page.EvaluateAsync($"() => {{ {Step}; for (let n = 0; n < 30; n++) press() }}");
-            await page.Canvas(0).PressAsync("Enter"); // takes a ball, of which the other pane hears late
-            furthest[glides ? 0 : 1] = await page.Page.EvaluateAsync<double>(
-                $$"""
-                () => {
-                  {{Step}}
-                  const places = Array.from({ length: 40 }, () => (press(), window.lagsim.placeOnScreen(1, 0)))
-                  return Math.max(...places.slice(1).map((place, n) => Math.hypot(place.x - places[n].x, place.y - places[n].y)))
-                }
-                """);
-        }
-
-        Assert.True(furthest[1] > 2 * furthest[0], $"{furthest[1]} pixels at once, {furthest[0]} when it glides");
+        const string Press =
+            """
+            const buttons = [...document.querySelectorAll('#controls button')]
+            const press = text => buttons.find(one => one.textContent === text).click()
+            """;
+        await page.Page.EvaluateAsync($"() => {{ {Press}\n press('Restart') }}");
+        await page.Page.EvaluateAsync($"() => {{ {Press}\n for (let n = 0; n < 30; n++) press('Step') }}");
+        await page.Canvas(0).PressAsync("Enter");
+        return await page.Page.EvaluateAsync<double>(
+            $$"""
+            () => {
+              {{Press}}
+              const places = Array.from({ length: 40 }, () => (press('Step'), window.lagsim.placeOnScreen(1, 0)))
+              return Math.max(...places.slice(1).map((place, n) => Math.hypot(place.x - places[n].x, place.y - places[n].y)))
+            }
+            """);
     }
 
     /// <summary>Copies the link to the set-up, and returns it from the clipboard.</summary>
