@@ -49,6 +49,10 @@ internal static partial class PlaygroundExports
         try
         {
             playground = new Playground(setup);
+            if (sentences.Count > 0)
+            {
+                sentences.Add("All else is as the address has it.");
+            }
         }
         catch (InvalidOperationException refused)
         {

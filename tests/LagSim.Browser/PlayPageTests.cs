@@ -169,7 +169,8 @@ public sealed class PlayPageTests(ServedPage served)
                 "'scene' is 'moon'; it must be one of room, drop, billiards, break, cradle, orbits, air-hockey. 'scene=room' is shown instead.",
                 "'players' is no part of a set-up; there are scene, link, panes, seed, delay, jitter, loss, burst, asymmetry, clock, ahead, lag, smooth, speed. It is left out.",
                 "'jitter' is 'abc'; it must be a number from 0 to 500. 'jitter=0' is shown instead.",
-                "All else is as the address has it. The address stays as it is until you change something.",
+                "All else is as the address has it.",
+                "The address stays as it is until you change something.",
             ], lines);
         Assert.Equal(["30", "0", "0", "300"], await page.ValuesAsync("delay", "loss", "jitter", "ahead"));
         Assert.EndsWith($"?{Query}", page.Page.Url, StringComparison.Ordinal);

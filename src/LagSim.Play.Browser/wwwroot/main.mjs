@@ -73,7 +73,7 @@ function arrive() {
     say()
     controls.remember()
   } else {
-    say(...wrong, 'All else is as the address has it. The address stays as it is until you change something.')
+    say(...wrong, 'The address stays as it is until you change something.')
   }
   steps.show(controls.step, controls.values.get('seed') ?? '1')
   compare()
