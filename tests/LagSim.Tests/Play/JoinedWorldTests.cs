@@ -166,7 +166,9 @@ public sealed class JoinedWorldTests
     {
         options = (options ?? new HostOptions { ExpectedClients = 1 }) with
         {
-            Warmup = false, Timeout = SimDuration.FromSeconds(2), RejoinTime = SimDuration.Zero,
+            Warmup = false,
+            Timeout = SimDuration.FromSeconds(2),
+            RejoinTime = SimDuration.Zero,
         };
         return new HostSession(AirHockeyGame.Build(2, 1, isDedicated: true), port, run.Clock, options, number);
     }
@@ -175,7 +177,9 @@ public sealed class JoinedWorldTests
     {
         ClientOptions options = (asked ?? new ClientOptions()) with
         {
-            Warmup = false, Timeout = SimDuration.FromSeconds(2), RejoinTime = SimDuration.FromSeconds(60),
+            Warmup = false,
+            Timeout = SimDuration.FromSeconds(2),
+            RejoinTime = SimDuration.FromSeconds(60),
         };
         run.Open(peers.Count + 1, LinkProfiles.PureDelay(40), 0, SimDuration.Zero, (port, clock) =>
         {
