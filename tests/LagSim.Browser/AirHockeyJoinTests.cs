@@ -148,6 +148,11 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await SeesTheMatchAsync(onlooker.Page, "You look on");
         await SeesTheMatchAsync(players[0].Page, "Ann"); // the control: a player has the same, and a hand
         Assert.Equal((0, 1), (await onlooker.Page.Locator(".hand").CountAsync(), await players[0].Page.Locator(".hand").CountAsync()));
+        foreach ((JoinedPage phone, bool plays) in new[] { (players[1], true), (onlooker, false) })
+        {
+            Assert.Equal(plays, await phone.Page.GetByText("Your mallet follows your finger").IsVisibleAsync());
+        }
+
         foreach (IPage page in new[] { players[0].Page, players[1].Page, onlooker.Page })
         {
             Assert.Equal("Ann, <b>WWWWWWWWWWWWWWWWW</b>", await SidesAsync(page));

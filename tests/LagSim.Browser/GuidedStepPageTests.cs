@@ -40,7 +40,6 @@ public sealed class GuidedStepPageTests(ServedPage served)
 
     /// <summary>Every figure of the thesis's tests that the page shows is the tool's, to the last bit; another seed has others.</summary>
     [Theory]
-    [InlineData("lift", 1)]
     [InlineData("lift", 20_261)]
     [InlineData("hand", 77)]
     public async Task Figures_OfAThesissTest_AreThoseOfTheToolAndSeenWhole(string step, int seed)

@@ -42,6 +42,17 @@ public sealed class PlaygroundTests
         AssertAgree(playground);
     }
 
+    /// <summary>Whatever the links lose, the pane of a player is that player's: who is let in first has the first number.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(3)]
+    public void Panes_OverAnAwfulLink_AreThoseOfThePlayersInOrder(int seed)
+    {
+        Playground playground = new(PlaySetup.Parse($"scene=air-hockey&panes=healing,none,healing,interpolation&link=awful&seed={seed}"));
+        Assert.Equal([0, 1, 2, 3], playground.Panes.Select(pane => (int)pane.Session.Peer));
+    }
+
     /// <summary>The control: a strategy that promises no agreement leaves its pane with another world.</summary>
     [Theory]
     [InlineData(LateEventStrategy.ApplyOnArrival)]
