@@ -50,7 +50,7 @@ internal sealed class Playground
         for (int n = 0; n < setup.Strategies.Count; n++)
         {
             Add(n, setup.Strategies[n], n == 0 ? null : link, notices[n]);
-            Await(pane => pane.Number == 0 || pane.Session.State != SessionState.Joining); // one after another: the host numbers them as they come
+            Await(pane => pane.Session.State is SessionState.Waiting or SessionState.Running); // one after another: the host numbers them as they come
         }
 
         Session host = panes[0].Session;
