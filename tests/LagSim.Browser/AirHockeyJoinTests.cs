@@ -243,17 +243,19 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         return (at[0], at[1]);
     }
 
-    /// <summary>A finger goes over the table, to the side of the first player.</summary>
+    /// <summary>A finger goes over the table, to the side of the first player, and stays there. It is down for longer than a second: a hand whose
+    /// first grab the host has refused, right at the start, takes the mallet again after that, from where it is.</summary>
     private static async Task DragAsync(IPage page)
     {
+        const int DragSteps = 70;
         await page.Locator("#waiting").WaitForAsync(new() { State = WaitForSelectorState.Hidden }); // the table moves up into its place
         LocatorBoundingBoxResult box = (await page.Locator(".pane canvas").First.BoundingBoxAsync())!;
         ICDPSession devices = await page.Context.NewCDPSessionAsync(page);
-        for (int n = 0; n <= 30; n++)
+        for (int n = 0; n <= DragSteps; n++)
         {
-            object[] points = n == 30 ? [] : [new { x = box.X + (0.2 * box.Width), y = box.Y + (0.3 * box.Height) }];
+            object[] points = n == DragSteps ? [] : [new { x = box.X + (0.2 * box.Width), y = box.Y + (0.3 * box.Height) }];
             await devices.SendAsync(
-                "Input.dispatchTouchEvent", new() { ["type"] = n == 0 ? "touchStart" : n == 30 ? "touchEnd" : "touchMove", ["touchPoints"] = points });
+                "Input.dispatchTouchEvent", new() { ["type"] = n == 0 ? "touchStart" : n == DragSteps ? "touchEnd" : "touchMove", ["touchPoints"] = points });
             await page.WaitForTimeoutAsync(25);
         }
 
