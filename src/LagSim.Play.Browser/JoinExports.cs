@@ -1,11 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
-using System.IO;
 using System.Runtime.InteropServices.JavaScript;
 using System.Runtime.Versioning;
 using System.Text;
-using System.Text.Json;
 using System.Threading.Tasks;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
@@ -74,7 +72,7 @@ internal static partial class JoinExports
 
     /// <summary>What is drawn of a peer, as JSON: the rectangle of the view, what stands still in it, and the bodies; empty until the scene is there.</summary>
     [JSExport]
-    internal static string Describe(int peer) => WorldOf(peer).View is not PlayScene view ? "" : Encoding.UTF8.GetString(Json(json =>
+    internal static string Describe(int peer) => WorldOf(peer).View is not PlayScene view ? "" : Encoding.UTF8.GetString(JsonBytes.Of(json =>
     {
         json.WriteString("scene", view.IsAirHockey ? AirHockeyGame.Name : view.Scene.Name);
         json.WriteNumber("began", WorldOf(peer).Session.World?.Simulation.Start.Ticks ?? 0); // another session of a host has another time
@@ -94,7 +92,7 @@ internal static partial class JoinExports
 
     /// <summary>How a peer's session stands, as JSON.</summary>
     [JSExport]
-    internal static string Status(int peer) => Encoding.UTF8.GetString(Json(json =>
+    internal static string Status(int peer) => Encoding.UTF8.GetString(JsonBytes.Of(json =>
     {
         (JoinedWorld world, WebSocketClientPort port) = Peers[peer];
         ClientSession session = world.Session;
@@ -230,18 +228,5 @@ internal static partial class JoinExports
         {
             await Console.Error.WriteLineAsync(thrown.ToString()); // the stack, for the browser's console; the page has the sentence
         }
-    }
-
-    private static byte[] Json(Action<Utf8JsonWriter> write)
-    {
-        using MemoryStream stream = new();
-        using (Utf8JsonWriter json = new(stream))
-        {
-            json.WriteStartObject();
-            write(json);
-            json.WriteEndObject();
-        }
-
-        return stream.ToArray();
     }
 }

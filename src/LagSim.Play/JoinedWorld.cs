@@ -200,7 +200,7 @@ internal sealed class JoinedWorld : IDisposable
         }
     }
 
-    /// <summary>Takes part by another number than before, or the first: what acts by it begins anew.</summary>
+    /// <summary>The peer has a number, its first or another than before: makes its hand and its player for that number.</summary>
     private void TakeNumber()
     {
         HandOfPerson hand = new(Session, PlayScene.Of(Session.Scene!), () => Step());

@@ -133,7 +133,7 @@ public sealed class InterruptedTabTests(ServedPage served)
         Assert.True(await IsStaleAsync(ann.Page));
         Assert.DoesNotContain("Ann", string.Join('\n', next.Lines), StringComparison.Ordinal); // not unasked
         await ann.Page.GetByRole(AriaRole.Button, new() { Name = "Join the other host" }).ClickAsync();
-        await ann.Page.GetByText("This session has a key").WaitForAsync(); // that of the host before is not sent
+        await ann.Page.GetByText("This session needs a key").WaitForAsync(); // that of the host before is not sent
         await ann.AskAsync("Ann", "open sesame");
         await next.SaysAsync(line => line == "here: 0 player, 1 player Ann");
         await ann.RunningAsync();
@@ -141,7 +141,7 @@ public sealed class InterruptedTabTests(ServedPage served)
         Assert.Equal((1, false), (await ann.Page.EvaluateAsync<int>("() => lagsim.held"), await IsStaleAsync(ann.Page)));
     }
 
-    /// <summary>Whether the line of hashes has the colour of what is not known now.</summary>
+    /// <summary>Whether the hashes are shown in grey, as not known now.</summary>
     private static Task<bool> IsStaleAsync(IPage page) => page.EvaluateAsync<bool>(
         "() => getComputedStyle(document.querySelector('.agrees')).color === getComputedStyle(document.querySelector('#session dt')).color");
 

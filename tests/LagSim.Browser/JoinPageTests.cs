@@ -86,7 +86,7 @@ public sealed class JoinPageTests(ServedPage served)
         List<IWebSocket> sockets = [];
         page.WebSocket += (_, socket) => sockets.Add(socket);
         await joined.AskAsync("Ann");
-        await IsWrongAsync(page, "key", "This session has a key: ask whoever has started it.");
+        await IsWrongAsync(page, "key", "This session needs a key. Ask whoever started it.");
         Assert.Empty(sockets);
         await joined.AskAsync("Ann", "open rye");
         await IsWrongAsync(page, "key", "This key is wrong.");

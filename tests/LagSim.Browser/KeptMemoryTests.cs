@@ -64,7 +64,7 @@ public sealed class KeptMemoryTests(ServedPage served, ITestOutputHelper output)
             $"| {when} | {(when[0] == 'b' ? "| | " : "")}{kept.Script / 1e6:F2} | {kept.Runtime / 1e6:F2} | {kept.WebAssembly / 1e6:F1} | {kept.Nodes} | {kept.Listeners} |"));
     }
 
-    /// <summary>The worlds begin anew, so that what is kept does not depend on where the balls were.</summary>
+    /// <summary>Starts the worlds again: what they keep then does not depend on where the balls were.</summary>
     private static async Task BeginAnewAsync(OpenedPage page)
     {
         foreach (string scene in new[] { "cradle", "room" })

@@ -1,15 +1,14 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Linq;
 using System.Net;
 using System.Net.WebSockets;
-using System.Text.Json;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Play;
 using LagSim.Scenes;
 using Microsoft.AspNetCore.Builder;
 using Microsoft.AspNetCore.Http;
@@ -61,22 +60,9 @@ internal sealed class SessionDoor : IDisposable
     /// <summary>Ends the connections of all who came in.</summary>
     public void Dispose() => port.Dispose();
 
-    private static byte[] Json(Action<Utf8JsonWriter> write)
-    {
-        using MemoryStream stream = new();
-        using (Utf8JsonWriter json = new(stream))
-        {
-            json.WriteStartObject();
-            write(json);
-            json.WriteEndObject();
-        }
-
-        return stream.ToArray();
-    }
-
     /// <summary>What a page has to know. It says where it comes from, since a browser does not tell that of its own server; of where others
     /// come from, and of the host's addresses, only a page that was opened on this machine is told one.</summary>
-    private byte[] Describe(HttpRequest request, IReadOnlyList<string> origins) => Json(json =>
+    private byte[] Describe(HttpRequest request, IReadOnlyList<string> origins) => JsonBytes.Of(json =>
     {
         json.WriteNumber("wire_version", Session.WireVersion);
         json.WriteString("scene", scene.Name);
@@ -128,7 +114,7 @@ internal sealed class SessionDoor : IDisposable
         string? reached = origins.FirstOrDefault(origin => IPAddress.TryParse(new Uri(origin).Host, out IPAddress? own) && own.Equals(local));
         context.Response.StatusCode = StatusCodes.Status421MisdirectedRequest;
         context.Response.ContentType = "application/json";
-        return context.Response.Body.WriteAsync(Json(json =>
+        return context.Response.Body.WriteAsync(JsonBytes.Of(json =>
         {
             json.WriteString("problem", $"The host does not know itself by the name '{context.Request.Host.Value}'.");
             json.WriteString("name", context.Request.Host.Value);

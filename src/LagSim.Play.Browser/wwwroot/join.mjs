@@ -133,7 +133,7 @@ async function goIn() {
   }
   const key = keyForHost()
   complain('name', exports.WhyNoName(name))
-  complain('key', host.needs_key && key === '' ? 'This session has a key: ask whoever has started it.' : exports.WhyNoKey(key))
+  complain('key', host.needs_key && key === '' ? 'This session needs a key. Ask whoever started it.' : exports.WhyNoKey(key))
   if (isWrong('name') || isWrong('key')) {
     return say('')
   }
