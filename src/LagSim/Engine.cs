@@ -128,7 +128,8 @@ internal sealed class Engine
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters,
             new FreePlaces(scene, Bodies, Timelines, view));
-        EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, marks, rewinds, Rewinder);
+        LossHandler losses = new(Bodies, Timelines, waker);
+        EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, losses, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
 
         // What comes from outside, and what rules do.

@@ -239,7 +239,7 @@ internal static class SnapshotCheck
     {
         EventKey opened = body.Opened;
         bool isKnown = opened.Kind is EventKind.Start or EventKind.Impact or EventKind.StepEnd
-            or (>= EventKind.Spawn and <= EventKind.Release) or EventKind.SetFilter || (opened.Kind == EventKind.Remove && opened.Body != body.Id); // what it lay on is gone
+            or (>= EventKind.Spawn and <= EventKind.Release) or EventKind.SetFilter || (opened.Kind is EventKind.Remove or EventKind.Lost && opened.Body != body.Id); // what it lay on is gone
         if (!isKnown || opened.Time < snapshot.Start || opened.Time >= snapshot.Time)
         {
             throw new SceneException(

@@ -42,6 +42,11 @@ internal class EventPredictor(
             ConsiderPath(slot, last, ref next);
         }
 
+        if (last != TimelineStore.None && timelines.Segment(last).Loss != LossReason.None)
+        {
+            ConsiderLoss(slot, last, ref next);
+        }
+
         if (next.Any)
         {
             Schedule(slot, last, next);
@@ -71,6 +76,13 @@ internal class EventPredictor(
 
         int piece = view.SegmentAt(partner, key);
         return piece == TimelineStore.None || timelines.Serial(piece) != scheduler.Contact(slot).PartnerSerial; // or forgotten meanwhile
+    }
+
+    private void ConsiderLoss(int slot, int last, ref NextEvent next)
+    {
+        BodyId id = bodies.Id(slot);
+        SimTime time = timelines.Segment(last).End;
+        next.Consider(new EventKey(time, paths.RoundAfter(last, time), EventKind.Lost, id, id, 0, (uint)timelines.Segment(last).Loss));
     }
 
     private void ConsiderPath(int slot, int last, ref NextEvent next)

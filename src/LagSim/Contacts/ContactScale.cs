@@ -1,5 +1,6 @@
 using System;
 using LagSim.Events;
+using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -20,8 +21,11 @@ internal class ContactScale
     /// <summary>No step is longer: one frame of an old screen, so that a moving heap is seen to move.</summary>
     private const long LongestTicks = SimDuration.TicksPerSecond / 64;
 
-    /// <summary>The shortest step, 2^-20 s, whatever asks for less: a gap that closes sooner counts as closing at once.</summary>
-    internal const long ShortestTicks = ContactTime.SoonTicks;
+    /// <summary>The shortest step that the tolerance asks for, 2^-20 s: a gap that closes sooner counts as closing at once.</summary>
+    private const long ShortestByTolerance = ContactTime.SoonTicks;
+
+    /// <summary>The shortest step, which only forces on what is fast ask for: that of a flight under error control.</summary>
+    internal static readonly long ShortestTicks = StepSize.Shortest.Ticks;
 
     /// <summary>
     /// The assumed pressing acceleration where the scene has no gravity, in m/s². Hands and forces are not known beforehand, and a hand
@@ -51,7 +55,7 @@ internal class ContactScale
         Pull = Math.Max(gravity.Length, MinPull);
         double seconds = Math.Sqrt(2 * tolerance / Pull);
         long ticks = LongestTicks;
-        while (ticks > ShortestTicks && ticks > seconds * SimDuration.TicksPerSecond)
+        while (ticks > ShortestByTolerance && ticks > seconds * SimDuration.TicksPerSecond)
         {
             ticks >>= 1;
         }
@@ -62,6 +66,18 @@ internal class ContactScale
         SpeculativeMargin = Math.Min(tolerance, 2 * Pull * Step.ToSeconds() * Step.ToSeconds());
         StillSpeed = tolerance / StillFor.ToSeconds();
     }
+
+    /// <summary>
+    /// Whether steps follow a force that acts at a rate, in 1/s, for as long as it may last: at 2^20 1/s there are a million of them in a
+    /// second. What is not a number is not followed.
+    /// </summary>
+    internal static bool IsFollowed(double rate) => rate * SimDuration.FromTicks(ShortestByTolerance).ToSeconds() <= 1;
+
+    /// <summary>
+    /// The same for as long as the body's own speed makes the force that fast. A drag takes half of such a speed in one part of its rate, so
+    /// however fast the body is, a few hundred steps later its rate is one that lasts.
+    /// </summary>
+    internal static bool IsFollowedFor(double rate) => rate * StepSize.Shortest.ToSeconds() <= 1;
 
     /// <summary>The contact tolerance d, in metres.</summary>
     internal double Length { get; }

@@ -58,4 +58,10 @@ public enum EventKind : byte
 
     /// <summary>A body enters or leaves a sensor. It opens no segment.</summary>
     Crossing = 34,
+
+    /// <summary>
+    /// A body whose motion cannot be followed leaves the world. It comes after all else of its tick and round; its sequence is the
+    /// <see cref="Scenes.LossReason"/>.
+    /// </summary>
+    Lost = 35,
 }

@@ -12,7 +12,7 @@ namespace LagSim.Handlers;
 /// </summary>
 internal sealed class EventDispatcher(
     Progress progress, ContactGraph graph, EventPredictor predictor, ImpactHandler impacts, StepEndHandler steps, ExternalHandler externals,
-    CrossingHandler? crossings, StepMarks marks, RewindRequests rewinds, Rewinder rewinder)
+    CrossingHandler? crossings, LossHandler losses, StepMarks marks, RewindRequests rewinds, Rewinder rewinder)
 {
     /// <summary>
     /// Processes the least event that is due. If a body that takes part is ahead of it, that body is rewound instead, and the event is due
@@ -31,6 +31,7 @@ internal sealed class EventDispatcher(
             EventKind.Impact => impacts.TryHandle(slot, key),
             EventKind.StepEnd => steps.TryHandle(slot, key),
             EventKind.Crossing => crossings!.TryHandle(key),
+            EventKind.Lost => losses.TryHandle(slot, key),
             _ => externals.TryHandle(slot, key),
         };
         while (!isDone && rewinds.TryTake(out int ahead, out EventKey to))

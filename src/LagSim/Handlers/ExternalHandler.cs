@@ -124,8 +124,11 @@ internal sealed class ExternalHandler(
         Vector3D spin = timelines.SpinOf(last).At(seconds);
         if (paths.IsMember(last) && external.Kind != EventKind.Teleport)
         {
-            members.GoOn(slot, key, position, velocity, spin, hasChanged: true);
-            timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            if (members.TryGoOn(slot, key, position, velocity, spin, hasChanged: true))
+            {
+                timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            }
+
             return;
         }
 

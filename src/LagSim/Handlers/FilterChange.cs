@@ -41,8 +41,10 @@ internal sealed class FilterChange(Scene scene, BodyTable bodies, TimelineStore 
         }
         else if (paths.IsMember(last))
         {
-            members.GoOn(slot, key, position, velocity, spin, hasChanged: true);
-            timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            if (members.TryGoOn(slot, key, position, velocity, spin, hasChanged: true))
+            {
+                timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            }
         }
         else
         {

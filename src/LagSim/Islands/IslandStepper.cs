@@ -22,6 +22,7 @@ internal sealed class IslandStepper(
 {
     private readonly Forces forces = forces;
     private readonly Paths paths = new(timelines);
+    private bool[] isLost = Array.Empty<bool>(); // by body of the graph: no step follows the forces on it
 
     /// <summary>How many contact steps were taken.</summary>
     internal long StepsTaken { get; private set; }
@@ -58,7 +59,7 @@ internal sealed class IslandStepper(
             }
 
             step.FindHolding(length.ToSeconds());
-            segments.OpenStep(canonical, length);
+            segments.OpenStep(canonical, length, isLost);
             MarkStep();
         }
 
@@ -129,14 +130,24 @@ internal sealed class IslandStepper(
         return least;
     }
 
-    /// <summary>The longest step of these bodies, in seconds, by where they come from.</summary>
+    /// <summary>
+    /// The longest step of these bodies, in seconds, by where they come from. A body whose forces no step follows takes part without them
+    /// once more, and is lost.
+    /// </summary>
     private double StepWanted(SimTime time)
     {
+        if (isLost.Length < graph.BodyCount)
+        {
+            isLost = new bool[graph.BodyCount * 2];
+        }
+
         double wanted = double.PositiveInfinity;
         for (int i = 0; i < graph.BodyCount; i++)
         {
-            wanted = double.IsPositiveInfinity(graph.Masses[i]) ? wanted
-                : Math.Min(wanted, members.StepWanted(graph.Slots[i], time, graph.Positions[i], graph.Velocities[i], graph.Spins[i]));
+            double its = double.IsPositiveInfinity(graph.Masses[i]) ? double.PositiveInfinity
+                : members.StepWanted(graph.Slots[i], time, graph.Positions[i], graph.Velocities[i], graph.Spins[i]);
+            isLost[i] = its == 0;
+            wanted = isLost[i] ? wanted : Math.Min(wanted, its);
         }
 
         return wanted;
@@ -149,7 +160,7 @@ internal sealed class IslandStepper(
         for (int i = 0; i < graph.BodyCount; i++)
         {
             ref readonly SolverBody solved = ref step.Problem.Bodies[i];
-            wanted = double.IsPositiveInfinity(graph.Masses[i]) ? wanted
+            wanted = isLost[i] || double.IsPositiveInfinity(graph.Masses[i]) ? wanted
                 : Math.Min(wanted, members.StepWanted(graph.Slots[i], time, graph.Positions[i], solved.Velocity, solved.Spin));
         }
 
@@ -179,7 +190,8 @@ internal sealed class IslandStepper(
             else
             {
                 double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.Carried.CentreOf(piece));
-                graph.Accelerations[i] = forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
+                graph.Accelerations[i] = isLost[i] ? Vector3D.Zero
+                    : forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
                 gain = graph.Accelerations[i] * since;
             }
 
@@ -219,7 +231,7 @@ internal sealed class IslandStepper(
             for (int i = 0; i < graph.BodyCount; i++)
             {
                 ref readonly BodySpec spec = ref bodies.Spec(graph.Slots[i]);
-                if (spec.Forces.IsEmpty || double.IsPositiveInfinity(graph.Masses[i]))
+                if (spec.Forces.IsEmpty || isLost[i] || double.IsPositiveInfinity(graph.Masses[i]))
                 {
                     continue;
                 }

@@ -18,9 +18,10 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     private readonly Forces forces = forces;
 
     /// <summary>
-    /// Opens the next segment of a member from a state: a chord to the end of the step under way, or of one that begins if it slept.
+    /// Opens the next segment of a member from a state: a chord to the end of the step under way, or of one that begins if it slept, or if
+    /// what has changed it is faster than the step under way follows. False if it is lost instead.
     /// </summary>
-    internal void GoOn(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
+    internal bool TryGoOn(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, in Vector3D spin, bool hasChanged)
     {
         int before = timelines.Last(slot);
         MotionSegment path = timelines.Segment(before);
@@ -35,7 +36,22 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
         }
         else
         {
-            OpenChord(slot, key, slept ? NextTick(slot, key.Time, StepWanted(slot, key.Time, position, velocity, spin)) : path.End, position, velocity, spin);
+            SimTime end = path.End;
+            double wanted = slept || hasChanged ? StepWanted(slot, key.Time, position, velocity, spin) : double.PositiveInfinity;
+            if (slept)
+            {
+                end = NextTick(slot, key.Time, wanted);
+            }
+            else if (wanted < 2 * Math.Abs(path.End.SecondsSince(centre)))
+            {
+                centre = key.Time; // the change begins a step of its own, since forces would act for too long in the one under way
+                end = SimTime.Min(end, scale.TickFrom(key.Time + SimDuration.OneTick, wanted));
+            }
+
+            if (!TryOpenChord(slot, key, end, position, velocity, spin))
+            {
+                return false;
+            }
         }
 
         int piece = timelines.Last(slot);
@@ -45,14 +61,23 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
             PersistentContact contact = timelines.Carried.At(at);
             timelines.Carried.Add(piece, contact);
         }
+
+        return true;
     }
 
-    internal void OpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)
+    /// <summary>Opens a chord; false if the body is lost instead.</summary>
+    internal bool TryOpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         Vector3D x = position.WithoutNegativeZero();
         Vector3D v = velocity.WithoutNegativeZero();
-        trajectories.Check(slot, key.Time, x, v);
-        timelines.Append(slot, bodies.Id(slot), key, new MotionSegment(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero), default, spin: new Spin(spin));
+        bool isAllowed = trajectories.Loss.TryAllow(slot, key, x, v);
+        if (isAllowed)
+        {
+            MotionSegment chord = new(MotionLaw.Constrained, key.Time, end, x, v, Vector3D.Zero);
+            timelines.Append(slot, bodies.Id(slot), key, chord, default, spin: new Spin(spin));
+        }
+
+        return isAllowed;
     }
 
     /// <summary>
@@ -67,15 +92,15 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
 
     /// <summary>
     /// The longest step, in seconds, that follows the forces on a body, and in which it does not fall by more than the tolerance where they
-    /// are stronger than gravity; infinite where there are none.
+    /// are stronger than gravity; infinite where there are none, zero where no step follows them.
     /// </summary>
     internal double StepWanted(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
         double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
-        if (!(rate * SimDuration.FromTicks(ContactScale.ShortestTicks).ToSeconds() <= 1)) // what is not a number is too stiff
+        if (!ContactScale.IsFollowed(rate) && !(ContactScale.IsFollowedFor(rate) && ContactScale.IsFollowed(forces.FixedStepRateAt(spec, position, Vector3D.Zero, spin))))
         {
-            throw trajectories.Failures.OfContactStep(slot, time, position, velocity, spin, double.IsNaN(rate) ? double.PositiveInfinity : rate);
+            return 0;
         }
 
         double fall = scale.FallAt(PullOn(slot, time, position, velocity, spin));

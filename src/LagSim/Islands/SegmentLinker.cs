@@ -37,8 +37,10 @@ internal class SegmentLinker(
         int last = timelines.Last(slot);
         if (paths.IsMember(last))
         {
-            members.GoOn(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false);
-            timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            if (members.TryGoOn(slot, key, paths.PositionAt(last, key.Time), timelines.Segment(last).Velocity, timelines.SpinOf(last).AtEpoch, hasChanged: false))
+            {
+                timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
+            }
         }
         else
         {

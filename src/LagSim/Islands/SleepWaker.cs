@@ -20,6 +20,11 @@ internal class SleepWaker(
     {
         graph.Clear();
         int last = timelines.Last(slot);
+        if (last != TimelineStore.None && timelines.Segment(last).Loss != LossReason.None)
+        {
+            last = timelines.Previous(last); // what slept on it did so while it could be followed
+        }
+
         if (last == TimelineStore.None || !paths.IsMember(last))
         {
             return true;
@@ -57,8 +62,10 @@ internal class SleepWaker(
         for (int i = 0; i < sleepers; i++)
         {
             int before = timelines.Last(graph.Slots[i]);
-            members.GoOn(graph.Slots[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true);
-            timelines.EndMember(timelines.Last(graph.Slots[i]), bodies.Id(graph.Slots[i]));
+            if (members.TryGoOn(graph.Slots[i], key, timelines.Segment(before).Position, Vector3D.Zero, timelines.SpinOf(before).AtEpoch, hasChanged: true))
+            {
+                timelines.EndMember(timelines.Last(graph.Slots[i]), bodies.Id(graph.Slots[i]));
+            }
         }
 
         graph.AddBody(slot);

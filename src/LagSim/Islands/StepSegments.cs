@@ -21,7 +21,10 @@ internal sealed class StepSegments(
     /// <summary>
     /// Opens the segments of the solved step: chords for bodies that something holds, and for the others the law that they follow alone.
     /// </summary>
-    internal void OpenStep(in EventKey key, SimDuration length)
+    /// <param name="key">The step.</param>
+    /// <param name="length">How long it is.</param>
+    /// <param name="isLost">By body: whether no step follows the forces on it.</param>
+    internal void OpenStep(in EventKey key, SimDuration length, ReadOnlySpan<bool> isLost)
     {
         step.Problem.List();
         FindHoldingPairs();
@@ -38,7 +41,11 @@ internal sealed class StepSegments(
             }
 
             ref readonly SolverBody solved = ref step.Problem.Bodies[i];
-            if (!IsHeldTogether(i, out int planeCount))
+            if (isLost[i])
+            {
+                trajectories.Loss.Lose(slot, key, graph.Positions[i], graph.Velocities[i], LossReason.TooStiff);
+            }
+            else if (!IsHeldTogether(i, out int planeCount))
             {
                 trajectories.Flights.Open(slot, key, graph.Positions[i], LeavingVelocity(i, before, key.Time), spin: graph.Spins[i]);
             }
@@ -50,12 +57,21 @@ internal sealed class StepSegments(
             {
                 SimTime still = sleep.IsStill(i, solved) && timelines.Segment(before).Law == MotionLaw.Constrained
                     ? timelines.Carried.StillSince(before) : key.Time;
-                members.OpenChord(slot, key, end, graph.Positions[i], solved.Velocity, solved.Spin);
-                int piece = timelines.Last(slot);
-                timelines.BeginMember(piece, centre, still);
-                CarryContacts(i, piece);
-                timelines.EndMember(piece, bodies.Id(slot));
+                OpenMember(i, key, end, centre, still);
             }
+        }
+    }
+
+    private void OpenMember(int body, in EventKey key, SimTime end, SimTime centre, SimTime still)
+    {
+        int slot = graph.Slots[body];
+        ref readonly SolverBody solved = ref step.Problem.Bodies[body];
+        if (members.TryOpenChord(slot, key, end, graph.Positions[body], solved.Velocity, solved.Spin))
+        {
+            int piece = timelines.Last(slot);
+            timelines.BeginMember(piece, centre, still);
+            CarryContacts(body, piece);
+            timelines.EndMember(piece, bodies.Id(slot));
         }
     }
 

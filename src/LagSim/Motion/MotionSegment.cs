@@ -16,9 +16,11 @@ internal readonly struct MotionSegment
         in Vector3D position,
         in Vector3D velocity,
         in Vector3D acceleration,
-        SupportSet supports = default)
+        SupportSet supports = default,
+        LossReason loss = LossReason.None)
     {
         Law = law;
+        Loss = loss;
         Epoch = epoch;
         End = end;
         Position = position;
@@ -37,6 +39,11 @@ internal readonly struct MotionSegment
     internal SimTime End { get; }
 
     internal MotionLaw Law { get; }
+
+    /// <summary>
+    /// Why the body can be followed no further than to this segment, which lasts no time; <see cref="LossReason.None"/> of any other.
+    /// </summary>
+    internal LossReason Loss { get; }
 
     internal Vector3D Position { get; }
 
@@ -67,7 +74,7 @@ internal readonly struct MotionSegment
 
     /// <summary>Whether every part is the same, to the bit.</summary>
     internal bool IsSameAs(in MotionSegment other) =>
-        (Law, Epoch, End) == (other.Law, other.Epoch, other.End)
+        (Law, Loss, Epoch, End) == (other.Law, other.Loss, other.Epoch, other.End)
         && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Acceleration.Equals(other.Acceleration) && Supports.Equals(other.Supports);
 
     /// <summary>The same motion from another place.</summary>
@@ -76,6 +83,12 @@ internal readonly struct MotionSegment
     /// <summary>No body.</summary>
     internal static MotionSegment Nothing(SimTime epoch) =>
         new(MotionLaw.Absent, epoch, SimTime.MaxValue, Vector3D.Zero, Vector3D.Zero, Vector3D.Zero);
+
+    /// <summary>No body any more, because it cannot be followed from a state on. It ends at once, with the event that tells so.</summary>
+    internal static MotionSegment Lost(SimTime epoch, in Vector3D position, in Vector3D velocity, LossReason why) => new(
+        MotionLaw.Absent, epoch, epoch, Known(position), Known(velocity), Vector3D.Zero, default, why);
+
+    private static Vector3D Known(in Vector3D value) => value.IsFinite ? value.WithoutNegativeZero() : Vector3D.Zero;
 
     /// <summary>Where the formula is <paramref name="seconds"/> after the epoch.</summary>
     internal Vector3D PositionAt(double seconds, in DenseOutput dense)

@@ -58,14 +58,21 @@ internal sealed class IslandImpactSegments(
         if (paths.IsMember(before))
         {
             bool hasChanged = HasPersistentContact(body) || impact.HasChanged(body, graph.Velocities[body], graph.Spins[body]);
-            members.GoOn(slot, key, position, graph.Velocities[body], graph.Spins[body], hasChanged);
+            if (!members.TryGoOn(slot, key, position, graph.Velocities[body], graph.Spins[body], hasChanged))
+            {
+                return;
+            }
         }
         else
         {
             SupportSet supports = timelines.Segment(before).Supports;
             SimTime tick = members.NextTick(slot, key.Time, members.StepWanted(slot, key.Time, position, graph.Velocities[body], graph.Spins[body]));
             SimTime until = end == SimTime.MaxValue ? tick : SimTime.Min(end, tick > key.Time ? tick : end);
-            members.OpenChord(slot, key, until, position, graph.Velocities[body], graph.Spins[body]);
+            if (!members.TryOpenChord(slot, key, until, position, graph.Velocities[body], graph.Spins[body]))
+            {
+                return;
+            }
+
             timelines.BeginMember(timelines.Last(slot), key.Time, key.Time);
             for (int k = 0; k < supports.Count; k++)
             {

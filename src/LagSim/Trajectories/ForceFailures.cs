@@ -6,70 +6,26 @@ using LagSim.Timelines;
 
 namespace LagSim.Trajectories;
 
-/// <summary>The error messages for forces that are too strong for a step, or for the timelines.</summary>
-internal sealed class ForceFailures(Scene scene, in Forces forces, BodyTable bodies, TimelineStore timelines)
+/// <summary>The error messages for a program's own forces that cannot be followed, and for forces that fill the timelines.</summary>
+internal sealed class ForceFailures(Scene scene, BodyTable bodies, TimelineStore timelines)
 {
-    private readonly Forces forces = forces;
-
-    /// <summary>Why no step from a state can be used.</summary>
+    /// <summary>Why a flight under a program's own forces cannot be followed from a state on.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="from">When the step begins.</param>
     /// <param name="x">The position then.</param>
     /// <param name="v">The velocity then.</param>
-    /// <param name="spin">How it turns.</param>
-    /// <param name="tooStiff">The rate in 1/s that was met by fixed steps; zero if that is not why.</param>
-    /// <param name="tooLarge">How many times the tolerance the error of the shortest step is, infinite if it has no number; zero if that
-    /// is not why.</param>
-    /// <param name="isFinite">Whether the acceleration at the state is.</param>
-    internal SimulationException OfStep(
-        int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double tooStiff, double tooLarge, bool isFinite)
+    /// <param name="isFinite">Whether the accelerations in the step are.</param>
+    internal SimulationException OfSupplied(int slot, SimTime from, in Vector3D x, in Vector3D v, bool isFinite)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
-        string where = $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Describe(bodies.Id(slot))}";
-        foreach (Force force in spec.Forces.Among(scene.ForceArray))
-        {
-            if (force.Kind == ForceKind.Central && force.Power < 0 && x == force.Vector)
-            {
-                return new SimulationException(
-                    $"{where} have no value: it is at the centre of '{force.Name}', whose power is {force.Power}; start it, or put it, elsewhere.");
-            }
-        }
-
-        if (!isFinite || (double.IsPositiveInfinity(tooLarge) && forces.HasSupplied(spec)) || (tooStiff == 0 && tooLarge == 0))
-        {
-            return new SimulationException(
-                $"In the step from {from.ToShortString()}, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the acceleration of {scene.Describe(bodies.Id(slot))} became NaN or "
-                + $"infinite; what the forces {spec.Forces.NamesAmong(scene.ForceArray)} give must be finite.");
-        }
-
-        string rates = RatesOn(slot, x, v, spin);
-        if (tooStiff > 0)
-        {
-            double most = FlightLaws.MaxStableRate(spec);
-            string what = ActTooFast(forces.FixedStepRateAt(spec, x, v, spin), tooStiff, most);
-            return new SimulationException(
-                $"{where} {what}: there {rates}. {spec.Flight} with fixed steps follows at most {Limits.Short(most)} 1/s, by steps halved to "
-                + $"{Limits.Short(FlightLaws.ShortestStep(spec).ToSeconds())} s. Make them weaker, or use Automatic.");
-        }
-
-        return new SimulationException(
-            $"{where} change so fast that a step of {Limits.Short(StepSize.Shortest.ToSeconds())} s, the shortest there is, still has "
-            + $"{Limits.Short(tooLarge)} times the error of the tolerance, {Limits.Text(spec.Tolerance)}: there {rates}. "
-            + $"Allow a larger error, make them weaker, or keep it out of the singularity, if there is one.{Jumps(spec)}");
+        string names = spec.Forces.NamesAmong(scene.ForceArray);
+        string state = $"at {Limits.Short(x)} m and {Limits.Short(v)} m/s";
+        return new SimulationException(isFinite
+            ? $"From {from.ToShortString()} on, {state}, the forces {names} on {scene.Describe(bodies.Id(slot))} change faster than the shortest step follows."
+                + $" Make them weaker, or allow a larger error.{Jumps(spec)}"
+            : $"In the step from {from.ToShortString()}, {state}, the acceleration of {scene.Describe(bodies.Id(slot))} became NaN or infinite; what"
+                + $" the forces {names} give must be finite.");
     }
-
-    /// <summary>Why no contact step can be taken: forces act too fast on a member even for the shortest there is.</summary>
-    internal SimulationException OfContactStep(int slot, SimTime from, in Vector3D x, in Vector3D v, in Vector3D spin, double rate)
-    {
-        double most = 1 / SimDuration.FromTicks(Contacts.ContactScale.ShortestTicks).ToSeconds();
-        return new SimulationException(
-            $"From {from.ToShortString()} on, at {Limits.Short(x)} m and {Limits.Short(v)} m/s, the forces on {scene.Describe(bodies.Id(slot))}, which touches something, "
-            + $"{ActTooFast(rate, rate, most)}: there {RatesOn(slot, x, v, spin)}. What is in persistent contact moves by steps that follow at most"
-            + $" {Limits.Short(most)} 1/s, halved to {Limits.Short(1 / most)} s. Make them weaker, or the body heavier.");
-    }
-
-    private static string ActTooFast(double here, double met, double most) =>
-        here > most ? $"act at a rate of {Limits.Short(here)} 1/s" : $"lead in a step to where they act at a rate of {Limits.Short(met)} 1/s";
 
     /// <summary>
     /// A message about what error control cannot follow and only the program's author can see; it follows another sentence.

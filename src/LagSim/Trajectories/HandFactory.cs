@@ -12,7 +12,7 @@ namespace LagSim.Trajectories;
 /// geometry does not stop a hand, and two held bodies pass through each other. Where it is at t depends on the grab and the keyframes up to
 /// t alone.
 /// </remarks>
-internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, FlightFactory flights)
+internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, BodyLoss loss, FlightFactory flights)
 {
     /// <summary>The number of times that a body released inside static geometry is moved out of one surface after the other.</summary>
     private const int MaxPushOuts = 16;
@@ -81,8 +81,10 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         MotionSegment path = isStill || key.Time >= hold.KeyframeTime + HandPath.Stops
             ? HandPath.Still(key.Time, hold.KeyframeTime, position)
             : HandPath.Brake(key.Time, hold.KeyframeTime, position, velocity);
-        limits.Check(bodies.Id(slot), key.Time, position, velocity);
-        timelines.Append(slot, bodies.Id(slot), key, path, default, hold);
+        if (loss.TryAllow(slot, key, position, velocity))
+        {
+            timelines.Append(slot, bodies.Id(slot), key, path, default, hold);
+        }
     }
 
     /// <summary>

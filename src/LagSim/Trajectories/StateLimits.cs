@@ -47,16 +47,7 @@ internal sealed class StateLimits(Scene scene)
             : SimTime.MaxValue;
     }
 
-    /// <summary>Throws if a body may not be in a state.</summary>
-    /// <exception cref="SimulationException">The position is not finite, or the speed exceeds the limit.</exception>
-    internal void Check(BodyId body, SimTime time, in Vector3D position, in Vector3D velocity)
-    {
-        double limit = Limits.MaxSpeed(scene.SmallestRadius);
-        if (!position.IsFinite || !(velocity.Length <= limit))
-        {
-            throw new SimulationException(
-                $"At {time.ToShortString()} {scene.Describe(body)} is at {position} m with {velocity} m/s; a position must stay finite, and a speed at most "
-                + $"{Limits.Text(limit)} m/s, a fifth of the smallest radius in a tick.");
-        }
-    }
+    /// <summary>Whether a body may be in a state: the position is finite, and the speed within the limit.</summary>
+    internal bool Allow(in Vector3D position, in Vector3D velocity) =>
+        position.IsFinite && velocity.Length <= Limits.MaxSpeed(scene.SmallestRadius);
 }

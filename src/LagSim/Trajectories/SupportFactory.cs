@@ -9,7 +9,7 @@ using LagSim.Timelines;
 namespace LagSim.Trajectories;
 
 /// <summary>Opens rest on planes and motion along them, by closed forms.</summary>
-internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, SlipFactory friction)
+internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStore timelines, StateLimits limits, BodyLoss loss, SlipFactory friction)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
 
@@ -53,7 +53,11 @@ internal sealed class SupportFactory(Scene scene, BodyTable bodies, TimelineStor
         Vector3D tangential = PlaneSupport.Tangential(velocity, supports, scene.PlaneArray);
         Vector3D start = OntoSupports(slot, supports, position + (tangential * carry));
         tangential = (tangential + (acceleration * carry)).WithoutNegativeZero();
-        limits.Check(bodies.Id(slot), key.Time, start, tangential);
+        if (!loss.TryAllow(slot, key, start, tangential))
+        {
+            return true;
+        }
+
         if (supports.Count == 1 && friction.On(slot, supports[0]) > 0)
         {
             friction.Open(slot, key, start, tangential, spin, supports, acceleration, left);

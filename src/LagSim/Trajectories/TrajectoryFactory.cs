@@ -27,14 +27,18 @@ internal sealed class TrajectoryFactory
         this.timelines = timelines;
         paths = new Paths(timelines);
         limits = new StateLimits(scene);
-        Failures = new ForceFailures(scene, forces, bodies, timelines);
-        Flights = new FlightFactory(scene, forces, bodies, timelines, limits, Failures);
+        Loss = new BodyLoss(bodies, timelines, limits);
+        Failures = new ForceFailures(scene, bodies, timelines);
+        Flights = new FlightFactory(scene, forces, bodies, timelines, limits, Loss, Failures);
         Friction = new SlipFactory(scene, bodies, timelines, limits);
-        supports = new SupportFactory(scene, bodies, timelines, limits, Friction);
-        Hands = new HandFactory(scene, bodies, timelines, limits, Flights);
+        supports = new SupportFactory(scene, bodies, timelines, limits, Loss, Friction);
+        Hands = new HandFactory(scene, bodies, timelines, Loss, Flights);
     }
 
-    /// <summary>The messages for forces that are too strong.</summary>
+    /// <summary>Takes bodies out of the world that cannot be followed.</summary>
+    internal BodyLoss Loss { get; }
+
+    /// <summary>The messages for what ends a world.</summary>
     internal ForceFailures Failures { get; }
 
     /// <summary>Opens flights.</summary>
@@ -45,10 +49,6 @@ internal sealed class TrajectoryFactory
 
     /// <summary>Opens paths of held bodies.</summary>
     internal HandFactory Hands { get; }
-
-    /// <summary>Throws if a body may not be in a state.</summary>
-    internal void Check(int slot, SimTime time, in Vector3D position, in Vector3D velocity) =>
-        limits.Check(bodies.Id(slot), time, position, velocity);
 
     /// <summary>
     /// Opens the body's next segment from a state that holds <paramref name="carry"/> seconds before the key's tick (under a tick, either
@@ -104,9 +104,8 @@ internal sealed class TrajectoryFactory
         }
         else if (segment.Acceleration != Vector3D.Zero)
         {
-            throw new SimulationException(
-                $"At {key.Time.ToShortString()} {scene.Describe(bodies.Id(slot))} reaches {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick;"
-                + " it falls without end, and may not become faster.");
+            double seconds = segment.End.SecondsSince(segment.Epoch); // it falls without end
+            Loss.Lose(slot, key, segment.PositionAt(seconds, default), segment.VelocityAt(seconds, default), LossReason.TooFast);
         }
         else
         {
