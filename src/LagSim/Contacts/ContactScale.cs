@@ -67,11 +67,14 @@ internal class ContactScale
         StillSpeed = tolerance / StillFor.ToSeconds();
     }
 
+    /// <summary>The shortest step, in seconds, for a force that may last: with a shorter one there would be more than a million in a second.</summary>
+    internal static readonly double ShortestLasting = SimDuration.FromTicks(ShortestByTolerance).ToSeconds();
+
     /// <summary>
-    /// Whether steps follow a force that acts at a rate, in 1/s, for as long as it may last: at 2^20 1/s there are a million of them in a
-    /// second. What is not a number is not followed.
+    /// Whether steps follow a force that acts at a rate, in 1/s, for as long as it may last: 2^20 1/s at most. What is not a number is not
+    /// followed.
     /// </summary>
-    internal static bool IsFollowed(double rate) => rate * SimDuration.FromTicks(ShortestByTolerance).ToSeconds() <= 1;
+    internal static bool IsFollowed(double rate) => rate * ShortestLasting <= 1;
 
     /// <summary>
     /// The same for as long as the body's own speed makes the force that fast. A drag takes half of such a speed in one part of its rate, so

@@ -97,14 +97,26 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
     internal double StepWanted(int slot, SimTime time, in Vector3D position, in Vector3D velocity, in Vector3D spin)
     {
         ref readonly BodySpec spec = ref bodies.Spec(slot);
-        double rate = spec.Forces.IsEmpty ? 0 : forces.FixedStepRateAt(spec, position, velocity, spin);
-        if (!ContactScale.IsFollowed(rate) && !(ContactScale.IsFollowedFor(rate) && ContactScale.IsFollowed(forces.FixedStepRateAt(spec, position, Vector3D.Zero, spin))))
+        if (spec.Forces.IsEmpty)
         {
-            return 0;
+            return double.PositiveInfinity;
         }
 
         double fall = scale.FallAt(PullOn(slot, time, position, velocity, spin));
-        return rate > 0 ? Math.Min(fall, MaxRateTimesStep / rate) : fall;
+        double rate = forces.FixedStepRateAt(spec, position, velocity, spin);
+        if (forces.HasSupplied(spec))
+        {
+            rate = Math.Max(rate, forces.On(bodies.Id(slot)).EstimatedRate(spec, time, position, velocity, spin, scale.Step.ToSeconds()));
+        }
+
+        double wanted = rate > 0 ? Math.Min(fall, MaxRateTimesStep / rate) : fall;
+        if (ContactScale.IsFollowed(rate))
+        {
+            return Math.Max(wanted, ContactScale.ShortestLasting);
+        }
+
+        bool isOfSpeed = ContactScale.IsFollowed(forces.FixedStepRateAt(spec, position, Vector3D.Zero, spin));
+        return isOfSpeed && ContactScale.IsFollowedFor(rate) ? wanted : 0;
     }
 
     /// <summary>

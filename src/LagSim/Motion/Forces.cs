@@ -90,6 +90,28 @@ internal readonly struct Forces
         return sum;
     }
 
+    /// <summary>
+    /// How fast, in 1/s, the forces change a deviation, as far as it shows where a body is and where it will be so many seconds later: for a
+    /// program's own forces, whose rate is not known. A medium that gets thick on the way is seen before the body is in it.
+    /// </summary>
+    internal double EstimatedRate(in BodySpec spec, SimTime epoch, in Vector3D position, in Vector3D velocity, in Vector3D spin, double ahead)
+    {
+        Vector3D later = position + (velocity * ahead);
+        Vector3D here = At(spec, epoch, 0, position, velocity, spin);
+        Vector3D changed = velocity + (here * ShortProbe);
+        Vector3D hereChanged = At(spec, epoch, 0, position, changed, spin);
+        Vector3D there = At(spec, epoch, 0, later, velocity, spin);
+        Vector3D thereChanged = At(spec, epoch, 0, later, changed, spin);
+        double rate = Stiffness.Rate(position, later, velocity, changed, here, hereChanged, thereChanged);
+        return Math.Max(rate, Stiffness.Rate(later, position, velocity, changed, there, thereChanged, hereChanged));
+    }
+
+    /// <summary>
+    /// How long, in seconds, a force acts to make the small change of speed that shows its rate: 2^-20, in which the fastest that is
+    /// followed changes a speed by all of it, and one of 1/s still ten thousand times what counts as rounding.
+    /// </summary>
+    private const double ShortProbe = 1.0 / (1 << 20);
+
     /// <summary>Whether a force that the body names is a program's own, whose rate is not known.</summary>
     internal bool HasSupplied(in BodySpec spec)
     {
