@@ -58,6 +58,7 @@ internal sealed class Engine
         // The laws that bodies follow, and where contact is.
         Forces forces = new(scene, start);
         TrajectoryFactory trajectories = new(scene, forces, Bodies, Timelines);
+        Losses = new LossReader(Bodies, Timelines, trajectories.Failures);
         bool hasIslands = parts.HasIslands(scene);
         Step = new ContactStep(scene, parts.ContactScale(scene, start), parts.SolverRules);
         ContactGraph graph = new(Bodies, Timelines, scene.Surfaces, scene.Box);
@@ -186,6 +187,9 @@ internal sealed class Engine
     internal BodyRoster Roster { get; }
 
     internal EventIntake Intake { get; }
+
+    /// <summary>Reads which bodies have left the world by themselves.</summary>
+    internal LossReader Losses { get; }
 
     /// <summary>The calls of the scene's rules, and their state; null where it has none.</summary>
     internal RuleLog? Rules { get; }

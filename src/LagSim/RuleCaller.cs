@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Rules;
+using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -193,6 +194,10 @@ internal class RuleCaller
                 break;
             case EventKind.Remove when rules.HearsBodies:
                 rules.OnRemoved(world, call.Key.Body);
+                memory.Forget(call.Key.Body);
+                break;
+            case EventKind.Lost when rules.HearsBodies:
+                rules.OnLost(world, call.Key.Body, (LossReason)call.Key.Sequence);
                 memory.Forget(call.Key.Body);
                 break;
             default:

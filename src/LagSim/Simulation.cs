@@ -309,6 +309,19 @@ public sealed class Simulation
         return Engine.Reader.CrossingsIn(SimTime.Max(from, HistoryEdge), SimTime.Min(to, SimulatedTo));
     }
 
+    /// <summary>The bodies that have left the world by themselves, because their motion cannot be followed further, as far as they are still
+    /// kept: for as long as the history, and longer while no other body takes their room.</summary>
+    /// <returns>In canonical order of bodies.</returns>
+    /// <remarks>What a body does never ends a world: one that becomes too fast, or whose forces no step follows, is taken out of it, on every
+    /// peer alike; rules hear of it by <see cref="GameRules.OnLost"/>. A late event may bring it back. Allocates. Cost: grows with the
+    /// bodies.</remarks>
+    /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
+    public IReadOnlyList<LostBody> LostBodies()
+    {
+        Engine.Loop.ThrowIfFaulted();
+        return Engine.Losses.Read();
+    }
+
     /// <summary>A hash of the exact bits and identities of every body that is there at <paramref name="time"/>, and of the sensors that it is
     /// inside of, and of the state of the rules.</summary>
     /// <remarks>Equal on two peers if and, to 64 bits, only if their worlds are the same then. It does not depend on the time of

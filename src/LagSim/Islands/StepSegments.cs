@@ -30,6 +30,7 @@ internal sealed class StepSegments(
         FindHoldingPairs();
         SimTime end = key.Time + length;
         SimTime centre = key.Time + SimDuration.FromTicks(length.Ticks / 2);
+        double kept = double.NaN; // of the pushes of bodies that leave; known once one does
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int slot = graph.Slots[i];
@@ -47,7 +48,9 @@ internal sealed class StepSegments(
             }
             else if (!IsHeldTogether(i, out int planeCount))
             {
-                trajectories.Flights.Open(slot, key, graph.Positions[i], LeavingVelocity(i, before, key.Time), spin: graph.Spins[i]);
+                kept = double.IsNaN(kept) ? PartOfPushes(i, isLost, key.Time, length) : kept;
+                Vector3D velocity = LeavingVelocity(i, before, key.Time, out Vector3D push) + (push * kept);
+                trajectories.Flights.Open(slot, key, graph.Positions[i], velocity, spin: graph.Spins[i]);
             }
             else if (planeCount > 0)
             {
@@ -126,11 +129,47 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// The velocity at the tick of a body that leaves. It includes what the contacts of the last step gave in its second half, because
-    /// until now they have held it.
+    /// The part of their pushes with which bodies leave, from 0 to 1: as much as leaves them no more kinetic energy than they came with, or
+    /// than the pull would give them in a step. A push that has held a body is far below that. One that a blow has given acts no longer.
     /// </summary>
-    private Vector3D LeavingVelocity(int body, int piece, SimTime tick)
+    /// <param name="first">The first body that leaves.</param>
+    /// <param name="isLost">By body: whether it is lost.</param>
+    /// <param name="tick">When.</param>
+    /// <param name="length">How long a step is.</param>
+    private double PartOfPushes(int first, ReadOnlySpan<bool> isLost, SimTime tick, SimDuration length)
     {
+        double room = 0;
+        double along = 0;
+        double square = 0;
+        for (int i = first; i < graph.BodyCount; i++)
+        {
+            int before = timelines.Last(graph.Slots[i]);
+            if (paths.IsHeld(before) || isLost[i] || IsHeldTogether(i, out _))
+            {
+                continue;
+            }
+
+            Vector3D velocity = LeavingVelocity(i, before, tick, out Vector3D push);
+            double fall = Math.Max(step.Scale.Pull, graph.Accelerations[i].Length) * length.ToSeconds();
+            room += graph.Masses[i] * fall * fall;
+            along += graph.Masses[i] * Vector3D.Dot(velocity, push);
+            square += graph.Masses[i] * push.LengthSquared;
+        }
+
+        // square s² + 2 along s = room
+        double root = Math.Sqrt((along * along) + (square * room));
+        double part = along > 0 ? room / (along + root) : (root - along) / square;
+        return part <= 1 ? part : 1; // not a number if nothing pushed
+    }
+
+    /// <summary>The velocity at the tick of a body that leaves, without its push.</summary>
+    /// <param name="body">The body.</param>
+    /// <param name="piece">Its last segment.</param>
+    /// <param name="tick">When.</param>
+    /// <param name="half">What the contacts of the last step gave in its second half, because until now they have held it, in m/s.</param>
+    private Vector3D LeavingVelocity(int body, int piece, SimTime tick, out Vector3D half)
+    {
+        half = Vector3D.Zero;
         if (timelines.Segment(piece).Law != MotionLaw.Constrained)
         {
             return graph.Velocities[body];
@@ -143,7 +182,8 @@ internal sealed class StepSegments(
             push += timelines.Carried.At(at).Push;
         }
 
-        return graph.Velocities[body] + (graph.Accelerations[body] * since) + (push * (0.5 / graph.Masses[body]));
+        half = push * (0.5 / graph.Masses[body]);
+        return graph.Velocities[body] + (graph.Accelerations[body] * since);
     }
 
     /// <summary>

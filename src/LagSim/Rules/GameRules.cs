@@ -51,7 +51,7 @@ public abstract class GameRules : SceneRules
     }
 #pragma warning restore RS0022
 
-    /// <summary>Whether <see cref="OnSpawned"/> and <see cref="OnRemoved"/> are called; default no. Must always give the same.</summary>
+    /// <summary>Whether <see cref="OnSpawned"/>, <see cref="OnRemoved"/> and <see cref="OnLost"/> are called; default no. Must always give the same.</summary>
     public virtual bool HearsBodies => false;
 
     /// <summary>The world's state is a value of this type, at first all zero. For the constructor.</summary>
@@ -130,4 +130,10 @@ public abstract class GameRules : SceneRules
     public virtual void OnRemoved(RuleWorld world, BodyId body)
     {
     }
+
+    /// <summary>
+    /// A body has left the world by itself, because its motion cannot be followed further (<see cref="LossReason"/>); its state can be read
+    /// here for the last time. By default as if it were removed: <see cref="OnRemoved"/>. Only if <see cref="HearsBodies"/>.
+    /// </summary>
+    public virtual void OnLost(RuleWorld world, BodyId body, LossReason why) => OnRemoved(world, body);
 }

@@ -17,6 +17,7 @@ internal static class RuleCallText
         EventKind.Impact => nameof(GameRules.OnContact),
         EventKind.Crossing => nameof(GameRules.OnCrossing),
         EventKind.Spawn => nameof(GameRules.OnSpawned),
+        EventKind.Lost => nameof(GameRules.OnLost),
         _ => nameof(GameRules.OnRemoved),
     };
 

@@ -52,7 +52,7 @@ internal sealed class RuleHearing(Scene scene)
     /// <summary>Whether a call is due for what opened a segment of a body, or ended there: it appears or disappears.</summary>
     internal bool Hears(BodyId body, in EventKey key)
     {
-        if (key.Kind is not (EventKind.Spawn or EventKind.Remove) || key.Body != body)
+        if (key.Kind is not (EventKind.Spawn or EventKind.Remove or EventKind.Lost) || key.Body != body)
         {
             return false;
         }

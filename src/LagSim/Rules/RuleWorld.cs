@@ -117,7 +117,7 @@ public sealed class RuleWorld
 
         if (!memory.Has(body))
         {
-            if (!TryRead(body, out _) && !(key.Kind == EventKind.Remove && key.Body == body))
+            if (!TryRead(body, out _) && !(key.Kind is EventKind.Remove or EventKind.Lost && key.Body == body))
             {
                 throw new RuleException($"{Scene.Describe(body)} is not there and so has no state.");
             }

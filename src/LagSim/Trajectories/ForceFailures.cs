@@ -27,6 +27,18 @@ internal sealed class ForceFailures(Scene scene, BodyTable bodies, TimelineStore
                 + $" the forces {names} give must be finite.");
     }
 
+    /// <summary>Why a body has left the world, as a sentence.</summary>
+    internal string OfLoss(int slot, SimTime time, LossReason reason, in Vector3D x, in Vector3D v)
+    {
+        string why = reason switch
+        {
+            LossReason.TooFast => $"it would be faster than {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick",
+            LossReason.TooStiff => $"the forces on it change faster than the shortest step follows: there {RatesOn(slot, x, v, Vector3D.Zero)}",
+            _ => $"the forces {bodies.Spec(slot).Forces.NamesAmong(scene.ForceArray)} have no finite value there",
+        };
+        return $"At {time.ToShortString()} {scene.Describe(bodies.Id(slot))} left the world, at {Limits.Short(x)} m with {Limits.Short(v)} m/s: {why}.";
+    }
+
     /// <summary>
     /// A message about what error control cannot follow and only the program's author can see; it follows another sentence.
     /// </summary>
