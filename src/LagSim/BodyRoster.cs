@@ -18,6 +18,7 @@ internal sealed class BodyRoster(
     internal CrossingLog? Crossings { get; set; }
 
     /// <summary>Adds a body of the scene, on the first segment of its flight.</summary>
+    /// <exception cref="SimulationException">The body cannot be followed from its start on, which is the scene's fault.</exception>
     internal void AddFromScene(int n)
     {
         ref readonly SceneBody body = ref scene.BodyArray[n];
@@ -26,6 +27,11 @@ internal sealed class BodyRoster(
         timelines.Extras.OpenWith(body.Spec.Filter);
         EventKey key = new(progress.Start, 0, EventKind.Start, bodies.Id(slot), bodies.Id(slot), 0, 0);
         trajectories.Flights.Open(slot, key, body.Position, body.Velocity, spin: body.Spin);
+        LossReason loss = timelines.Segment(timelines.Last(slot)).Loss;
+        if (loss != LossReason.None)
+        {
+            throw new SimulationException(trajectories.Failures.OfLoss(slot, progress.Start, loss, body.Position, body.Velocity));
+        }
     }
 
     /// <summary>Adds a body of a snapshot, on the segment on which it is there.</summary>

@@ -100,7 +100,7 @@ internal sealed class Engine
 
         // Islands.
         Partners partners = new(Bodies, Timelines, view, rewinds);
-        MemberFactory members = new(Bodies, Timelines, forces, Step.Scale, trajectories);
+        MemberFactory members = parts.MemberFactory(Bodies, Timelines, forces, Step.Scale, trajectories);
         SleepWaker waker = parts.SleepWaker(Bodies, Timelines, view, graph, rewinds, members);
         IslandSleep sleep = new(Bodies, Timelines, graph, Step);
         StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, members, trajectories, sleep);

@@ -4,12 +4,14 @@ using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Islands;
+using LagSim.Motion;
 using LagSim.Response;
 using LagSim.Rollback;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
+using LagSim.Trajectories;
 
 namespace LagSim;
 
@@ -61,6 +63,10 @@ internal class EngineParts
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, Progress progress, RollbackState rollback,
         Reconvergence reconvergence, EventPredictor predictor, HealingMode mode) =>
         new(bodies, timelines, log, scheduler, progress, rollback, reconvergence, predictor, mode);
+
+    internal virtual MemberFactory MemberFactory(
+        BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories) =>
+        new(bodies, timelines, forces, scale, trajectories);
 
     internal virtual SleepWaker SleepWaker(
         BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>

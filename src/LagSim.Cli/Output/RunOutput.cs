@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
@@ -48,6 +49,7 @@ internal static class RunOutput
             }
 
             json.WriteEndArray();
+            WriteLost(json, scene, run.End);
             CommittedWorld.Write(json, scene, new CommittedWorld(run.End, run.Until));
         });
 
@@ -80,10 +82,38 @@ internal static class RunOutput
         }
 
         console.Write(table);
+        foreach (LostBody lost in run.End.LostBodies())
+        {
+            console.Rich.WriteLine(lost.ToString());
+        }
+
         if (new CommittedWorld(run.End, run.Until).RulesLine is string rules)
         {
             console.Rich.WriteLine(rules);
         }
+    }
+
+    /// <summary>The bodies that have left the world; nothing where none has.</summary>
+    private static void WriteLost(Utf8JsonWriter json, Scene scene, Simulation end)
+    {
+        IReadOnlyList<LostBody> bodies = end.LostBodies();
+        if (bodies.Count == 0)
+        {
+            return;
+        }
+
+        json.WriteStartArray("lost");
+        foreach (LostBody lost in bodies)
+        {
+            json.WriteStartObject();
+            json.WriteString("name", scene.Bodies[lost.Body.Index].Name);
+            json.WriteNumber("time_s", lost.Time.ToSeconds());
+            json.WriteString("reason", lost.Reason.ToString().ToLowerInvariant());
+            json.WriteString("text", lost.ToString());
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
     }
 
     /// <summary>Whether any body of the scene can turn: by its initial spin, or by friction.</summary>

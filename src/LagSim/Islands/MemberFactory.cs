@@ -10,7 +10,7 @@ using LagSim.Trajectories;
 namespace LagSim.Islands;
 
 /// <summary>Opens the paths of members of islands: chords to the next tick, and rest.</summary>
-internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories)
+internal class MemberFactory(BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories)
 {
     /// <summary>The longest step, in parts of a force's own time.</summary>
     private const double MaxRateTimesStep = 1.0 / 16;
@@ -42,7 +42,7 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
             {
                 end = NextTick(slot, key.Time, wanted);
             }
-            else if (wanted < 2 * Math.Abs(path.End.SecondsSince(centre)))
+            else if (!IsFollowed(wanted, 2 * Math.Abs(path.End.SecondsSince(centre))))
             {
                 centre = key.Time; // the change begins a step of its own, since forces would act for too long in the one under way
                 end = SimTime.Min(end, scale.TickFrom(key.Time + SimDuration.OneTick, wanted));
@@ -64,6 +64,11 @@ internal sealed class MemberFactory(BodyTable bodies, TimelineStore timelines, i
 
         return true;
     }
+
+    /// <summary>Whether the step under way follows a change within it.</summary>
+    /// <param name="wanted">The longest step that follows the changed state, in seconds.</param>
+    /// <param name="step">The step under way, in seconds.</param>
+    private protected virtual bool IsFollowed(double wanted, double step) => wanted >= step;
 
     /// <summary>Opens a chord; false if the body is lost instead.</summary>
     internal bool TryOpenChord(int slot, in EventKey key, SimTime end, in Vector3D position, in Vector3D velocity, in Vector3D spin)

@@ -30,7 +30,7 @@ internal sealed class StepSegments(
         FindHoldingPairs();
         SimTime end = key.Time + length;
         SimTime centre = key.Time + SimDuration.FromTicks(length.Ticks / 2);
-        double kept = double.NaN; // of the pushes of bodies that leave; known once one does
+        double kept = step.Rules.LimitsEnergy ? double.NaN : 1; // of the pushes of bodies that leave; known once one does
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int slot = graph.Slots[i];

@@ -27,16 +27,19 @@ internal sealed class ForceFailures(Scene scene, BodyTable bodies, TimelineStore
                 + $" the forces {names} give must be finite.");
     }
 
-    /// <summary>Why a body has left the world, as a sentence.</summary>
+    /// <summary>Why a body can be followed no further, as a sentence.</summary>
     internal string OfLoss(int slot, SimTime time, LossReason reason, in Vector3D x, in Vector3D v)
     {
+        string names = bodies.Spec(slot).Forces.NamesAmong(scene.ForceArray);
+        string rates = RatesOn(slot, x, v, Vector3D.Zero);
+        string there = rates.Length > 0 ? $": there {rates}" : "";
         string why = reason switch
         {
-            LossReason.TooFast => $"it would be faster than {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick",
-            LossReason.TooStiff => $"the forces on it change faster than the shortest step follows: there {RatesOn(slot, x, v, Vector3D.Zero)}",
-            _ => $"the forces {bodies.Spec(slot).Forces.NamesAmong(scene.ForceArray)} have no finite value there",
+            LossReason.TooFast => $"it would be faster than {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick{there}",
+            LossReason.TooStiff => $"the forces on it change faster than the shortest step follows{there}",
+            _ => $"what the forces {names} give there has no finite value",
         };
-        return $"At {time.ToShortString()} {scene.Describe(bodies.Id(slot))} left the world, at {Limits.Short(x)} m with {Limits.Short(v)} m/s: {why}.";
+        return $"At {time.ToShortString()} {scene.Describe(bodies.Id(slot))} cannot be followed any further, at {Limits.Short(x)} m with {Limits.Short(v)} m/s: {why}.";
     }
 
     /// <summary>

@@ -57,10 +57,10 @@ public sealed class ExplainCommandTests
         (int code, string output, string error) = Run("explain", scene);
         Assert.Equal((0, ""), (code, error));
         Assert.Matches("b +dp54 +- +- +Gravity, wind", output);
-        Assert.Contains("No world of this scene can begin. From 0s on", output, StringComparison.Ordinal);
+        Assert.Contains("No world of this scene can begin. At 0s", output, StringComparison.Ordinal);
         using JsonDocument json = JsonDocument.Parse(Run("explain", scene, "--json").Output);
         Assert.Equal(JsonValueKind.Null, json.RootElement.GetProperty("bodies")[0].GetProperty("segments_per_s").ValueKind);
-        Assert.StartsWith("From 0s on", json.RootElement.GetProperty("cannot_begin").GetString(), StringComparison.Ordinal);
+        Assert.StartsWith("At 0s", json.RootElement.GetProperty("cannot_begin").GetString(), StringComparison.Ordinal);
         Assert.DoesNotContain("can begin", Run("explain", "billiards").Output, StringComparison.Ordinal);
     }
 

@@ -3,11 +3,13 @@ using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Islands;
+using LagSim.Motion;
 using LagSim.Response;
 using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
+using LagSim.Trajectories;
 
 namespace LagSim.Tests.Faults;
 
@@ -45,6 +47,9 @@ internal sealed class FaultyEngineParts : EngineParts
     /// <summary>Does not foretell how much room timelines will need.</summary>
     internal bool GrowsByLittle { get; init; }
 
+    /// <summary>Follows what changes within a contact step only from the next one on.</summary>
+    internal bool FollowsChangesLate { get; init; }
+
     /// <summary>What solutions are held to.</summary>
     internal SolverRules Rules { get; init; } = SolverRules.Usual;
 
@@ -57,6 +62,12 @@ internal sealed class FaultyEngineParts : EngineParts
     internal bool Has(HealingFault wrong) => (Healing & wrong) != 0;
 
     internal override bool HasIslands(Scene scene) => !IgnoresIslands && base.HasIslands(scene);
+
+    internal override MemberFactory MemberFactory(
+        BodyTable bodies, TimelineStore timelines, in Forces forces, ContactScale scale, TrajectoryFactory trajectories) =>
+        FollowsChangesLate
+            ? new HastyMemberFactory(bodies, timelines, forces, scale, trajectories)
+            : base.MemberFactory(bodies, timelines, forces, scale, trajectories);
 
     internal override ContactScale ContactScale(Scene scene, SimTime start) => Scale ?? base.ContactScale(scene, start);
 

@@ -49,15 +49,16 @@ public sealed class FlightFactoryTests
     }
 
     [Fact]
-    public void Open_AtTheHighestSpeed_OpensAndAboveItThrows()
+    public void Open_AtTheHighestSpeed_OpensAndAboveItIsLost()
     {
         Scene scene = new SceneBuilder("air").WithSmallestRadius(0.5).Build();
         FlightFactory factory = Factory(scene, Ball());
         double highest = Limits.MaxSpeed(0.5);
         factory.Open(0, Key(1, EventKind.Spawn), V(0), V(highest));
-        long serial = timelines.LastSerial;
-        Assert.Throws<SimulationException>(() => factory.Open(0, Key(2, EventKind.SetVelocity), V(0), V(Math.BitIncrement(highest))));
-        Assert.Equal(serial, timelines.LastSerial);
+        Assert.Equal(LossReason.None, timelines.Segment(timelines.Last(0)).Loss);
+        factory.Open(0, Key(2, EventKind.SetVelocity), V(0), V(Math.BitIncrement(highest)));
+        Assert.Equal(LossReason.TooFast, timelines.Segment(timelines.Last(0)).Loss);
+        Assert.False(timelines.Segment(timelines.Last(0)).IsPresent);
     }
 
     private FlightFactory Factory(Scene scene, BodySpec spec)
@@ -65,7 +66,8 @@ public sealed class FlightFactoryTests
         BodyTable bodies = new(1);
         timelines.AddSlot(bodies.Add(new BodyId(1, 1, 0), spec));
         Forces forces = new(scene, default);
-        ForceFailures failures = new(scene, forces, bodies, timelines);
-        return new FlightFactory(scene, forces, bodies, timelines, new StateLimits(scene), failures);
+        StateLimits limits = new(scene);
+        return new FlightFactory(
+            scene, forces, bodies, timelines, limits, new BodyLoss(bodies, timelines, limits), new ForceFailures(scene, bodies, timelines));
     }
 }
