@@ -120,8 +120,7 @@ public sealed class SessionTestResult
     {
         CheckTime(seconds);
         return World.TryReadRules(At(seconds), out T state) ? state
-            : throw new InvalidOperationException(World.Scene.Rules is null ? $"The scene '{World.Scene.Name}' has no rules."
-                : $"The rules '{World.Scene.Rules}' do not declare {typeof(T)} as the state of the world.");
+            : throw new InvalidOperationException($"The scene '{World.Scene.Name}' has no rules.");
     }
 
     /// <summary>Throws if a state that a player committed, or what its world keeps at the end, differs from <see cref="World"/>.</summary>

@@ -257,23 +257,27 @@ public sealed class Simulation
 
     /// <summary>The world's state of the rules at an instant that can be read.</summary>
     /// <typeparam name="T">The type that the scene's rules declare.</typeparam>
-    /// <returns>False, and the default, if the scene has no rules or they declare another type.</returns>
+    /// <returns>False, and the default, if the scene has no rules.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    /// <exception cref="InvalidOperationException">The rules declare another type, or none; or the simulation ended by an exception.</exception>
     public bool TryReadRules<T>(SimTime time, out T state)
         where T : unmanaged
     {
+        RuleStateReader.CheckWorld<T>(Scene);
         CheckReadable(time);
-        state = default;
-        return Engine.Rules is not null && RuleStateReader.TryRead(Scene, Engine.Rules.StateAt(time).Bytes, out state);
+        state = Engine.Rules is null ? default : RuleStateReader.Read<T>(Scene, Engine.Rules.StateAt(time).Bytes);
+        return Engine.Rules is not null;
     }
 
     /// <summary>A body's state of the rules at an instant that can be read.</summary>
     /// <typeparam name="T">The type that the scene's rules declare for bodies.</typeparam>
-    /// <returns>False, and the default, if the body has none, or as above.</returns>
+    /// <returns>False, and the default, if the body has none, or the scene has no rules.</returns>
     /// <exception cref="ArgumentOutOfRangeException">The time is outside the window.</exception>
+    /// <exception cref="InvalidOperationException">The rules declare another type, or none; or the simulation ended by an exception.</exception>
     public bool TryReadRules<T>(BodyId body, SimTime time, out T state)
         where T : unmanaged
     {
+        RuleStateReader.CheckBody<T>(Scene);
         CheckReadable(time);
         state = default;
         return Engine.Rules is not null && RuleStateReader.TryRead(Scene, Engine.Rules.StateAt(time).Bytes, body, out state);

@@ -9,9 +9,9 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions;
 
 /// <summary>One action for the session's thread to perform, and its answer.</summary>
-/// <param name="refused">Called if it is refused, on the session's thread, before the answer is set.</param>
+/// <param name="refusals">Told if it is refused, on the session's thread, before the answer is set.</param>
 /// <param name="failures">Where what an awaiter's context throws goes.</param>
-internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, HandlerFailures failures)
+internal sealed class ActionRequest(ActionRefusals refusals, HandlerFailures failures)
     : IPeerRequest, IValueTaskSource<ExternalEvent>
 {
     private readonly object gate = new(); // guards the fields that decide whether it can be reused
@@ -20,6 +20,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
     private SimTime? at;
     private bool isAsked;
     private bool isAwaited;
+    private UnheardRefusal? unheard; // of this answer, until somebody asks for it
 
     /// <summary>The caller's task; valid until the request is reused.</summary>
     internal ValueTask<ExternalEvent> Task
@@ -47,6 +48,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
             action = next;
             at = time;
             isAsked = true;
+            unheard = null;
             return true;
         }
     }
@@ -65,7 +67,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
             {
                 if (isRefusal)
                 {
-                    refused(action, why);
+                    Note(refusals.Tell(action, why));
                 }
             }
             finally
@@ -90,6 +92,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
     {
         lock (gate)
         {
+            Hear(token);
             ExternalEvent done = default;
             try
             {
@@ -108,6 +111,7 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
     {
         lock (gate)
         {
+            Hear(token);
             return core.GetStatus(token);
         }
     }
@@ -117,9 +121,31 @@ internal sealed class ActionRequest(Action<PlayerAction, Exception> refused, Han
         lock (gate)
         {
             isAwaited |= token == core.Version;
+            Hear(token);
         }
 
         core.OnCompleted(continuation, state, token, flags);
+    }
+
+    private void Note(UnheardRefusal? refusal)
+    {
+        lock (gate)
+        {
+            unheard = refusal;
+            if (isAwaited)
+            {
+                Hear(core.Version);
+            }
+        }
+    }
+
+    // Somebody asks for the answer; within the gate.
+    private void Hear(short token)
+    {
+        if (token == core.Version)
+        {
+            unheard?.Hear();
+        }
     }
 
     // Completing posts to the awaiter's synchronization context, which may refuse when its program shuts down.

@@ -1,4 +1,3 @@
-using System;
 using LagSim.Events;
 using LagSim.Net.Sessions.Core;
 using LagSim.Time;
@@ -13,19 +12,19 @@ internal sealed class ActionRequests
 
     private readonly object gate = new();
     private readonly ActionRequest[] ring = new ActionRequest[Kept];
-    private readonly Action<PlayerAction, Exception> refused;
+    private readonly ActionRefusals refusals;
     private readonly HandlerFailures failures;
     private int next;
 
-    /// <param name="refused">Called for each refused action, on the session's thread, before its answer is set.</param>
+    /// <param name="refusals">Told of each refused action, on the session's thread, before its answer is set.</param>
     /// <param name="failures">Where what an awaiter's context throws goes.</param>
-    internal ActionRequests(Action<PlayerAction, Exception> refused, HandlerFailures failures)
+    internal ActionRequests(ActionRefusals refusals, HandlerFailures failures)
     {
-        this.refused = refused;
+        this.refusals = refusals;
         this.failures = failures;
         for (int n = 0; n < Kept; n++)
         {
-            ring[n] = new ActionRequest(refused, failures);
+            ring[n] = new ActionRequest(refusals, failures);
         }
     }
 
@@ -38,7 +37,7 @@ internal sealed class ActionRequests
             next = (place + 1) % Kept;
             if (!ring[place].TryBegin(action, at))
             {
-                ring[place] = new ActionRequest(refused, failures);
+                ring[place] = new ActionRequest(refusals, failures);
                 ring[place].TryBegin(action, at);
             }
 

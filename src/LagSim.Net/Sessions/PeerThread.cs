@@ -63,8 +63,8 @@ public sealed class PeerThread : IDisposable
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
         owner = session.Parts.Owner;
-        refused = new(owner);
-        actions = new ActionRequests(refused.Tell, owner.Failures);
+        refused = new(owner, session.Parts.Clock);
+        actions = new ActionRequests(refused, owner.Failures);
         thread = new WorldThread(name, Step, session.Interrupt, End);
         requests = new PeerRequests(session, thread.Wake);
         port.Arrived += thread.Wake;
@@ -75,7 +75,8 @@ public sealed class PeerThread : IDisposable
     /// returned task completes, and whether or not it is awaited. The host's verdict on a client's event comes later, by
     /// <see cref="Session.Logged"/>.
     /// </summary>
-    /// <remarks>Not for what the end of the thread left unanswered. Without a handler, to <see cref="System.Diagnostics.Trace"/>.</remarks>
+    /// <remarks>Not for what the end of the thread left unanswered. Without a handler it goes to <see cref="System.Diagnostics.Trace"/>, and
+    /// the first that nobody awaits either is said on standard error, a second later.</remarks>
     public event Action<PlayerAction, Exception>? Refused
     {
         add => refused.Add(value);
@@ -239,7 +240,9 @@ public sealed class PeerThread : IDisposable
     /// <returns>
     /// The stamped event, or the exception that <see cref="Session.Do"/> throws, which <see cref="Refused"/> reports too. The host's
     /// verdict on the event comes later, by <see cref="Session.Logged"/>. Await the task at once and once, or discard it: an answer that is
-    /// not awaited is forgotten some 60 calls later. A thread that ends first cancels it, or completes it with the exception that ended it.
+    /// not awaited is forgotten some 60 calls later. What follows the <c>await</c> runs in the caller's
+    /// <see cref="SynchronizationContext"/>, and if it has none on a thread of the pool, where <see cref="Latest"/> may not be called: a
+    /// frame discards the task, or keeps it by <see cref="ValueTask{T}.AsTask"/> and looks at it in later frames. A thread that ends first cancels it, or completes it with the exception that ended it.
     /// </returns>
     /// <exception cref="ObjectDisposedException">The thread has been disposed.</exception>
     /// <exception cref="InvalidOperationException">The thread ended with an exception, the inner one.</exception>
@@ -339,7 +342,7 @@ public sealed class PeerThread : IDisposable
         owner.Enter();
         WarmUp();
         requests.AnswerAll();
-        SimDuration wait = Session.Step();
+        SimDuration wait = refused.SayUnheard(Session.Step());
         if (Session.State is SessionState.Running or SessionState.Ended)
         {
             decided.Set();
@@ -380,6 +383,7 @@ public sealed class PeerThread : IDisposable
             }
 
             decided.Set();
+            refused.SayUnheard();
             requests.Close(hasFailed ? fault : null);
             if (isOwner)
             {

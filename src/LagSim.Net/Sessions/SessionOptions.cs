@@ -220,13 +220,13 @@ public abstract record SessionOptions
     /// </remarks>
     public CancellationToken Cancellation { get; init; }
 
-    /// <summary>Whether datagrams are encrypted and authenticated.</summary>
     /// <summary>
     /// Why a text cannot be a <see cref="Name"/>, as the rest of a sentence; null if it can. From any thread.
     /// </summary>
     /// <exception cref="ArgumentNullException">The text is null.</exception>
     public static string? WhyNoName(string name) => RosterEntry.WhyNoName(name ?? throw new ArgumentNullException(nameof(name)));
 
+    /// <summary>Whether datagrams are encrypted and authenticated.</summary>
     internal abstract bool IsProtected { get; }
 
     /// <summary>The type's name only: keys are secret and must not end up in a log.</summary>

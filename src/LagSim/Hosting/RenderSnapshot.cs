@@ -93,21 +93,26 @@ public sealed class RenderSnapshot
 
     /// <summary>The world's state of the scene's rules, such as a score, at an instant that the render snapshot covers.</summary>
     /// <typeparam name="T">The type that the rules declare.</typeparam>
-    /// <returns>False, and the default, if the instant is not covered, the scene has no rules, or they declare another type.</returns>
+    /// <returns>False, and the default, if the instant is not covered, or the scene has no rules.</returns>
     /// <remarks>It is what the world predicts: a late event may still change it. Cost: the calls since that instant, and a copy.</remarks>
+    /// <exception cref="System.InvalidOperationException">The rules declare another type, or none.</exception>
     public bool TryReadRules<T>(SimTime time, out T state)
         where T : unmanaged
     {
-        state = default;
-        return rules is not null && Covers(time) && RuleStateReader.TryRead(scene!, rules.At(time), out state);
+        RuleStateReader.CheckWorld<T>(scene);
+        bool isThere = rules is not null && Covers(time);
+        state = isThere ? RuleStateReader.Read<T>(scene!, rules!.At(time)) : default;
+        return isThere;
     }
 
     /// <summary>A body's state of the scene's rules at an instant that the render snapshot covers.</summary>
     /// <typeparam name="T">The type that the rules declare for bodies.</typeparam>
     /// <returns>False, and the default, if the body has none, or as above.</returns>
+    /// <exception cref="System.InvalidOperationException">The rules declare another type for bodies, or none.</exception>
     public bool TryReadRules<T>(BodyId body, SimTime time, out T state)
         where T : unmanaged
     {
+        RuleStateReader.CheckBody<T>(scene);
         state = default;
         return rules is not null && Covers(time) && RuleStateReader.TryRead(scene!, rules.At(time), body, out state);
     }

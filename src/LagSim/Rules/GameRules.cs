@@ -37,6 +37,7 @@ namespace LagSim.Rules;
 /// }
 /// </code>
 /// </example>
+[DynamicallyAccessedMembers(DynamicallyAccessedMemberTypes.PublicMethods)] // of those that derive from it: Problem asks for them
 public abstract class GameRules : SceneRules
 {
     /// <summary>Rules of that name and version. A peer that has not the same ones is refused.</summary>
@@ -76,6 +77,8 @@ public abstract class GameRules : SceneRules
         BodyType = typeof(T);
     }
 
+    internal override string? Problem => UnheardRules.Problem(GetType());
+
     /// <summary>The type of the world's state; null for none.</summary>
     internal System.Type? WorldType { get; private set; }
 
@@ -106,12 +109,14 @@ public abstract class GameRules : SceneRules
     {
     }
 
-    /// <summary>An impact that the rules hear; the bodies already move as they do after it.</summary>
+    /// <summary>An impact that the rules hear; the bodies already move as they do after it. A scene refuses rules that override this and not
+    /// <see cref="HearsContact"/>.</summary>
     public virtual void OnContact(RuleWorld world, in RuleContact contact)
     {
     }
 
-    /// <summary>A body enters or leaves a sensor, as the rules hear it.</summary>
+    /// <summary>A body enters or leaves a sensor, as the rules hear it. A scene refuses rules that override this and not
+    /// <see cref="HearsCrossing"/>.</summary>
     public virtual void OnCrossing(RuleWorld world, in Crossing crossing)
     {
     }
@@ -121,12 +126,14 @@ public abstract class GameRules : SceneRules
     {
     }
 
-    /// <summary>A body has appeared, spawned by a player or by these rules. Only if <see cref="HearsBodies"/>.</summary>
+    /// <summary>A body has appeared, spawned by a player or by these rules. Only if <see cref="HearsBodies"/>; a scene
+    /// refuses rules that override this and not that.</summary>
     public virtual void OnSpawned(RuleWorld world, BodyId body)
     {
     }
 
-    /// <summary>A body has disappeared; its state can be read here for the last time. Only if <see cref="HearsBodies"/>.</summary>
+    /// <summary>A body has disappeared; its state can be read here for the last time. Only if
+    /// <see cref="HearsBodies"/>; a scene refuses rules that override this and not that.</summary>
     public virtual void OnRemoved(RuleWorld world, BodyId body)
     {
     }

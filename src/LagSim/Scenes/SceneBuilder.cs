@@ -360,6 +360,11 @@ public sealed class SceneBuilder
             Limits.InRange(least, Limits.MinRadius, Limits.MaxRadius, $"scene '{name}'", "smallest radius", "m");
         }
 
+        if (rules?.Problem is string ofRules)
+        {
+            throw new SceneException($"Scene '{name}' has the rules '{rules}', which {ofRules}.");
+        }
+
         if (threads is < 1 or > MaxThreads)
         {
             throw new SceneException($"Scene '{name}' is to be checked on {threads} threads; 1 to {MaxThreads} are allowed.");

@@ -38,6 +38,9 @@ public abstract class SceneRules
     /// <summary>The size of the state of a body that has one, in bytes; 0, the default, for none. Part of the scene's hash.</summary>
     public int BodyBytes { get; private protected set; }
 
+    /// <summary>What makes them no rules for a scene, as the rest of a sentence about them; null if nothing does.</summary>
+    internal abstract string? Problem { get; }
+
     /// <summary>The name and the version, for messages.</summary>
     public override string ToString() => FormattableString.Invariant($"{Name} {Version}");
 }

@@ -1,6 +1,8 @@
 using System.Globalization;
 using System.Linq;
 using System.Text.Json;
+using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
 using Xunit;
 using static LagSim.Tests.Cli.DropCommandTests;
 
@@ -44,6 +46,19 @@ public sealed class FigureTests
             $"sent {Whole(down)} bytes a second with those headers ({Whole(down - Headers)} without", SnippetTests.Read("docs/LINKS.md"), System.StringComparison.Ordinal);
 
         static string Whole(double bytes) => System.Math.Round(bytes, System.MidpointRounding.AwayFromZero).ToString(CultureInfo.InvariantCulture);
+    }
+
+    [Theory]
+    [InlineData("docs/SECURITY.md", "guess one key for each handshake, one a second from one machine, {0} at once")]
+    [InlineData("docs/SECURITY.md", "one handshake a second is read from each machine, {0} at once after a pause, and 250 a second from all together")]
+    [InlineData("src/LagSim.Net/README.md", "A host and up to {0} players")]
+    public void Limits_ThatPagesTell_AreThoseOfTheCode(string page, string sentence)
+    {
+        JoinLimits limits = new();
+        Assert.Equal((1.0, 16, 250.0, 16), (limits.HandshakesPerSecond, limits.HandshakeBurst, limits.HandshakesPerSecondOfAll, SessionOptions.MaxClients));
+        string text = SnippetTests.Read(page);
+        Assert.Contains(string.Format(CultureInfo.InvariantCulture, sentence, "sixteen"), text, System.StringComparison.Ordinal);
+        Assert.DoesNotContain(string.Format(CultureInfo.InvariantCulture, sentence, "eight"), text, System.StringComparison.Ordinal); // what they told
     }
 
     private static string Metres(JsonElement figure) => figure.GetDouble() == 0 ? "0" : figure.GetDouble().ToString("F2", CultureInfo.InvariantCulture);

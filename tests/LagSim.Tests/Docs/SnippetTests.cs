@@ -52,6 +52,20 @@ public sealed partial class SnippetTests
         Assert.All(snippets, snippet => Assert.False(IsCompiled(snippet.Replace(".", "..", StringComparison.Ordinal)))); // the control
     }
 
+    /// <summary>What follows an await may run on another thread than the one that draws, which alone may read the world: so no page awaits what a player does.</summary>
+    [Theory]
+    [InlineData("README.md", 1)]
+    [InlineData("docs/GAMELOOP.md", 5)]
+    [InlineData("docs/TUTORIAL.md", 1)]
+    [InlineData("src/LagSim.Net/README.md", 1)]
+    public void Page_ItsFrames_AwaitNoAction(string page, int actions)
+    {
+        string code = string.Concat(Fence().Matches(Read(page)).Select(match => match.Groups[1].Value));
+        Assert.True(AsyncAction().Count(code) == 0, page);
+        Assert.Equal(actions, PeerAction().Count(code)); // else nothing was seen
+        Assert.Equal(actions, AsyncAction().Count(code.Replace("_ = ", "await ", StringComparison.Ordinal).Replace("> shot = ", "> shot = await ", StringComparison.Ordinal))); // the control
+    }
+
     [Theory]
     [InlineData("src/LagSim/Scenes/Scene.cs")]
     [InlineData("src/LagSim/Scenes/BodySpec.cs")]
@@ -117,7 +131,7 @@ public sealed partial class SnippetTests
         Score score = RuleSnippets.AfterAKick(pitch);
         Assert.Equal((goals, 0), (score.Left, score.Right));
         Assert.Contains(
-            "'football 1' do not declare System.Int64",
+            "The state of the world is asked for as System.Int64; the rules 'football 1' declare LagSim.Tests.Docs.Score.",
             Assert.Throws<InvalidOperationException>(() => new SessionTest(pitch).Run(seconds: 1, TestContext.Current.CancellationToken).StateOfRules<long>()).Message, StringComparison.Ordinal);
     }
 
@@ -219,6 +233,12 @@ public sealed partial class SnippetTests
 
         public Vector3D At(double seconds, in Vector3D position, in Vector3D velocity) => whirl.At(seconds, position, velocity);
     }
+
+    [GeneratedRegex(@"\b(?:peer|client|me)\.Do\(")]
+    private static partial Regex PeerAction();
+
+    [GeneratedRegex(@"await (?:peer|client|me)\.Do\(")]
+    private static partial Regex AsyncAction();
 
     [GeneratedRegex("```csharp\n(.*?)```", RegexOptions.Singleline)]
     private static partial Regex Fence();

@@ -77,7 +77,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
     }
 
-    internal async Task Share()
+    internal void Share(ConcurrentQueue<string> refusals)
     {
         // where the world is
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
@@ -98,12 +98,14 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
             Draw(state.Position);
         }
 
-        // the action shows here at once, and takes effect on every other machine at the same instant;
-        // it throws if it is not allowed, and does nothing if the body is gone
-        await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+        // once: what is not allowed; called on the session's thread, so hand it on to your own
+        peer.Refused += (action, why) => refusals.Enqueue($"{action.Kind}: {why.Message}");
+
+        // the action shows here at once, and takes effect on every other machine at the same instant; it does nothing if the body is gone
+        _ = peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
-    internal async Task Spawn(PeerThread peer, ConcurrentQueue<RosterChange> changes, Vector3D position, Vector3D velocity)
+    internal void Spawn(PeerThread peer, ConcurrentQueue<RosterChange> changes, Vector3D position, Vector3D velocity)
     {
         // on host and clients alike: how this peer is called, and who comes and goes; called on the session's thread, so hand it on to your own
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Name = "Hedy" }, setUp: session =>
@@ -115,9 +117,11 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
             DrawName(one.Number, one.Name, isWatching: one.Role == PeerRole.Spectator, isSilent: one.SilentSince is not null);
         }
 
-        // this player fires; the answer has the new body's identity
-        ExternalEvent shot = await peer.Do(PlayerAction.Spawn(new BodySpec(radius: 0.05, mass: 0.02, restitution: 0.5), position, velocity));
-        BodyId bullet = shot.Body;
+        // this player fires; the answer, which has the new body's identity, is there in a later frame
+        Task<ExternalEvent> shot = peer.Do(PlayerAction.Spawn(new BodySpec(radius: 0.05, mass: 0.02, restitution: 0.5), position, velocity)).AsTask();
+
+        // each frame
+        BodyId? bullet = shot.IsCompletedSuccessfully ? shot.Result.Body : null;
 
         // each frame: draw all bodies, also those that players have spawned
         if (peer.Latest() is RenderSnapshot all)
@@ -131,13 +135,14 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
                 }
             }
         }
-        DrawBall(position, bullet.Index, isOwn: true);
+
+        DrawBall(position, bullet?.Index ?? 0, isOwn: true);
     }
 
-    internal static async Task Hold(PeerThread peer, BodyId ball, Vector3D hand, Vector3D handVelocity)
+    internal static void Hold(PeerThread peer, BodyId ball, Vector3D hand, Vector3D handVelocity)
     {
         // the hand closes, 5 cm above the ball's centre
-        await peer.Do(PlayerAction.Grab(ball, new Vector3D(0, 0.05, 0)));
+        _ = peer.Do(PlayerAction.Grab(ball, new Vector3D(0, 0.05, 0)));
         HandSender sender = new(ball);
 
         // each frame
@@ -147,7 +152,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
 
         // the hand opens: a throw
-        await peer.Do(PlayerAction.Release(ball, handVelocity));
+        _ = peer.Do(PlayerAction.Release(ball, handVelocity));
     }
 
     internal void Smooth(PeerThread peer, BodyId ball)
@@ -180,7 +185,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
     }
 
-    internal async Task Smallest()
+    internal void Smallest()
     {
         Scene scene = new SceneBuilder("bounce")
             .AddPlane("floor", normal: Vector3D.Up, point: Vector3D.Zero)
@@ -204,7 +209,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
 
         // a kick: shows here at once, and takes effect on every other machine at the same instant
-        await client.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+        _ = client.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
     internal void Polled(BodyId ball)
@@ -263,7 +268,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         return options;
     }
 
-    internal async Task ShareOfThePackage()
+    internal void ShareOfThePackage()
     {
         // one machine; others reach it at UDP port 5000
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
@@ -284,7 +289,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
 
         // what this player does
-        await peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
+        _ = peer.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0)));
     }
 
     private void Draw(Vector3D place) => show(place);

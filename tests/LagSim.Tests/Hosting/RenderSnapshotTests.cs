@@ -72,10 +72,10 @@ public sealed class RenderSnapshotTests
     [Fact]
     public void TryReadRules_AtAnyInstant_IsTheStateOfTheWorld()
     {
-        RandomWorld drawn = new(3, rules: true);
+        RandomWorld drawn = new(5, rules: true);
         Simulation world = new(drawn.Scene, KeepAll);
         RenderTripleBuffer exchange = new();
-        int changes = 0;
+        int changes = 0, ofBodies = 0;
         SimTime shown = world.Start;
         foreach (ExternalEvent external in drawn.Events)
         {
@@ -92,15 +92,17 @@ public sealed class RenderSnapshotTests
                 Assert.True(snapshot.TryReadRules(time, out DrawnRules.Total inSnapshot) && world.TryReadRules(time, out DrawnRules.Total total) && total.Equals(inSnapshot));
                 Assert.Equal(world.TryReadRules(First, time, out DrawnRules.OfBody body), snapshot.TryReadRules(First, time, out DrawnRules.OfBody bodyInSnapshot));
                 Assert.Equal(body, bodyInSnapshot);
+                ofBodies += body.Equals(default) ? 0 : 1;
                 changes += inSnapshot.Equals(before) ? 0 : 1;
                 before = inSnapshot;
             }
 
             Assert.False(snapshot.TryReadRules(from - SimDuration.OneTick, out DrawnRules.Total _));
-            Assert.False(snapshot.TryReadRules(from, out long _));
+            Assert.Throws<InvalidOperationException>(() => snapshot.TryReadRules(from, out long _));
+            Assert.Throws<InvalidOperationException>(() => snapshot.TryReadRules(First, from, out long _));
         }
 
-        Assert.True(changes > 50, $"{changes} states seen");
+        Assert.True(changes > 50 && ofBodies > 50, $"{changes} states seen, {ofBodies} of bodies");
         Assert.False(Shown(Run(Drop(5, 0.8), 0.5)).TryReadRules(At(0.25), out DrawnRules.Total _)); // a scene without
     }
 

@@ -3,6 +3,7 @@ using System.Linq;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
@@ -69,7 +70,7 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
 
         output.WriteLine(FormattableString.Invariant($"{kind}: in after {took:0.00} s, {protection.Reads} handshakes read"));
         Assert.InRange(took, 0, 2);
-        int most = (machines * 8) + (int)(machines * 3) + 1; // the burst, one a second from each, and the honest client's
+        int most = (machines * new JoinLimits().HandshakeBurst) + (int)(machines * 3) + 1; // the burst, one a second from each, and the honest client's
         Assert.InRange(protection.Reads, 1, most);
         Assert.Equal(1, group.Host.ClientCount);
         Assert.All(attackers, attacker => Assert.True(attacker.BytesIn <= attacker.BytesOut));

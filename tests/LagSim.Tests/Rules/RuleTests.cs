@@ -225,7 +225,6 @@ public sealed class RuleTests
         Assert.Equal(5, there.Count);
         Assert.False(world.TryReadRules(spawned, At(1), out GivenState _));
         Assert.Equal(5, Count(world, 2));
-        Assert.False(world.TryReadRules(At(1), out long _));
     }
 
     /// <summary>A body that never had a state has one of zeros to the last, like any other.</summary>

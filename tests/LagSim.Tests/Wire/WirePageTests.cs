@@ -111,6 +111,8 @@ public sealed class WirePageTests
             [DatagramType.RosterReceived] = WireFormat.RosterReceivedBytes,
             [DatagramType.Sealed] = SealedDatagram.PrologueBytes + 1 + IDatagramCipher.TagBytes,
         };
+        Assert.Equal($"{WireFormat.Version}", HeaderVersion(Page));
+        Assert.NotEqual($"{WireFormat.Version}", HeaderVersion([.. Page.Select(line => line == $"| u8 | version | {WireFormat.Version} |" ? "| u8 | version | 10 |" : line)])); // the control
         foreach (DatagramType type in Enum.GetValues<DatagramType>().Where(type => type != DatagramType.None))
         {
             Assert.Contains($"{(int)type} {type}", Table(Page, "## Header")[2].Value, StringComparison.Ordinal);
@@ -128,6 +130,8 @@ public sealed class WirePageTests
             Assert.Matches($@"\| ([A-Za-z, ]*, )?{refusal}(, [A-Za-z]*)? \|", page);
         }
     }
+
+    private static string HeaderVersion(string[] page) => Table(page, "## Header").Single(row => row.Field == "version").Value;
 
     private static void AssertWords<T>(string value)
         where T : struct, Enum

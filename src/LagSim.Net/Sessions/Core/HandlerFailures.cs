@@ -44,6 +44,19 @@ internal sealed class HandlerFailures
         }
     }
 
+    /// <summary>Says a line to who runs the program, on its standard error.</summary>
+    internal static void Say(string line)
+    {
+        try
+        {
+            Console.Error.WriteLine(line);
+        }
+        catch (Exception failure) when (failure is not OutOfMemoryException)
+        {
+            // It was closed, or the program has put in one of its own that throws.
+        }
+    }
+
     /// <summary>Writes a line to <see cref="Trace"/>, whose listeners are anybody's and may throw.</summary>
     internal static void Write(string line)
     {
