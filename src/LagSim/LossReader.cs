@@ -1,6 +1,5 @@
 using System.Collections.Generic;
 using LagSim.Events;
-using LagSim.Motion;
 using LagSim.Scenes;
 using LagSim.Timelines;
 using LagSim.Trajectories;

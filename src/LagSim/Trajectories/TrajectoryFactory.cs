@@ -2,7 +2,6 @@ using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
-using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim.Trajectories;
