@@ -108,7 +108,7 @@ public sealed class LostBodyTests
         Listener rules = new("hears losses"), older = new Deaf();
         Simulation world = Run(Planet(rules), 5, [ExternalEvent.SetFilter(At(0.1), 1, 1, First, Ghost)]);
         Assert.Equal([(First, LossReason.TooStiff)], rules.Lost);
-        Assert.Equal(1, world.LostBodies().Count);
+        Assert.Single(world.LostBodies());
         Run(Planet(older), 5, [ExternalEvent.SetFilter(At(0.1), 1, 1, First, Ghost)]);
         Assert.Equal([First], older.Removed);
     }
