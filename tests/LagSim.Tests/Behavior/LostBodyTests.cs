@@ -87,13 +87,13 @@ public sealed class LostBodyTests
     [Fact]
     public void Sleeper_OnABodyThatIsLost_Wakes()
     {
-        // A medium so thick that at rest nothing shows of it, and that no step follows once the ball below moves.
-        Scene scene = new SceneBuilder("pile").WithContactTolerance(1e-3).AddForce(Force.QuadraticDrag("tar", 1e9), out ForceSet tar)
+        // A medium so thick that at rest nothing shows of it, and that no step follows once the ball below is fast.
+        Scene scene = new SceneBuilder("pile").WithContactTolerance(1e-3).AddForce(Force.QuadraticDrag("tar", 1e6), out ForceSet tar)
             .AddPlane("floor", Vector3D.Up, V(0), 0).AddBody("below", new BodySpec(0.5, 1e-3, 0, forces: tar), V(0, 0.5))
             .AddBody("above", new BodySpec(0.5, 1e-3, 0), V(0, 1.5)).Build();
         Simulation world = Run(scene, 2);
         Assert.Equal(MotionLaw.Resting, Read(world, Second, 2).Motion);
-        world.Submit(ExternalEvent.SetVelocity(At(2), 1, 1, First, V(10)));
+        world.Submit(ExternalEvent.Impulse(At(2), 1, 1, First, V(100)));
         world.AdvanceTo(At(5));
         LostBody lost = Assert.Single(world.LostBodies());
         Assert.Equal((First, LossReason.TooStiff), (lost.Body, lost.Reason));

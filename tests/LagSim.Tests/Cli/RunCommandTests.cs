@@ -281,12 +281,16 @@ public sealed class RunCommandTests
     }
 
     [Fact]
-    public void Failure_OfASimulation_NamesTheBodyAsTheSceneDoes()
+    public void Run_OfABodyThatLeavesTheWorld_TellsIt()
     {
         using TemporaryFolder folder = new();
         string scene = folder["fall.json"];
         File.WriteAllText(scene, """{"format": "lagsim-scene-1", "name": "fall", "bodies": [{"name": "the stone", "radius_m": 1e-9, "mass_kg": 1, "restitution": 1, "position_m": [0, 0, 0]}]}""");
-        Tool.Refuses(3, ["run", scene, "--until-s", "60"], "body 'the stone' (0.0.0) reaches 219", "it falls without end");
+        Assert.Contains("body 'the stone' (0.0.0) cannot be followed any further", Tool.Run("run", scene, "--until-s", "60").Done().OutputOnOneLine, StringComparison.Ordinal);
+        using JsonDocument json = JsonDocument.Parse(Tool.Run("run", scene, "--until-s", "60", "--json").Done().Output);
+        JsonElement lost = Assert.Single(json.RootElement.GetProperty("lost").EnumerateArray());
+        Assert.Equal(("the stone", "toofast"), (lost.GetProperty("name").GetString(), lost.GetProperty("reason").GetString()));
+        Assert.DoesNotContain("\"lost\"", Tool.Run("run", "pair", "--json").Done().Output, StringComparison.Ordinal); // the control
     }
 
     private static double Number(string field) => double.Parse(field, NumberStyles.Float, CultureInfo.InvariantCulture);
