@@ -127,7 +127,7 @@ internal sealed class Engine
         FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters,
-            new FreePlaces(scene, Bodies, Timelines, view));
+            parts.FreePlaces(scene, Bodies, Timelines, view));
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);
 

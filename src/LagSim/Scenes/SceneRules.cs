@@ -38,6 +38,10 @@ public abstract class SceneRules
     /// <summary>The size of the state of a body that has one, in bytes; 0, the default, for none. Part of the scene's hash.</summary>
     public int BodyBytes { get; private protected set; }
 
+    /// <summary>Whether a command that the rules fail in counts as none; otherwise, the default, it ends the world. Part of the scene's hash,
+    /// so that all peers do the same.</summary>
+    public bool SkipsFailedCommands { get; private protected set; }
+
     /// <summary>The name and the version, for messages.</summary>
     public override string ToString() => FormattableString.Invariant($"{Name} {Version}");
 }
