@@ -257,7 +257,7 @@ internal class RuleCaller
         && failure is not (SimulationException or OutOfMemoryException or InsufficientExecutionStackException);
 
     /// <summary>What a call did is forgotten but for what it read, since that may change and with it whether it fails.</summary>
-    private void Skip(RuleCall call, Exception failure)
+    private protected virtual void Skip(RuleCall call, Exception failure)
     {
         memory.Load(log.Current.Bytes);
         world.Forget();

@@ -32,6 +32,7 @@ internal static class SceneFormat
     internal const int ForceBytes = 22 + EventFormat.VectorBytes; // kind, author's version, strength, damping, vector, power
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 4;
+    internal const uint SkipsFailedCommands = 1u << 31; // with the size of the rules' state, which is far smaller
     internal const int SensorBytes = EventFormat.VectorBytes + EventFormat.FilterBytes + 14; // shape, coverage, a vector, a number, a filter and the carrier
     private const int RulesBytes = 9 + MaxTextBytes + 12; // seed, whether there are any; name, author's version, two sizes
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
@@ -111,7 +112,7 @@ internal static class SceneFormat
         {
             WireText.Write(ref writer, rules.Name);
             writer.WriteUInt32(unchecked((uint)rules.Version));
-            writer.WriteUInt32((uint)rules.WorldBytes);
+            writer.WriteUInt32((uint)rules.WorldBytes | (rules.SkipsFailedCommands ? SkipsFailedCommands : 0));
             writer.WriteUInt32((uint)rules.BodyBytes);
         }
 

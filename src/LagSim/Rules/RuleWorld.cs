@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim.Rules;
 

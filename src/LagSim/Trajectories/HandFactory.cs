@@ -1,4 +1,3 @@
-using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;

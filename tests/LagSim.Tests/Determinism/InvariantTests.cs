@@ -375,7 +375,7 @@ public sealed class InvariantTests
     }
 
     /// <summary>Has a world stop at one event in three, in the middle of its instant if there is more to do.</summary>
-    private static void Interrupt(Simulation simulation, int seed)
+    internal static void Interrupt(Simulation simulation, int seed)
     {
         Random random = new(seed);
         simulation.WaitsForLateEvents = true;
