@@ -259,26 +259,17 @@ internal ref struct SceneDecoder
         string name = WireText.Read(ref reader);
         int version = unchecked((int)reader.ReadUInt32());
         uint worldBytes = reader.ReadUInt32();
-        bool skips = (worldBytes & SceneFormat.SkipsFailedCommands) != 0;
-        worldBytes &= ~SceneFormat.SkipsFailedCommands;
         uint bodyBytes = reader.ReadUInt32();
         if (IsSound && KnownRules(name, version) is SceneRules rules)
         {
-            if (rules.WorldBytes != worldBytes || rules.BodyBytes != bodyBytes)
+            if (SceneFormat.Difference(rules, worldBytes, bodyBytes) is string difference)
             {
-                Refuse($"The scene's rules '{name}' have states of {worldBytes} bytes and {bodyBytes} for a body; here they have {rules.WorldBytes} and"
-                    + $" {rules.BodyBytes}.");
-            }
-            else if (rules.SkipsFailedCommands != skips)
-            {
-                Refuse($"By the scene's rules '{name}' a command that fails {Failed(skips)}; here it {Failed(rules.SkipsFailedCommands)}.");
+                Refuse(difference);
             }
 
             builder.WithRules(rules);
         }
     }
-
-    private static string Failed(bool skips) => skips ? "counts as none" : "ends the world";
 
     private void ReadBox(SceneBuilder builder)
     {
