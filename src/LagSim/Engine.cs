@@ -128,7 +128,7 @@ internal sealed class Engine
         FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);
         ExternalHandler externals = new(
             scene, Bodies, Timelines, log, flights, graph, waker, members, trajectories, collapse, lonePath, filters,
-            new FreePlaces(scene, Bodies, Timelines, view));
+            parts.FreePlaces(scene, Bodies, Timelines, view));
         LossHandler losses = new(Bodies, Timelines, waker);
         EventDispatcher dispatcher = new(Progress, graph, predictor, impacts, steps, externals, crossingHandler, losses, marks, rewinds, Rewinder);
         Meter = new WorkMeter(Bodies, graph, work, rollback);

@@ -3,6 +3,7 @@ using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Handlers;
 using LagSim.Islands;
 using LagSim.Motion;
 using LagSim.Response;
@@ -89,6 +90,9 @@ internal class EngineParts
         Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
         new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph);
+
+    internal virtual FreePlaces FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view) =>
+        new(scene, bodies, timelines, view);
 
     internal virtual RuleLog RuleLog(Scene scene, SimTime start, ReadOnlySpan<byte> state) => new(scene, start, state);
 

@@ -12,8 +12,8 @@ namespace LagSim;
 
 /// <summary>The event loop: takes the least event that is due, or call of rules, has it processed, and moves on how far the world is simulated.</summary>
 /// <remarks>
-/// An instant happens as a whole. In a session's world an advance may stop within one that takes long, and one that has no end blocks the
-/// world until an event removes the cause.
+/// An instant happens as a whole, unless an end is asked for. In a session's world an advance may stop within one that takes long, and one
+/// that has no end blocks the world until an event removes the cause.
 /// </remarks>
 internal sealed class EventLoop(
     Progress progress, TimelineStore timelines, Agenda agenda, RollbackState rollback, Rewinder rewinder,
@@ -150,30 +150,15 @@ internal sealed class EventLoop(
                 partDone = null;
                 ForgetUpTo(reached);
             }
-            else if (MayWaitBefore(reached) && (verdict == WorkVerdict.StopNow || cancellation.IsCancellationRequested))
+            else if (cancellation.IsCancellationRequested || (verdict == WorkVerdict.StopNow && MayWaitBefore(reached)))
             {
                 partDone = reached;
                 reached -= SimDuration.OneTick;
-                return verdict == WorkVerdict.StopNow ? Stop.OutOfEvents : Stop.Cancelled;
+                return cancellation.IsCancellationRequested ? Stop.Cancelled : Stop.OutOfEvents;
             }
 
             events--;
-            if (slot == Agenda.Rules)
-            {
-                CallRules(least);
-                continue;
-            }
-
-            rollback.Cursor = least;
-            if (meter.Observer is null)
-            {
-                dispatcher.Process(slot, least);
-                continue;
-            }
-
-            meter.Begin();
-            dispatcher.Process(slot, least);
-            WorkVerdict said = meter.Tell(slot, least);
+            WorkVerdict said = slot == Agenda.Rules ? CallRules(least) : Happen(slot, least);
             verdict = said > verdict ? said : verdict;
             events = verdict == WorkVerdict.GoOn ? events : Math.Min(events, 0);
         }
@@ -181,11 +166,25 @@ internal sealed class EventLoop(
         return Stop.None;
     }
 
+    private WorkVerdict Happen(int slot, in EventKey key)
+    {
+        rollback.Cursor = key;
+        if (meter.Observer is null)
+        {
+            dispatcher.Process(slot, key);
+            return WorkVerdict.GoOn;
+        }
+
+        meter.Begin();
+        dispatcher.Process(slot, key);
+        return meter.Tell(slot, key);
+    }
+
     /// <summary>
     /// Rules may hear of an impact by a key that comes before the one by which it was scheduled, that of all who take part; the cursor never
     /// goes back for it.
     /// </summary>
-    private void CallRules(in EventKey key)
+    private WorkVerdict CallRules(in EventKey key)
     {
         if (EventKey.Compare(key, rollback.Cursor) > 0)
         {
@@ -194,6 +193,7 @@ internal sealed class EventLoop(
 
         caller!.Process();
         progress.EventsProcessed++;
+        return meter.Observer?.OnCall() ?? WorkVerdict.GoOn;
     }
 
     /// <summary>Not before the first instant that is kept: nothing could be read then.</summary>

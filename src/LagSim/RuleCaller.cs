@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
@@ -11,13 +12,6 @@ namespace LagSim;
 /// <summary>Makes the calls of rules, or finds that one made before stands.</summary>
 internal class RuleCaller
 {
-    /// <summary>How many rounds of one tick rules may cause: 64. What bounces between rules and itself needs a few.</summary>
-    internal const int MaxRounds = 64;
-
-    /// <summary>How many acts rules may make in one tick: as many as calls for all timers that may be set can make, 16,384. Where each act
-    /// brings a call that acts twice, their number doubles in a round, and <see cref="MaxRounds"/> is never reached.</summary>
-    internal const int MaxActsATick = RuleWorld.MaxTimers * RuleWorld.MaxActs;
-
     /// <summary>How many calls may lie within the history: 262,144, some 100 MB. What goes on for ever from tick to tick ends
     /// there.</summary>
     internal const int MaxCalls = 1 << 18;
@@ -36,6 +30,7 @@ internal class RuleCaller
     private readonly List<RuleRead> spare = new();
     private readonly RunningRuleCall? running;
     private StateVersion? loaded; // what the memory holds
+    private bool hasTraced;
 
     /// <summary>Calls these rules in one world.</summary>
     internal RuleCaller(
@@ -75,34 +70,26 @@ internal class RuleCaller
             return;
         }
 
-        FindBefore(call, out uint first, out int acted, out int rounds);
-        if (Stands(call, first))
+        call.Before = RuleTally.Before(call, log.Position > 0 ? log[log.Position - 1] : null);
+        if (Stands(call))
         {
             log.Stand();
             return;
         }
 
         ThrowIfTooMany(call);
-
-        Make(call, first);
-        if (world.Chains && rounds >= MaxRounds)
-        {
-            throw Failed(call, $"caused more than {MaxRounds} rounds of events in one tick", null);
-        }
-
-        if (acted + world.Acts.Count > MaxActsATick)
-        {
-            throw Failed(call, $"did more than {MaxActsATick} things to bodies in one tick", null);
-        }
-
-        if (first + world.Acts.Count != call.FirstAct + call.Acts.Count)
+        Make(call);
+        if (world.Deeds.All.Count != call.Acts.Count)
         {
             TakeBackLater(call);
         }
 
-        acts.Exchange(call, world.Acts);
-        call.FirstAct = first;
-        call.Chains = world.Chains;
+        acts.Exchange(call, world.Deeds.All);
+        call.IsTakenBack = false;
+        call.MadeAfter = call.Before;
+        call.Chains = world.Deeds.Chains;
+        call.Dropped = world.Deeds.Dropped;
+        call.IsUnheard = IsUnheard(call);
         Copy(world.Reads, call.Reads);
         if (call.Notices.Count + world.Notices.Count > 0)
         {
@@ -116,11 +103,14 @@ internal class RuleCaller
     }
 
     /// <summary>Whether a call that was made before would be made with the same, and so do the same.</summary>
-    private bool Stands(RuleCall call, uint first) =>
-        call.IsMade && mode != HealingMode.FullRollback && call.FirstAct == first && HasStateBefore(call) && ReadsTheSame(call);
+    private bool Stands(RuleCall call) =>
+        call.IsMade && mode != HealingMode.FullRollback && HasTallyBefore(call) && HasStateBefore(call) && ReadsTheSame(call);
+
+    /// <summary>Whether what calls before it did at its tick leaves a call what it was made with.</summary>
+    private protected virtual bool HasTallyBefore(RuleCall call) => call.Before.IsAsGoodAs(call.MadeAfter);
 
     /// <summary>Whether the state before a call is the one that it was made with.</summary>
-    private protected virtual bool HasStateBefore(RuleCall call) => call.Before!.IsSameAs(log.Current);
+    private protected virtual bool HasStateBefore(RuleCall call) => call.StateBefore!.IsSameAs(log.Current);
 
     /// <summary>Takes back what a call did that is made no more.</summary>
     private protected virtual void TakeBack(RuleCall call) => acts.TakeBack(call);
@@ -130,14 +120,20 @@ internal class RuleCaller
 
     /// <summary>
     /// What a call does is numbered after what others of its tick and round do before it. Where their number changes, all later ones are
-    /// taken back first, so that no act ever has the number of another.
+    /// taken back first, so that no act ever has the number of another. Each is taken back once: after one that was, all are.
     /// </summary>
     private void TakeBackLater(RuleCall than)
     {
+        if (than.IsTakenBack)
+        {
+            return;
+        }
+
         for (int n = log.Position + 1; n < log.Count && log[n].Key.Time == than.Key.Time && log[n].Key.Round == than.Key.Round; n++)
         {
             acts.TakeBack(log[n]);
             log[n].IsMade = false;
+            log[n].IsTakenBack = true;
         }
     }
 
@@ -147,16 +143,21 @@ internal class RuleCaller
         to.AddRange(from);
     }
 
-    private void Make(RuleCall call, uint first)
+    private void Make(RuleCall call)
     {
         Load();
-        world.Begin(call, first);
+        world.Begin(call);
         loaded = null; // until it is known what the call leaves
         Made++;
         running?.Begin(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger);
         try
         {
             Dispatch(call);
+            TellIfEnded(call);
+        }
+        catch (Exception failure) when (MaySkip(call, failure))
+        {
+            Skip(call, failure);
         }
         catch (Exception failure)
         {
@@ -183,6 +184,9 @@ internal class RuleCaller
                 memory.Cancel(unchecked((int)call.Key.Sequence));
                 rules.OnTimer(world, unchecked((int)call.Key.Sequence));
                 break;
+            case EventKind.Impact or EventKind.Crossing when IsUnheard(call):
+                world.Deeds.Drop();
+                break;
             case EventKind.Impact:
                 rules.OnContact(world, new RuleContact(call.Trigger.Contact));
                 break;
@@ -206,17 +210,19 @@ internal class RuleCaller
         }
     }
 
+    private static bool IsUnheard(RuleCall call) => call.Before.IsDeaf && call.Key.Kind is (EventKind.Impact or EventKind.Crossing);
+
     /// <summary>Calls, and the states after them, are kept for the history; what goes on for ever ends here rather than with the
     /// memory.</summary>
     private void ThrowIfTooMany(RuleCall call)
     {
-        if (log.Position < MaxCalls && log.StateBytes <= MaxStateBytes)
+        if (log.Heard < MaxCalls && log.StateBytes <= MaxStateBytes)
         {
             return;
         }
 
         log.DropAllBefore(view.HistoryEdge);
-        if (log.Position >= MaxCalls)
+        if (log.Heard >= MaxCalls)
         {
             throw Failed(call, $"it is one more than the {MaxCalls} that may lie within the history", null);
         }
@@ -224,7 +230,7 @@ internal class RuleCaller
         if (log.StateBytes > MaxStateBytes)
         {
             throw Failed(
-                call, $"the states after the {log.Position} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}:"
+                call, $"the states after the {log.Heard} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}:"
                     + " each that changes something is kept as a copy of all", null);
         }
     }
@@ -237,30 +243,41 @@ internal class RuleCaller
         }
     }
 
-    /// <summary>What calls before the next one have done at its tick.</summary>
-    /// <param name="call">The next call.</param>
-    /// <param name="first">The number of its first act: how many acts there are of its tick and round.</param>
-    /// <param name="acted">How many acts there are of its tick.</param>
-    /// <param name="rounds">How many rounds rules have caused at it.</param>
-    private void FindBefore(RuleCall call, out uint first, out int acted, out int rounds)
+    /// <summary>The first call of a tick whose acts have no effect any more tells so.</summary>
+    private void TellIfEnded(RuleCall call)
     {
-        first = 0;
-        acted = 0;
-        rounds = 0;
-        uint round = uint.MaxValue;
-        for (int n = log.Position - 1; n >= 0 && log[n].Key.Time == call.Key.Time; n--)
+        if (world.Deeds.Dropped > 0 && !call.Before.HasEnded)
         {
-            RuleCall before = log[n];
-            first += before.Key.Round == call.Key.Round ? (uint)before.Acts.Count : 0;
-            acted += before.Acts.Count;
-            if (before.Chains && before.Key.Round != round)
-            {
-                round = before.Key.Round;
-                rounds++;
-            }
+            world.Notices.Add(RuleNotice.OfEndedChain(
+                world.Deeds.Dropped, $"{RuleCallText.Of(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger)} wanted to do more, but in one"
+                    + $" tick rules may cause {RuleTally.MaxRounds} rounds of events, do {RuleTally.MaxActs} things to bodies and hear contacts and crossings"
+                    + $" among {RuleTally.MaxCalls} calls; the rest had no effect."));
+        }
+    }
+
+    /// <summary>Whether a failed call counts as none: a command, if the rules say so, and if what failed are they and not the
+    /// machine.</summary>
+    private bool MaySkip(RuleCall call, Exception failure) =>
+        call.Key.Kind == EventKind.Command && rules.SkipsFailedCommands
+        && failure is not (SimulationException or OutOfMemoryException or InsufficientExecutionStackException);
+
+    /// <summary>What a call did is forgotten but for what it read, since that may change and with it whether it fails.</summary>
+    private protected virtual void Skip(RuleCall call, Exception failure)
+    {
+        memory.Load(log.Current.Bytes);
+        world.Forget();
+        string why = $"{Sentence(call, failure.Message)} The command counts as none.";
+        world.Notices.Add(RuleNotice.OfFailedCommand(call.Key.Peer, call.Trigger.Command!.Number, why));
+        if (!hasTraced)
+        {
+            hasTraced = true;
+            Trace.TraceWarning(why);
         }
     }
 
     private InstantException Failed(RuleCall call, string why, Exception? cause) =>
-        new($"{RuleCallText.Failed(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger)}: {why}", call.Key.Time, cause);
+        new(Sentence(call, why), call.Key.Time, cause);
+
+    private string Sentence(RuleCall call, string why) =>
+        $"{RuleCallText.Failed(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger)}: {why}";
 }

@@ -35,7 +35,7 @@ internal static class RuleComparison
 
     private static bool IsSame(RuleCall a, RuleCall b)
     {
-        bool isSame = a.Key == b.Key && a.Trigger.IsSameAs(b.Trigger) && a.After!.IsSameAs(b.After!)
+        bool isSame = a.Key == b.Key && a.Trigger.IsSameAs(b.Trigger) && a.StateAfter!.IsSameAs(b.StateAfter!)
             && a.Acts.Count == b.Acts.Count && a.Notices.Count == b.Notices.Count;
         for (int n = 0; isSame && n < a.Acts.Count; n++)
         {
@@ -56,7 +56,7 @@ internal static class RuleComparison
     private static ulong Hash(RuleCall call)
     {
         Scenes.StableHash hash = default;
-        StateLayout.AddTo(ref hash, call.After!.Bytes);
+        StateLayout.AddTo(ref hash, call.StateAfter!.Bytes);
         return hash.Value;
     }
 }

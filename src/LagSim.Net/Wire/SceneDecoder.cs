@@ -262,10 +262,9 @@ internal ref struct SceneDecoder
         uint bodyBytes = reader.ReadUInt32();
         if (IsSound && KnownRules(name, version) is SceneRules rules)
         {
-            if (rules.WorldBytes != worldBytes || rules.BodyBytes != bodyBytes)
+            if (SceneFormat.Difference(rules, worldBytes, bodyBytes) is string difference)
             {
-                Refuse($"The scene's rules '{name}' have states of {worldBytes} bytes and {bodyBytes} for a body; here they have {rules.WorldBytes} and"
-                    + $" {rules.BodyBytes}.");
+                Refuse(difference);
             }
 
             builder.WithRules(rules);

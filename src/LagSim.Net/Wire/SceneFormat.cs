@@ -33,6 +33,8 @@ internal static class SceneFormat
     internal const int StaticPartBytes = EventFormat.VectorBytes + 24 + EventFormat.FilterBytes; // both kinds: a vector, three numbers, a filter
     internal const int BodyBytes = EventFormat.SpecBytes + (3 * EventFormat.VectorBytes) + 4;
     internal const int SensorBytes = EventFormat.VectorBytes + EventFormat.FilterBytes + 14; // shape, coverage, a vector, a number, a filter and the carrier
+
+    private const uint SkipsFailedCommands = 1u << 31; // beside the size of the rules' state, which is far smaller
     private const int RulesBytes = 9 + MaxTextBytes + 12; // seed, whether there are any; name, author's version, two sizes
     private const int MaxTextBytes = 1 + WireText.MaxBytes;
     // Gravity, restitution threshold, contact tolerance, smallest radius, spawners, five counts.
@@ -111,7 +113,7 @@ internal static class SceneFormat
         {
             WireText.Write(ref writer, rules.Name);
             writer.WriteUInt32(unchecked((uint)rules.Version));
-            writer.WriteUInt32((uint)rules.WorldBytes);
+            writer.WriteUInt32(WorldBytes(rules));
             writer.WriteUInt32((uint)rules.BodyBytes);
         }
 
@@ -138,6 +140,26 @@ internal static class SceneFormat
         SceneDecoder decoder = new(bytes, known);
         scene = decoder.Decode(out error);
         return scene is not null;
+    }
+
+    /// <summary>The size of the state of rules, and with it whether a command that they fail in counts as none.</summary>
+    internal static uint WorldBytes(SceneRules rules) => (uint)rules.WorldBytes | (rules.SkipsFailedCommands ? SkipsFailedCommands : 0);
+
+    /// <summary>In what rules differ from those of a scene that was encoded; null if in nothing.</summary>
+    internal static string? Difference(SceneRules rules, uint worldBytes, uint bodyBytes)
+    {
+        bool skips = (worldBytes & SkipsFailedCommands) != 0;
+        worldBytes &= ~SkipsFailedCommands;
+        if (rules.WorldBytes != worldBytes || rules.BodyBytes != bodyBytes)
+        {
+            return $"The scene's rules '{rules.Name}' have states of {worldBytes} bytes and {bodyBytes} for a body; here they have {rules.WorldBytes} and"
+                + $" {rules.BodyBytes}.";
+        }
+
+        return rules.SkipsFailedCommands == skips ? null
+            : $"By the scene's rules '{rules.Name}' a command that fails {Failed(skips)}; here it {Failed(rules.SkipsFailedCommands)}.";
+
+        static string Failed(bool isSkipped) => isSkipped ? "counts as none" : "ends the world";
     }
 
     private static void Write(ref WireWriter writer, Force force)

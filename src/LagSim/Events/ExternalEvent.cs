@@ -130,7 +130,8 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         new(EventKind.Release, time, peer, sequence, body, default, velocity, default);
 
     /// <summary>The body collides by this filter from now on. It moves on as it did, except where something carried it that it no longer
-    /// collides with; one that is inside of static geometry that it collides with now is put outside of it.</summary>
+    /// collides with; one that is inside of static geometry that it collides with now is put outside of it, and keeps the filter that it has if
+    /// there is no room.</summary>
     internal static ExternalEvent SetFilter(SimTime time, byte peer, uint sequence, BodyId body, CollisionFilter filter) =>
         new(EventKind.SetFilter, time, peer, sequence, body, default, default, default, filter: filter);
 

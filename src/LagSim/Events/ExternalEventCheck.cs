@@ -3,8 +3,8 @@ using LagSim.Scenes;
 namespace LagSim.Events;
 
 /// <summary>
-/// The door: what an external event must satisfy before it may enter the world. Static geometry never moves, so this never depends on when
-/// it is asked.
+/// The door: what an external event must satisfy before it may enter the world, whenever that is asked. What stops a body hangs on the filter
+/// that it has when the event's time comes, so a place inside of static geometry is dealt with there.
 /// </summary>
 public static class ExternalEventCheck
 {
@@ -74,13 +74,12 @@ public static class ExternalEventCheck
         }
         else if (external.Kind == EventKind.Teleport && external.Body.Peer == 0 && external.Body.Sequence == 0)
         {
-            BodySpec spec = scene.BodyArray[external.Body.Index].Spec;
-            CheckPlace(external.Position, spec.Radius, spec.Filter, scene, whose);
+            Limits.CheckPlaceInBox(external.Position, scene.Box, whose);
             Limits.CheckCentres(external.Position, scene.BodyArray[external.Body.Index].Spec, whose, scene.ForceArray);
         }
         else if (external.Kind == EventKind.Teleport)
         {
-            CheckPlace(external.Position, scene.SmallestRadius, default, scene, whose); // whatever body it is
+            Limits.CheckPlaceInBox(external.Position, scene.Box, whose);
         }
     }
 
@@ -122,40 +121,13 @@ public static class ExternalEventCheck
         }
 
         Limits.CheckSpin(external.Spin, external.Spec, scene.SmallestRadius, whose, scene.ForceArray);
-        CheckPlace(external.Position, external.Spec.Radius, external.Spec.Filter, scene, whose);
+        Limits.CheckPlaceInBox(external.Position, scene.Box, whose);
         Limits.CheckCentres(external.Position, external.Spec, whose, scene.ForceArray);
         if (scene.Box.Exists)
         {
             Limits.CheckInBox(external.Spec, external.Position, scene.Box, whose);
         }
     }
-
-    /// <summary>Throws if the place is inside of static geometry that what has this filter collides with.</summary>
-    private static void CheckPlace(in Vector3D position, double radius, CollisionFilter filter, Scene scene, Subject whose)
-    {
-        Limits.CheckPlaceInBox(position, scene.Box, whose);
-        double slack = scene.RestitutionThreshold + (1e-15 * (position.Length + radius));
-        foreach (StaticPlane plane in scene.PlaneArray)
-        {
-            double gap = plane.Gap(position, radius);
-            if (gap < -slack && filter.CollidesWith(plane.Filter))
-            {
-                throw Inside(whose, position, gap, $"plane '{plane.Name}'");
-            }
-        }
-
-        foreach (StaticSphere sphere in scene.SphereArray)
-        {
-            double gap = (position - sphere.Centre).Length - sphere.Radius - radius;
-            if (gap < -slack && filter.CollidesWith(sphere.Filter))
-            {
-                throw Inside(whose, position, gap, $"static sphere '{sphere.Name}'");
-            }
-        }
-    }
-
-    private static SceneException Inside(Subject whose, in Vector3D position, double gap, string what) =>
-        new($"The position of {whose}, {position}, lies {Limits.Text(-gap)} m deep inside {what}; it must be outside.");
 
     /// <summary>The owner of the value, for an error message. Made into text only then, because the check runs for every event.</summary>
     private readonly struct Subject

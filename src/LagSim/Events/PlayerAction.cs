@@ -110,8 +110,8 @@ public readonly struct PlayerAction
 
     /// <summary>
     /// The body collides by this filter from now on. It moves on as it did, except where something carried it that it no longer collides
-    /// with. If it is inside of a plane or static sphere that it collides with now, it is put outside of it; two bodies inside of each
-    /// other are pushed apart. A body that has the filter already is not touched.
+    /// with. If it is inside of a plane or static sphere that it collides with now, it is put outside of it, and where there is no
+    /// room outside it keeps the filter that it has; two bodies inside of each other are pushed apart. A body that has the filter already is not touched.
     /// </summary>
     public static PlayerAction SetFilter(BodyId body, CollisionFilter filter) =>
         new(EventKind.SetFilter, body, default, default, default, filter: filter);

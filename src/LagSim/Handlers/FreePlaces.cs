@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
@@ -6,52 +5,66 @@ using LagSim.Timelines;
 
 namespace LagSim.Handlers;
 
-/// <summary>Decides where a spawn or a teleport puts its body if another body is there.</summary>
+/// <summary>Decides where a spawn or a teleport puts its body: outside of static geometry that stops it, and with regard to bodies.</summary>
 /// <remarks>
-/// It asks every body where it is, by the segment on which that body comes to the event. So the answer may change with any late event
+/// Static geometry is asked with the filter that the body has at that instant: what changes it cuts the body's path before the event, which
+/// is then decided again. Of other bodies it asks every body where it is, by the segment on which that body comes to the event. So the answer may change with any late event
 /// before it, also of a body that was not there: <see cref="Rollback.Rewinder"/> has such an event decided again in every heal that begins
 /// before it. Cost: the number of bodies, and of a search at most a few thousand places times the bodies near.
 /// </remarks>
-internal sealed class FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view)
+internal class FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view)
 {
     /// <summary>Each sphere of the search is half a radius wider than the one before, so the last has 32 radii.</summary>
     private const int Spheres = 64;
 
     private static readonly Vector3D[] Directions = MakeDirections();
 
-    private readonly StaticSurfaces surfaces = scene.Surfaces;
-    private readonly CollisionFilters filters = new(timelines.Extras, scene.Surfaces);
+    private readonly Clearance clearance = new(scene);
     private readonly Paths paths = new(timelines);
     private readonly List<(Vector3D Centre, double Reach)> near = new();
 
-    /// <summary>Where an event puts a body; false if it has no effect because there is no room.</summary>
+    /// <summary>Where an event puts a body; false if it has no effect because there is no room. An event that puts it nowhere leaves it
+    /// where it is.</summary>
     /// <param name="slot">The body.</param>
     /// <param name="key">The event's key.</param>
     /// <param name="external">The event.</param>
-    /// <param name="filter">What the body collides with.</param>
+    /// <param name="filter">What the body collides with at that instant.</param>
     /// <param name="position">Where its centre is put.</param>
-    internal bool TryFind(int slot, in EventKey key, in ExternalEvent external, CollisionFilter filter, out Vector3D position)
+    internal virtual bool TryFind(int slot, in EventKey key, in ExternalEvent external, CollisionFilter filter, out Vector3D position)
     {
         position = external.Position;
-        if (external.WhenOccupied == WhenOccupied.Overlap)
+        if (external.Kind is not (EventKind.Spawn or EventKind.Teleport))
         {
             return true;
         }
 
-        double radius = bodies.Spec(slot).Radius;
-        FindNear(slot, key, filter, position, radius);
-        if (IsFree(position, radius))
+        BodySpec spec = bodies.Spec(slot);
+        bool isAdmitted = clearance.Admits(position, spec, filter);
+        if (external.WhenOccupied != WhenOccupied.Skip && !isAdmitted)
+        {
+            position = scene.Box.Wrap(clearance.PutOut(position, spec.Radius, filter)).WithoutNegativeZero();
+            isAdmitted = clearance.Admits(position, spec, filter);
+        }
+
+        if (external.WhenOccupied == WhenOccupied.Overlap)
+        {
+            return isAdmitted;
+        }
+
+        FindNear(slot, key, filter, position, spec.Radius);
+        if (isAdmitted && IsFree(position))
         {
             return true;
         }
 
         bool isFound = false;
+        Vector3D middle = position;
         for (int sphere = 1; sphere <= Spheres && external.WhenOccupied == WhenOccupied.Beside && !isFound; sphere++)
         {
             for (int n = 0; n < Directions.Length && !isFound; n++)
             {
-                position = scene.Box.Wrap(external.Position + (Directions[n] * (0.5 * sphere * radius))).WithoutNegativeZero();
-                isFound = IsFree(position, radius) && IsAllowed(slot, position, radius, filter);
+                position = scene.Box.Wrap(middle + (Directions[n] * (0.5 * sphere * spec.Radius))).WithoutNegativeZero();
+                isFound = IsFree(position) && clearance.Admits(position, spec, filter);
             }
         }
 
@@ -100,31 +113,15 @@ internal sealed class FreePlaces(Scene scene, BodyTable bodies, TimelineStore ti
         }
     }
 
-    /// <summary>Whether no body is at a place, but for what rounding and the scene's threshold leave of touching.</summary>
-    private bool IsFree(in Vector3D position, double radius)
+    /// <summary>Whether no body is at a place.</summary>
+    private bool IsFree(in Vector3D position)
     {
         bool isFree = true;
         for (int n = 0; n < near.Count && isFree; n++)
         {
-            (Vector3D centre, double reach) = near[n];
-            double slack = scene.RestitutionThreshold + (1e-15 * (position.Taxicab + centre.Taxicab + reach));
-            isFree = scene.Box.Nearest(position - centre).Length - reach >= -slack;
+            isFree = clearance.AreApart(position, near[n].Centre, near[n].Reach);
         }
 
         return isFree;
-    }
-
-    /// <summary>Whether a body may be put at a place, as the door asks it of the event's own.</summary>
-    private bool IsAllowed(int slot, in Vector3D position, double radius, CollisionFilter filter)
-    {
-        bool isAllowed = Math.Abs(position.X) <= Limits.MaxCoordinate && Math.Abs(position.Y) <= Limits.MaxCoordinate
-            && Math.Abs(position.Z) <= Limits.MaxCoordinate && !Limits.IsAtCentre(position, bodies.Spec(slot), scene.ForceArray);
-        double slack = scene.RestitutionThreshold + (1e-15 * (position.Taxicab + radius));
-        for (int surface = 0; surface < surfaces.Count && isAllowed; surface++)
-        {
-            isAllowed = !filters.MeetSurface(filter, surface) || surfaces.Gap(surface, position, radius) >= -slack;
-        }
-
-        return isAllowed;
     }
 }

@@ -18,7 +18,7 @@ internal sealed class RenderRules
         Add(SimTime.MinValue, log.StateAt(from));
         for (int n = log.FirstAfter(from); n < log.Position; n++)
         {
-            Add(log[n].Key.Time, log[n].After!);
+            Add(log[n].Key.Time, log[n].StateAfter!);
         }
     }
 

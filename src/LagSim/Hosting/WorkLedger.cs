@@ -247,6 +247,16 @@ public sealed class WorkLedger : IWorkObserver
         return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
     }
 
+    /// <inheritdoc/>
+    /// <remarks>It is nobody's: what rules compute is the game's own. But it is work of this step.</remarks>
+    WorkVerdict IWorkObserver.OnCall()
+    {
+        double amount = Math.Max(1, Measure());
+        Total += amount;
+        thisStep += amount;
+        return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : WorkVerdict.GoOn;
+    }
+
     private void Note(Span<int> bodies, byte struckBy, SimTime at, double each)
     {
         SimTime until = at;

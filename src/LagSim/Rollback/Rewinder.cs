@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using LagSim.Collisions;
 using LagSim.Events;
 using LagSim.Rules;
+using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -189,7 +190,7 @@ internal class Rewinder : ISegmentOpenedObserver
     internal virtual void RewindInstant(SimTime instant)
     {
         reconvergence.GiveUp();
-        RewindAll(EventKey.Before(instant));
+        RewindAll(instant > progress.Start ? EventKey.Before(instant) : AfterStart());
     }
 
     /// <summary>At an instant, of which all is done, the rollback ends if the paths have reconverged; false if not.</summary>
@@ -215,6 +216,13 @@ internal class Rewinder : ISegmentOpenedObserver
         {
             End(null);
         }
+    }
+
+    /// <summary>The first instant is rewound to after the start of the scene's bodies and of its rules, which nothing comes before.</summary>
+    private EventKey AfterStart()
+    {
+        BodyId last = BodyId.FromPacked(ulong.MaxValue);
+        return new EventKey(progress.Start, 0, EventKind.Start, last, last, 0, 0).JustAfter;
     }
 
     private void Begin(SimTime time)

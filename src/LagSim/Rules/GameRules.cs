@@ -17,7 +17,8 @@ namespace LagSim.Rules;
 /// <para>Calls are made on the simulation's thread; one object serves many worlds, so it must be immutable. They cost what they do, a copy
 /// of the whole state where they change it, and the same again whenever a late event has them made again.</para>
 /// <para>An exception out of a call ends the world with a <see cref="SimulationException"/> that names the rules, the call and the instant;
-/// in a session it first waits for a late event that removes the cause, as long as one may come. A call that does not return is given up
+/// in a session it first waits for a late event that removes the cause, as long as one may come. Out of a command it may count as if there
+/// had been no command (<see cref="WithFailedCommandsSkipped"/>). A call that does not return is given up
 /// after a time by a <see cref="Hosting.RuleWatchdog"/>, if the world has one, as that of a session does.</para>
 /// </remarks>
 /// <example>
@@ -78,6 +79,17 @@ public abstract class GameRules : SceneRules
     }
 
     internal override string? Problem => UnheardRules.Problem(GetType());
+
+    /// <summary>A command that <see cref="OnCommand"/> throws for counts as none: it changes no state and does, sets and tells nothing. For
+    /// the constructor.</summary>
+    /// <remarks>
+    /// <para>So no bytes that a player sends end the world for all. It is part of the scene's hash: a peer whose rules say otherwise is
+    /// refused. Every peer is told by <see cref="Hosting.RuleNotices"/> (<see cref="RuleNotice.CommandFailed"/>), the sender too, and the
+    /// first of a world is written to <see cref="System.Diagnostics.Trace"/>.</para>
+    /// <para>A call that is given up because it does not return, or for which the machine has no memory or stack left, ends the world all
+    /// the same: other peers may fare better.</para>
+    /// </remarks>
+    protected void WithFailedCommandsSkipped() => SkipsFailedCommands = true;
 
     /// <summary>The type of the world's state; null for none.</summary>
     internal System.Type? WorldType { get; private set; }

@@ -25,6 +25,10 @@ internal static class RuleCallText
     internal static string Failed(Scene scene, string method, in EventKey key, in RuleTrigger trigger) => FormattableString.Invariant(
         $"The rules '{scene.Rules}' failed at {key.Time.ToShortString()}, round {key.Round}, in {method}{What(scene, key, trigger)}");
 
+    /// <summary>The same of rules that did not fail.</summary>
+    internal static string Of(Scene scene, string method, in EventKey key, in RuleTrigger trigger) => FormattableString.Invariant(
+        $"At {key.Time.ToShortString()}, round {key.Round}, the rules '{scene.Rules}' in {method}{What(scene, key, trigger)}");
+
     private static string What(Scene scene, in EventKey key, in RuleTrigger trigger) => key.Kind switch
     {
         EventKind.Start => "",

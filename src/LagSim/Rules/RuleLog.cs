@@ -23,6 +23,7 @@ internal class RuleLog : IRuleTriggers
     private StateVersion? first; // the state before the calls that are kept
     private StateVersion? current; // the state at the position
     private StateVersion? beforeRollback; // the newest state when the rollback began
+    private int unheard; // of those that stand, how many rules were not called for
     private ulong forgotten; // hashes of calls that are no longer kept
     private EventKey? changed; // from where on what rules tell may have changed, since the listener last asked
     private bool isListenedTo;
@@ -46,6 +47,9 @@ internal class RuleLog : IRuleTriggers
 
     /// <summary>How many calls stand; the call at this place is the next.</summary>
     internal int Position { get; private set; }
+
+    /// <summary>How many of those that stand rules were called for.</summary>
+    internal int Heard => Position - unheard;
 
     /// <summary>How many calls are kept, those that do not stand included.</summary>
     internal int Count => calls.Count;
@@ -135,13 +139,13 @@ internal class RuleLog : IRuleTriggers
     internal void Add(in EventKey key, in RuleTrigger trigger)
     {
         int at = FirstFrom(key);
-        int compared = 1;
-        while (at < calls.Count && calls[at].Key == key && (compared = RuleTrigger.Compare(trigger, calls[at].Trigger)) > 0)
+        for (int end = FirstFrom(key.JustAfter); at < end;) // of the contacts of one impact
         {
-            at++;
+            int middle = (at + end) / 2;
+            (at, end) = RuleTrigger.Compare(trigger, calls[middle].Trigger) > 0 ? (middle + 1, end) : (at, middle);
         }
 
-        if (compared != 0 || at == calls.Count || calls[at].Key != key)
+        if (at == calls.Count || calls[at].Key != key || RuleTrigger.Compare(trigger, calls[at].Trigger) != 0)
         {
             Insert(at, key, trigger);
         }
@@ -189,7 +193,8 @@ internal class RuleLog : IRuleTriggers
     /// <summary>The call at the position stands, with the state after it.</summary>
     internal void Stand()
     {
-        versions.Replace(ref current, calls[Position].After);
+        versions.Replace(ref current, calls[Position].StateAfter);
+        unheard += calls[Position].IsUnheard ? 1 : 0;
         Position++;
     }
 
@@ -198,19 +203,19 @@ internal class RuleLog : IRuleTriggers
     {
         RuleCall call = calls[Position];
         call.IsMade = true;
-        versions.Replace(ref call.Before, current);
+        versions.Replace(ref call.StateBefore, current);
         if (state.SequenceEqual(current!.Bytes))
         {
-            versions.Replace(ref call.After, current);
+            versions.Replace(ref call.StateAfter, current);
         }
-        else if (call.After is not null && state.SequenceEqual(call.After.Bytes))
+        else if (call.StateAfter is not null && state.SequenceEqual(call.StateAfter.Bytes))
         {
             // as the last time that it was made
         }
         else
         {
-            versions.Replace(ref call.After, null);
-            call.After = versions.Add(state);
+            versions.Replace(ref call.StateAfter, null);
+            call.StateAfter = versions.Add(state);
         }
 
         Stand();
@@ -261,7 +266,7 @@ internal class RuleLog : IRuleTriggers
     /// first of them was made with.
     /// </summary>
     internal virtual bool HaveReconverged() =>
-        (Position < calls.Count && calls[Position].IsMade ? calls[Position].Before : beforeRollback)!.IsSameAs(current!);
+        (Position < calls.Count && calls[Position].IsMade ? calls[Position].StateBefore : beforeRollback)!.IsSameAs(current!);
 
     /// <summary>All that is left happens as before the rollback, up to a time: the calls stand.</summary>
     internal void PutBack(SimTime to)
@@ -290,7 +295,8 @@ internal class RuleLog : IRuleTriggers
         while (count < Position && calls[count].Key.Time < edge && !(changed is EventKey from && EventKey.Compare(calls[count].Key, from) >= 0))
         {
             forgotten += HashOf(calls[count]);
-            versions.Replace(ref first, calls[count].After);
+            versions.Replace(ref first, calls[count].StateAfter);
+            unheard -= calls[count].IsUnheard ? 1 : 0;
             Release(calls[count]);
             count++;
         }
@@ -304,7 +310,7 @@ internal class RuleLog : IRuleTriggers
         time == SimTime.MaxValue ? Position : Math.Min(Position, FirstFrom(EventKey.Before(time + SimDuration.OneTick)));
 
     /// <summary>The state after everything up to and including a time.</summary>
-    internal StateVersion StateAt(SimTime time) => FirstAfter(time) is int n && n > 0 ? calls[n - 1].After! : first!;
+    internal StateVersion StateAt(SimTime time) => FirstAfter(time) is int n && n > 0 ? calls[n - 1].StateAfter! : first!;
 
     /// <summary>The sum of the hashes of all calls up to and including a time, with the state after each.</summary>
     internal ulong EventHash(SimTime time)
@@ -346,7 +352,7 @@ internal class RuleLog : IRuleTriggers
         hash.Add(((ulong)call.Key.Round << 8) | (byte)call.Key.Kind);
         hash.Add(call.Key.Body.Packed);
         hash.Add(call.Key.Origin);
-        StateLayout.AddTo(ref hash, call.After!.Bytes);
+        StateLayout.AddTo(ref hash, call.StateAfter!.Bytes);
         return hash.Value;
     }
 
@@ -363,23 +369,31 @@ internal class RuleLog : IRuleTriggers
     {
         if (place < Position)
         {
-            Position = place;
-            versions.Replace(ref current, place == 0 ? first : calls[place - 1].After);
+            for (; Position > place; Position--)
+            {
+                unheard -= calls[Position - 1].IsUnheard ? 1 : 0;
+            }
+
+            versions.Replace(ref current, place == 0 ? first : calls[place - 1].StateAfter);
         }
     }
 
     private void Release(RuleCall call)
     {
-        versions.Replace(ref call.Before, null);
-        versions.Replace(ref call.After, null);
+        versions.Replace(ref call.StateBefore, null);
+        versions.Replace(ref call.StateAfter, null);
         call.Reads.Clear();
         call.Acts.Clear();
         call.Notices.Clear();
         call.Trigger = default;
         call.IsMade = false;
         call.IsGone = false;
+        call.IsTakenBack = false;
         call.Chains = false;
-        call.FirstAct = 0;
+        call.Before = default;
+        call.MadeAfter = default;
+        call.Dropped = 0;
+        call.IsUnheard = false;
         free.Push(call);
     }
 }

@@ -29,8 +29,14 @@ internal struct RuleRead
     /// <summary>Of a region, its radius in metres.</summary>
     internal double Radius;
 
-    /// <summary>Of a region, its centre.</summary>
+    /// <summary>Of a region or a room, its centre.</summary>
     internal Vector3D Centre;
+
+    /// <summary>Of a room, whether <see cref="Body"/> is not in its own way.</summary>
+    internal bool LeavesOut;
+
+    /// <summary>Of a room for a body of <see cref="Spec"/>, whether there is any.</summary>
+    internal bool HasRoom;
 
     /// <summary>Of a region, how many of the reads that follow are the bodies found there.</summary>
     internal int Count;

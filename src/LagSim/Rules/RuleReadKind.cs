@@ -11,4 +11,7 @@ internal enum RuleReadKind
 
     /// <summary>Whether a body is inside of a sensor.</summary>
     Sensor,
+
+    /// <summary>Whether there is room for a body.</summary>
+    Room,
 }

@@ -17,6 +17,7 @@ namespace LagSim.Rules;
 internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore timelines, CrossingLog? crossings)
 {
     private readonly Paths paths = new(timelines);
+    private readonly Clearance clearance = new(scene);
 
     /// <summary>What lies before this can no longer change.</summary>
     internal SimTime HistoryEdge => timelines.Edge;
@@ -67,6 +68,36 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
         return new RuleRead { Kind = RuleReadKind.Sensor, Body = body, Sensor = sensor, IsInside = isInside };
     }
 
+    /// <summary>Reads whether there is room for a body: whether its place is inside of no body and no static geometry that it collides
+    /// with.</summary>
+    /// <param name="spec">The body's properties, with its filter.</param>
+    /// <param name="centre">The place of its centre, in metres.</param>
+    /// <param name="leftOut">The body itself, which is not in its own way; null for one that is not there yet.</param>
+    /// <param name="after">The event after which there is room.</param>
+    internal RuleRead ReadRoom(in BodySpec spec, in Vector3D centre, BodyId? leftOut, in EventKey after)
+    {
+        bool hasRoom = clearance.Admits(centre, spec, spec.Filter);
+        foreach (int slot in bodies)
+        {
+            if (!hasRoom)
+            {
+                break;
+            }
+
+            int at = bodies.Id(slot) == leftOut ? TimelineStore.None : timelines.Before(slot, after.JustAfter);
+            if (at != TimelineStore.None && timelines.Segment(at).IsPresent && spec.Filter.CollidesWith(timelines.Extras.Filter(at)))
+            {
+                Vector3D there = scene.Box.Wrap(paths.PositionAt(at, after.Time));
+                hasRoom = clearance.AreApart(centre, there, spec.Radius + bodies.Spec(slot).Radius);
+            }
+        }
+
+        return new RuleRead
+        {
+            Kind = RuleReadKind.Room, Spec = spec, Centre = centre, Body = leftOut ?? default, LeavesOut = leftOut is not null, HasRoom = hasRoom,
+        };
+    }
+
     /// <summary>Whether a call would read again what it read.</summary>
     /// <param name="reads">What it read.</param>
     /// <param name="after">The event that the call is for.</param>
@@ -78,6 +109,7 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
             bool isSame = reads[n].Kind switch
             {
                 RuleReadKind.Body => IsSame(reads[n], ReadBody(reads[n].Body, after)),
+                RuleReadKind.Room => IsSameRoom(reads[n], after),
                 RuleReadKind.Sensor => reads[n].IsInside == ReadSensor(reads[n].Body, reads[n].Sensor, after).IsInside,
                 _ => IsSameRegion(reads, n, after, spare),
             };
@@ -91,6 +123,9 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
 
         return true;
     }
+
+    private bool IsSameRoom(in RuleRead read, in EventKey after) =>
+        read.HasRoom == ReadRoom(read.Spec, read.Centre, read.LeavesOut ? read.Body : null, after).HasRoom;
 
     private bool IsSameRegion(List<RuleRead> reads, int region, in EventKey after, List<RuleRead> spare)
     {

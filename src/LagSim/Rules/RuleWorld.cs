@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 
 namespace LagSim.Rules;
 
@@ -37,16 +36,13 @@ public sealed class RuleWorld
 
     private readonly GameRules rules;
     private readonly RuleMemory memory;
-    private readonly RuleView view;
     private readonly SimTime start;
     private readonly RunningRuleCall? running;
-    private readonly List<RuleAct> acts = new();
+    private readonly RuleDeeds deeds;
+    private readonly RuleReads reads;
+    private readonly RuleDraws draws;
     private readonly List<RuleNotice> notices = new();
-    private readonly List<RuleRead> reads = new();
     private EventKey key;
-    private uint firstAct;
-    private ImpactContact contact; // of an impact, which of its contacts the call is for
-    private ulong draws;
     private bool isCalled;
 
     internal RuleWorld(Scene scene, GameRules rules, RuleMemory memory, RuleView view, SimTime start, RunningRuleCall? running)
@@ -55,7 +51,9 @@ public sealed class RuleWorld
         Scene = scene;
         this.rules = rules;
         this.memory = memory;
-        this.view = view;
+        deeds = new RuleDeeds(scene);
+        reads = new RuleReads(scene, view);
+        draws = new RuleDraws(scene, start);
         this.start = start;
     }
 
@@ -76,16 +74,25 @@ public sealed class RuleWorld
     public SimDuration Elapsed => Time - start;
 
     /// <summary>What the last call did to bodies.</summary>
-    internal List<RuleAct> Acts => acts;
+    internal RuleDeeds Deeds => deeds;
 
     /// <summary>What it told.</summary>
     internal List<RuleNotice> Notices => notices;
 
     /// <summary>What it read.</summary>
-    internal List<RuleRead> Reads => reads;
+    internal List<RuleRead> Reads => reads.All;
 
-    /// <summary>Whether it caused something at its own tick.</summary>
-    internal bool Chains { get; private set; }
+    /// <summary>Whether rules have done in this tick what they may: 64 rounds of events, or 16,384 acts. What this call does to bodies then
+    /// has no effect, and a timer without delay is due in the next tick.</summary>
+    /// <remarks>So a chain of rules that answer what they cause themselves ends. What is not done can be done by a later timer.</remarks>
+    public bool IsChainOver
+    {
+        get
+        {
+            CheckCalled();
+            return deeds.IsOver;
+        }
+    }
 
     /// <summary>The world's state, to read and to write. The reference is valid during the call.</summary>
     /// <typeparam name="T">The type that the rules declared by <see cref="GameRules.WithWorldState"/>.</typeparam>
@@ -164,16 +171,7 @@ public sealed class RuleWorld
     public bool IsInside(BodyId body, int sensor)
     {
         CheckCalled();
-        if (sensor < 0 || sensor >= Scene.SensorArray.Length)
-        {
-            string there = Limits.Count(Scene.SensorArray.Length, "sensor", "sensors");
-            throw new RuleException($"Sensor {sensor} is asked for; the scene has {there}, numbered from 0.");
-        }
-
-        RuleRead read = view.ReadSensor(body, sensor, key);
-        reads.Add(read);
-        CheckReads();
-        return read.IsInside;
+        return reads.IsInside(body, sensor);
     }
 
     /// <summary>The bodies whose centres lie within a sphere, by identity. In a periodic box the nearest image of each counts.</summary>
@@ -186,21 +184,29 @@ public sealed class RuleWorld
     public int Within(Vector3D centre, double radius, Span<BodyId> found)
     {
         CheckCalled();
-        if (!centre.IsFinite || !(radius >= 0) || double.IsInfinity(radius))
-        {
-            throw new RuleException($"A sphere of radius {radius} m at {centre} m is asked for; both must be finite, and the radius at least zero.");
-        }
+        return reads.Within(centre, radius, found);
+    }
 
-        int region = reads.Count;
-        view.ReadRegion(centre, radius, key, reads);
-        CheckReads();
-        int count = reads[region].Count;
-        for (int n = 0; n < count && n < found.Length; n++)
-        {
-            found[n] = reads[region + 1 + n].Body;
-        }
+    /// <summary>Whether there is room for a body that is not there yet: whether a place is inside of no body and no static geometry that it
+    /// would collide with, as the world is right after the event of this call.</summary>
+    /// <param name="spec">Its properties; radius and filter count.</param>
+    /// <param name="position">The place of its centre, in metres.</param>
+    /// <remarks>Touching is room. Noted as a read: a late event that changes the answer has the call made again. Cost: the number of bodies
+    /// in the world.</remarks>
+    /// <exception cref="RuleException">The position is not finite, or the call has read too often.</exception>
+    public bool IsRoomFor(BodySpec spec, Vector3D position)
+    {
+        CheckCalled();
+        return reads.HasRoom(spec, position, null);
+    }
 
-        return count;
+    /// <summary>The same for a body that is there, with the filter that it has now: whether it could be put at a place. It is not in its own
+    /// way; one that is not there has no room.</summary>
+    /// <exception cref="RuleException">The position is not finite, or the call has read too often.</exception>
+    public bool IsRoomFor(BodyId body, Vector3D position)
+    {
+        RuleRead there = Read(body);
+        return there.State.Motion != MotionLaw.Absent && reads.HasRoom(there.Spec.With(there.State.Filter), position, body);
     }
 
     /// <summary>A random number of 64 bits: a function of the scene's seed, the event of this call, and how many were drawn in it.</summary>
@@ -209,22 +215,7 @@ public sealed class RuleWorld
     public ulong Random()
     {
         CheckCalled();
-        StableHash hash = default;
-        hash.Add(Scene.Seed);
-        hash.Add(key.Time - start);
-        hash.Add(((ulong)key.Round << 8) | (byte)key.Kind);
-        hash.Add(key.Body.Packed);
-        hash.Add(key.Other.Packed);
-        hash.Add(key.Origin);
-        if (key.Kind == EventKind.Impact)
-        {
-            hash.Add(contact.First.Packed);
-            hash.Add(contact.Second.Packed);
-            hash.Add((long)contact.Surface);
-        }
-
-        hash.Add(draws++);
-        return hash.Value;
+        return draws.Next();
     }
 
     /// <summary>A random whole number from 0 on and below a limit, each as likely to one part in 2^32.</summary>
@@ -244,7 +235,8 @@ public sealed class RuleWorld
 
     /// <summary>Sets a timer, in place of any of that number: <see cref="GameRules.OnTimer"/> is called then.</summary>
     /// <param name="timer">Its number, at least zero; the game's own meaning.</param>
-    /// <param name="after">How long from now, at least zero: with zero it is due in the next round of this tick.</param>
+    /// <param name="after">How long from now, at least zero: with zero it is due in the next round of this tick, or in the next tick if
+    /// <see cref="IsChainOver"/>.</param>
     /// <exception cref="RuleException">A value is out of its range, or too many timers are set.</exception>
     public void SetTimer(int timer, SimDuration after)
     {
@@ -261,7 +253,7 @@ public sealed class RuleWorld
             throw new RuleException($"{MaxTimers} timers are set; no more may be.");
         }
 
-        Chains |= after == SimDuration.Zero;
+        after = after == SimDuration.Zero && !deeds.MayCause() ? SimDuration.OneTick : after;
         memory.Set(new RuleTimer((Elapsed + after).Ticks, after == SimDuration.Zero ? key.Round + 1 : 0, timer));
     }
 
@@ -290,6 +282,25 @@ public sealed class RuleWorld
         BodyId body = new(SceneRules.Peer, number, 0);
         Act(ExternalEvent.Spawn(key.Time, SceneRules.Peer, number, spec, position, velocity, spin, players, whenOccupied));
         return body;
+    }
+
+    /// <summary>A new body appears if there is room for it (<see cref="IsRoomFor(BodySpec, Vector3D)"/>), also beside those that this call has
+    /// spawned; otherwise nothing happens.</summary>
+    /// <returns>Whether it appears. It does unless the chain is over (<see cref="IsChainOver"/>), which gives false too.</returns>
+    /// <exception cref="SceneException">A value other than the place may not enter the world.</exception>
+    /// <exception cref="RuleException">The call has made too many acts or read too often, or the rules have spawned 4,294,967,295
+    /// bodies.</exception>
+    public bool TrySpawn(
+        BodySpec spec, Vector3D position, out BodyId body, Vector3D velocity = default, Vector3D spin = default, PeerSet players = default)
+    {
+        body = default;
+        if (IsChainOver || !IsRoomFor(spec, position) || !deeds.IsApartFromSpawned(spec, position))
+        {
+            return false;
+        }
+
+        body = Spawn(spec, position, velocity, spin, players);
+        return true;
     }
 
     /// <summary>A body disappears; see <see cref="PlayerAction.Remove"/>.</summary>
@@ -322,7 +333,8 @@ public sealed class RuleWorld
     /// as confirmed when nothing can change it any more.</summary>
     /// <param name="code">What; the game's own meaning.</param>
     /// <param name="value">More about it.</param>
-    /// <exception cref="RuleException">The call has told too much.</exception>
+    /// <exception cref="RuleException">The call has told too much, or the code is one of the world's own
+    /// (<see cref="RuleNotice.CommandFailed"/>, <see cref="RuleNotice.ChainEnded"/>).</exception>
     public void Tell(int code, long value = 0)
     {
         CheckCalled();
@@ -331,23 +343,31 @@ public sealed class RuleWorld
             throw new RuleException($"A call told {MaxNotices} things; it may tell no more.");
         }
 
+        if (code <= RuleNotice.ChainEnded)
+        {
+            throw new RuleException($"Code {code} is told, which stands for what the world tells itself; codes from {RuleNotice.ChainEnded + 1} on are the game's.");
+        }
+
         notices.Add(new RuleNotice(code, value));
     }
 
     /// <summary>A call begins.</summary>
     /// <param name="call">The call.</param>
-    /// <param name="first">The number of its first act among those of its tick and round.</param>
-    internal void Begin(RuleCall call, uint first)
+    internal void Begin(RuleCall call)
     {
         key = call.Key;
-        firstAct = first;
-        contact = call.Trigger.Contact;
-        draws = 0;
-        acts.Clear();
+        draws.Begin(call);
+        deeds.Begin(call);
+        reads.Begin(key);
         notices.Clear();
-        reads.Clear();
-        Chains = false;
         isCalled = true;
+    }
+
+    /// <summary>What the call did and told counts as not done.</summary>
+    internal void Forget()
+    {
+        deeds.Clear();
+        notices.Clear();
     }
 
     /// <summary>It has ended.</summary>
@@ -358,32 +378,13 @@ public sealed class RuleWorld
     private RuleRead Read(BodyId body)
     {
         CheckCalled();
-        RuleRead read = view.ReadBody(body, key);
-        reads.Add(read);
-        CheckReads();
-        return read;
+        return reads.Body(body);
     }
 
     private void Act(in ExternalEvent what)
     {
         CheckCalled();
-        if (acts.Count == MaxActs)
-        {
-            throw new RuleException($"A call did {MaxActs} things to bodies; it may do no more.");
-        }
-
-        ExternalEventCheck.ThrowIfUnfit(what, Scene);
-        uint number = checked(firstAct + (uint)acts.Count + 1);
-        acts.Add(new RuleAct(new EventKey(key.Time, checked(key.Round + 1), what.Kind, what.Body, what.Body, SceneRules.Peer, number), what));
-        Chains = true;
-    }
-
-    private void CheckReads()
-    {
-        if (reads.Count > MaxReads)
-        {
-            throw new RuleException($"A call read {MaxReads} things of the world; it may read no more.");
-        }
+        deeds.Add(what);
     }
 
     private void CheckCalled()

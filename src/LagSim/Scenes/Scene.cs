@@ -293,6 +293,10 @@ public sealed class Scene
             hash.Add((long)Rules.Version);
             hash.Add((long)Rules.WorldBytes);
             hash.Add((long)Rules.BodyBytes);
+            if (Rules.SkipsFailedCommands)
+            {
+                hash.Add(1UL << 54);
+            }
         }
 
         if (Seed != 0)

@@ -41,6 +41,10 @@ public abstract class SceneRules
     /// <summary>What makes them no rules for a scene, as the rest of a sentence about them; null if nothing does.</summary>
     internal abstract string? Problem { get; }
 
+    /// <summary>Whether a command that the rules fail in counts as none; otherwise, the default, it ends the world. Part of the scene's hash,
+    /// so that all peers do the same.</summary>
+    public bool SkipsFailedCommands { get; private protected set; }
+
     /// <summary>The name and the version, for messages.</summary>
     public override string ToString() => FormattableString.Invariant($"{Name} {Version}");
 }

@@ -18,4 +18,8 @@ internal interface IWorkObserver
     /// <param name="table">The table of these places.</param>
     /// <returns>Whether the advance continues.</returns>
     WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table);
+
+    /// <summary>Rules were called for an event, or a call of theirs was found to stand.</summary>
+    /// <returns>Whether the advance continues.</returns>
+    WorkVerdict OnCall();
 }

@@ -1,4 +1,3 @@
-using System;
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -14,10 +13,8 @@ namespace LagSim.Trajectories;
 /// </remarks>
 internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore timelines, BodyLoss loss, FlightFactory flights)
 {
-    /// <summary>The number of times that a body released inside static geometry is moved out of one surface after the other.</summary>
-    private const int MaxPushOuts = 16;
-
     private readonly Paths paths = new(timelines);
+    private readonly Clearance clearance = new(scene);
 
     private bool IsHolding(int slot, byte peer)
     {
@@ -48,7 +45,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
         else if (external.Kind == EventKind.Release && IsHolding(slot, external.Peer))
         {
-            flights.Open(slot, key, PutOut(slot, position, timelines.Extras.Filter(last)), external.Velocity);
+            flights.Open(slot, key, PutOut(slot, last, position), external.Velocity);
         }
     }
 
@@ -99,7 +96,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
         if (key.Time >= hold.KeyframeTime + HandPath.Lasts)
         {
-            flights.Open(slot, key, PutOut(slot, position, timelines.Extras.Filter(last)), Vector3D.Zero);
+            flights.Open(slot, key, PutOut(slot, last, position), Vector3D.Zero);
         }
         else
         {
@@ -118,39 +115,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, timelines.Dense(last), timelines.HoldOf(last));
     }
 
-    /// <summary>
-    /// The place where a body is released that a hand holds inside static geometry that it collides with: outside of it, at the surface, one
-    /// surface after the other in the scene's order. A body between surfaces too close for it stays inside.
-    /// </summary>
-    internal Vector3D PutOut(int slot, in Vector3D position, CollisionFilter filter)
-    {
-        double radius = bodies.Spec(slot).Radius;
-        Vector3D at = position;
-        bool isInside = true;
-        for (int n = 0; n < MaxPushOuts && isInside; n++)
-        {
-            isInside = false;
-            foreach (ref readonly StaticPlane plane in scene.PlaneArray.AsSpan())
-            {
-                double gap = plane.Gap(at, radius);
-                if (gap < 0 && filter.CollidesWith(plane.Filter))
-                {
-                    isInside |= gap < -scene.RestitutionThreshold;
-                    at -= plane.Normal * gap;
-                }
-            }
-
-            foreach (ref readonly StaticSphere sphere in scene.SphereArray.AsSpan())
-            {
-                double gap = (at - sphere.Centre).Length - sphere.Radius - radius;
-                if (gap < 0 && filter.CollidesWith(sphere.Filter))
-                {
-                    isInside |= gap < -scene.RestitutionThreshold;
-                    at = sphere.Centre + ((at - sphere.Centre).Direction * (sphere.Radius + radius));
-                }
-            }
-        }
-
-        return at;
-    }
+    /// <summary>The place where a body is released: outside of what stops it.</summary>
+    private Vector3D PutOut(int slot, int last, in Vector3D position) =>
+        clearance.PutOut(position, bodies.Spec(slot).Radius, timelines.Extras.Filter(last));
 }

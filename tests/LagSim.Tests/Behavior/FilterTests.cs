@@ -78,15 +78,6 @@ public sealed class FilterTests
         Assert.Throws<SceneException>(() => floor.AddBody("stuck", Ball(), V(9, 0)).Build());
     }
 
-    [Fact]
-    public void Spawn_InsideASurface_IsRefusedAtTheDoorOnlyIfTheyCollide()
-    {
-        Scene scene = new SceneBuilder("scene").AddPlane("floor", Vector3D.Up, 0).WithSmallestRadius(0.5).Build();
-        Simulation world = new(scene, KeepAll);
-        Assert.Throws<SceneException>(() => world.Submit(ExternalEvent.Spawn(At(0), 1, 1, Ball(), V(0, -1))));
-        Assert.Equal(SubmitResult.Queued, world.Submit(ExternalEvent.Spawn(At(1), 1, 1, Ball().With(CollisionFilter.None), V(0, -1))));
-    }
-
     /// <summary>By a closed form, on a static sphere by contact steps, and in a heap.</summary>
     [Theory]
     [InlineData(false, 0.0)]

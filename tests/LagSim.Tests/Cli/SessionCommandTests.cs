@@ -203,7 +203,7 @@ public sealed class SessionCommandTests
               {"name": "his", "radius_m": 0.5, "mass_kg": 1, "restitution": 0.8, "position_m": [4, 10, 0], "players": [0]}]}
             """);
         using LiveTool host = LiveTool.Run(
-            "host --history-s 0.5 --joiners 1 --for-s 1 --do impulse@0.2:hers:0,1,0 --do impulse@0.3:his:0,1,0 --do teleport@0.4:his:0,-5,0 --scene", folder["mine.json"]);
+            "host --history-s 0.5 --joiners 1 --for-s 1 --do impulse@0.2:hers:0,1,0 --do impulse@0.3:his:0,1,0 --do teleport@0.4:his:0,2e12,0 --scene", folder["mine.json"]);
         using LiveTool client = LiveTool.Run($"join {host.Address} --for-s 1 --do impulse@0.2:hers:0,1,0");
         Assert.NotNull(client.Error.WaitFor(line => line.StartsWith("in as a peer ", StringComparison.Ordinal), LiveTool.Deadline));
         using LiveTool wrong = LiveTool.Run($"join {host.Address} --for-s 1 --do remove@0.2:theirs");
@@ -211,7 +211,7 @@ public sealed class SessionCommandTests
         host.Ends(3);
         wrong.Ends(2);
         Assert.Contains("--do impulse@0.2:hers:0,1,0 was not done. Peer 0 may not touch body 'hers'; those who may: 1.", host.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("--do teleport@0.4:his:0,-5,0 was not done. The position of the Teleport of body 0.0.1", host.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("--do teleport@0.4:his:0,2e12,0 was not done. The position of the Teleport of body 0.0.1", host.Error.ToString(), StringComparison.Ordinal);
         Assert.Contains("events: 2 accepted", client.Output.ToString(), StringComparison.Ordinal);
         Assert.Contains("scene 'mine' has no body 'theirs'; it has hers, his.", wrong.Error.ToString(), StringComparison.Ordinal);
     }

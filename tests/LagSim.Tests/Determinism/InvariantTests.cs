@@ -375,7 +375,7 @@ public sealed class InvariantTests
     }
 
     /// <summary>Has a world stop at one event in three, in the middle of its instant if there is more to do.</summary>
-    private static void Interrupt(Simulation simulation, int seed)
+    internal static void Interrupt(Simulation simulation, int seed)
     {
         Random random = new(seed);
         simulation.WaitsForLateEvents = true;
@@ -385,7 +385,9 @@ public sealed class InvariantTests
     /// <summary>Stops advances where it is told to.</summary>
     private sealed class Stops(Func<bool> isToStop) : IWorkObserver
     {
-        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => isToStop() ? WorkVerdict.StopNow : WorkVerdict.GoOn;
+        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => OnCall();
+
+        public WorkVerdict OnCall() => isToStop() ? WorkVerdict.StopNow : WorkVerdict.GoOn;
     }
 
     private static void AssertNone(int block, Func<RandomWorld, Simulation> onTime, Func<RandomWorld, int, Simulation> late)

@@ -62,6 +62,14 @@ internal static class RandomFilters
             SimTime later = from.Next(3) == 0 ? time + SimDuration.FromSeconds(from.NextDouble() * 0.4) : time;
             events.Add(ExternalEvent.SetFilter(later > At(RandomWorld.End) ? time : later, (byte)from.Next(0, 4), 5000u + (uint)i, known[from.Next(known.Count)], Draw(from)));
         }
+
+        // Into walls, which stop a body or do not by the filter that it has then.
+        for (uint i = 0; i < 2; i++)
+        {
+            SimTime time = times[from.Next(times.Length)];
+            Vector3D place = V(-3 + (from.Next(5) * 1.5), -1 + from.Next(3), from.Next(2));
+            events.Add(ExternalEvent.Teleport(time, (byte)from.Next(0, 4), 6000u + i, known[from.Next(known.Count)], place, default, (WhenOccupied)from.Next(3)));
+        }
     }
 
     private static BodySpec Drawn(in BodySpec spec, Random from) =>

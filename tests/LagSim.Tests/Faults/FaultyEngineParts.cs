@@ -2,6 +2,7 @@ using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Handlers;
 using LagSim.Islands;
 using LagSim.Motion;
 using LagSim.Response;
@@ -43,6 +44,9 @@ internal sealed class FaultyEngineParts : EngineParts
 
     /// <summary>Searches for the next crossing of a sensor from the opening of the segment on, not from the last crossing.</summary>
     internal bool SearchesFromOpening { get; init; }
+
+    /// <summary>Asks whether a place is in a wall with the default filter.</summary>
+    internal bool PlacesByDefaultFilter { get; init; }
 
     /// <summary>Does not foretell how much room timelines will need.</summary>
     internal bool GrowsByLittle { get; init; }
@@ -95,6 +99,9 @@ internal sealed class FaultyEngineParts : EngineParts
         new FaultyEventPredictor(
             bodies, timelines, log, scheduler, rollback, flights, (FaultyBroadPhase)broadPhase, search,
             new FaultySegmentLookup(timelines, rollback, this, isForPending: true), this);
+
+    internal override FreePlaces FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view) =>
+        PlacesByDefaultFilter ? new FaultyPlaces(scene, bodies, timelines, view) : base.FreePlaces(scene, bodies, timelines, view);
 
     internal override CutPaths CutPaths() => new FaultyCutPaths(this);
 

@@ -22,6 +22,12 @@ internal enum RuleFault
 
     /// <summary>A call stands though the state before it is another.</summary>
     IgnoresState = 8,
+
+    /// <summary>A call stands whatever calls before it did at its tick.</summary>
+    IgnoresTally = 16,
+
+    /// <summary>Of a failed command that counts as none, what it did before it failed stays.</summary>
+    KeepsFailed = 32,
 }
 
 /// <summary>Makes the parts of a world with faulty rules.</summary>
@@ -43,6 +49,16 @@ internal sealed class FaultyRules(RuleFault fault) : EngineParts
         : RuleCaller(rules, log, memory, world, view, acts, mode)
     {
         private protected override bool HasStateBefore(RuleCall call) => fault.HasFlag(RuleFault.IgnoresState) || base.HasStateBefore(call);
+
+        private protected override bool HasTallyBefore(RuleCall call) => fault.HasFlag(RuleFault.IgnoresTally) || base.HasTallyBefore(call);
+
+        private protected override void Skip(RuleCall call, Exception failure)
+        {
+            if (!fault.HasFlag(RuleFault.KeepsFailed))
+            {
+                base.Skip(call, failure);
+            }
+        }
 
         private protected override bool ReadsTheSame(RuleCall call) => fault.HasFlag(RuleFault.ForgetsReads) || base.ReadsTheSame(call);
 

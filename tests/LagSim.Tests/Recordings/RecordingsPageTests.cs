@@ -214,7 +214,7 @@ public sealed class RecordingsPageTests
             ["bodies"] = ("body ", scene.Bodies.Select(b => LayoutPage.Values(
                 ("body name", b.Name), ("body spec", b.Spec), ("body position", b.Position), ("body velocity", b.Velocity), ("body players", b.Players.Mask), ("body spin", b.Spin)))),
             ["rules"] = ("rules ", new[] { scene.Rules }.OfType<SceneRules>().Select(r => LayoutPage.Values(
-                ("rules name", r.Name), ("rules version", r.Version), ("rules world bytes", r.WorldBytes), ("rules body bytes", r.BodyBytes)))),
+                ("rules name", r.Name), ("rules version", r.Version), ("rules world bytes", SceneFormat.WorldBytes(r)), ("rules body bytes", r.BodyBytes)))),
             ["sensors"] = ("sensor ", scene.Sensors.Select(s => LayoutPage.Values(
                 ("sensor name", s.Name), ("sensor shape", (byte)s.Shape), ("sensor coverage", (byte)s.Coverage), ("sensor vector", s.Shape == SensorShape.Plane ? s.Normal : s.Centre), ("sensor measure", s.Shape == SensorShape.Plane ? s.Offset : s.Radius),
                 ("sensor category", s.Filter.Category), ("sensor mask", s.Filter.Mask), ("sensor carrier", (uint)(s.Carrier?.Index + 1 ?? 0))))),

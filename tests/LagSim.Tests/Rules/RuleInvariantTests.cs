@@ -21,6 +21,10 @@ public sealed class RuleInvariantTests
     [Fact]
     public void RulesOfRandomWorlds_FullRollback_SameAsOnTime() => Compare((world, seed) => world.Shuffled(seed, mode: HealingMode.FullRollback));
 
+    [Fact]
+    public void RulesOfRandomWorlds_StoppedWithinInstants_SameAsOnTime() =>
+        Compare((world, seed) => world.Shuffled(seed, prepare: simulation => InvariantTests.Interrupt(simulation, seed), inPieces: true));
+
     [Theory]
     [InlineData(RuleFault.StopsTooEarly)]
     [InlineData(RuleFault.LeavesActs)]

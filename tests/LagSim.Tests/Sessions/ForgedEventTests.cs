@@ -93,7 +93,7 @@ public sealed class ForgedEventTests
             1,
             ExternalEvent.Teleport(Now, liar.Peer, 1, BodyId.OfScene(4), V(0, 4)), // the scene has four
             ExternalEvent.Remove(Now, liar.Peer, 2, BodyId.FromPacked(ulong.MaxValue)),
-            ExternalEvent.Teleport(Now, liar.Peer, 3, First, V(0, -1)), // in the floor
+            ExternalEvent.Teleport(Now, liar.Peer, 3, First, V(0, 2e12)), // beyond the world
             ExternalEvent.SetVelocity(Now, liar.Peer, 4, First, V(1e300)),
             ExternalEvent.Spawn(Now, liar.Peer, 5, Ball(0.1), V(0, 4)), // below what the scene promises
             ExternalEvent.Spawn(Now, liar.Peer, 6, new BodySpec(0.3, 1, 1, MotionLaw.RungeKutta4, default, ForceSet.Of(9)), V(0, 4)));

@@ -34,6 +34,11 @@ internal sealed class DrawnRules : GameRules
         {
             WithBodyState<OfBody>();
         }
+
+        if (Mix(seed, 5) % 2 == 0)
+        {
+            WithFailedCommandsSkipped();
+        }
     }
 
     /// <inheritdoc/>
@@ -58,6 +63,10 @@ internal sealed class DrawnRules : GameRules
         Note(world, (ulong)command.Number);
         Note(world, (ulong)command.Length);
         Act(world, Any(world));
+        if (SkipsFailedCommands && command.Length % 3 == 1)
+        {
+            throw new InvalidOperationException("A command of such a length fails.");
+        }
     }
 
     /// <inheritdoc/>
@@ -107,6 +116,7 @@ internal sealed class DrawnRules : GameRules
         {
             Note(world, Bits(state.Position.X));
             Note(world, Bits(state.Velocity.Y));
+            Note(world, world.IsRoomFor(body, state.Position + new Vector3D(0, 0.5, 0)) ? 1UL : 0);
         }
 
         if (timer == 0)
@@ -173,12 +183,21 @@ internal sealed class DrawnRules : GameRules
                 world.Impulse(body, some * world.SpecOf(body).Mass);
                 break;
             case 5 when body.Sequence == 0 && body.Peer == 0:
-                world.Teleport(body, world.Scene.Bodies[body.Index].Position, some, (WhenOccupied)world.Random(3));
+                Vector3D place = world.Scene.Bodies[body.Index].Position + ((total.Digest & 1) == 0 || world.Scene.Box.Exists ? default : some); // also into walls
+                world.Teleport(body, place, some, (WhenOccupied)world.Random(3));
                 break;
             case 6 when total.Spawns < MaxSpawns && world.Scene.Bodies.Count > 0:
                 total.Spawns++;
                 SceneBody like = world.Scene.Bodies[world.Random(world.Scene.Bodies.Count)];
-                total.Last = world.Spawn(like.Spec, like.Position, some, whenOccupied: (WhenOccupied)world.Random(3)).Packed;
+                if ((total.Digest & 2) == 0)
+                {
+                    total.Last = world.Spawn(like.Spec, like.Position, some, whenOccupied: (WhenOccupied)world.Random(3)).Packed;
+                }
+                else if (world.TrySpawn(like.Spec, like.Position, out BodyId there, some))
+                {
+                    total.Last = there.Packed;
+                }
+
                 break;
             case 7 when total.Last != 0:
                 world.Remove(BodyId.FromPacked(total.Last));
