@@ -322,8 +322,10 @@ public sealed class RuleWorld
     /// as confirmed when nothing can change it any more.</summary>
     /// <param name="code">What; the game's own meaning.</param>
     /// <param name="value">More about it.</param>
+    /// <param name="key">What it is about, such as a player, where several things of one code are told: a late event that moves one of them
+    /// moves the one of that key.</param>
     /// <exception cref="RuleException">The call has told too much.</exception>
-    public void Tell(int code, long value = 0)
+    public void Tell(int code, long value = 0, long key = 0)
     {
         CheckCalled();
         if (notices.Count == MaxNotices)
@@ -331,7 +333,7 @@ public sealed class RuleWorld
             throw new RuleException($"A call told {MaxNotices} things; it may tell no more.");
         }
 
-        notices.Add(new RuleNotice(code, value));
+        notices.Add(new RuleNotice(code, value, key));
     }
 
     /// <summary>A call begins.</summary>
