@@ -28,7 +28,7 @@ public sealed class PeerLog
     /// <summary>How long after each goal it was confirmed here, in milliseconds.</summary>
     public IReadOnlyList<double> Latencies => latencies;
 
-    /// <summary>Goals that were shown and taken back, since a late event came before them.</summary>
+    /// <summary>Goals that were predicted and did not happen, since a late event came before them.</summary>
     public int GoalsTakenBack { get; private set; }
 
     /// <summary>Predictions that were neither confirmed nor taken back; none once a match has ended for a while.</summary>
@@ -62,7 +62,7 @@ public sealed class PeerLog
     private void Take(RuleEvent told)
     {
         bool isGoal = told.Notice.Code == (int)Told.Goal;
-        Open += told.Kind == NoticeKind.Predicted ? 1 : -1;
+        Open += told.Kind switch { NoticeKind.Predicted => 1, NoticeKind.Confirmed or NoticeKind.Retracted => -1, _ => 0 };
         GoalsTakenBack += isGoal && told.Kind == NoticeKind.Retracted ? 1 : 0;
         if (told.Kind == NoticeKind.Confirmed)
         {

@@ -12,6 +12,7 @@ public sealed class Screen : IDisposable
 {
     private readonly bool isShown = !Console.IsOutputRedirected;
     private string? word;
+    private long shown; // of which notice the word is
     private double until; // seconds, as the clock of the one who shows
 
     public Screen() => Write("\x1b[?1049h\x1b[?25l"); // another page, no cursor
@@ -19,14 +20,18 @@ public sealed class Screen : IDisposable
     /// <summary>The word in the middle, for a moment.</summary>
     public string? BannerAt(double seconds) => seconds < until ? word : null;
 
-    /// <summary>Takes what the rules told: the picture shows what is predicted, a log what is confirmed.</summary>
+    /// <summary>Takes what the rules told: the picture shows what is predicted, once, and a log what is confirmed.</summary>
     public void Take(RuleEvent told, SimTime now, double seconds)
     {
         if (told.Kind == NoticeKind.Predicted)
         {
-            (word, until) = (WordFor(told.Notice), seconds + 1.2);
+            (word, until, shown) = (WordFor(told.Notice), seconds + 1.2, told.Id);
         }
-        else if (told.Kind == NoticeKind.Retracted && WordFor(told.Notice) == word)
+        else if (told.Kind == NoticeKind.Moved && told.Id == shown)
+        {
+            (word, until) = (WordFor(told.Notice), Math.Max(until, seconds + 0.4)); // not all anew: it has only moved
+        }
+        else if (told.Kind == NoticeKind.InDoubt && told.Id == shown)
         {
             until = seconds; // a late event changed it
         }

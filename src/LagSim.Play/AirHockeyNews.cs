@@ -26,14 +26,14 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players, Func<int, 
     /// <summary>What is shown now; empty for nothing.</summary>
     internal string Sentence { get; private set; } = "";
 
-    /// <summary>What is known of <see cref="Sentence"/>.</summary>
+    /// <summary>What is known of <see cref="Sentence"/>: predicted, confirmed or retracted. What is in doubt is not shown.</summary>
     internal NoticeKind Kind { get; private set; }
 
     /// <summary>The last 64 that are certain, in order: the same at every peer.</summary>
     internal IReadOnlyList<RuleEvent> Confirmed => confirmed;
 
     /// <summary>How many are neither certain nor taken back.</summary>
-    internal int Pending => told.Count(one => one.Kind == NoticeKind.Predicted);
+    internal int Pending => told.Count(one => one.IsOpen);
 
     /// <summary>How many goals were shown and taken back, since a late event came before them.</summary>
     internal long GoalsTakenBack { get; private set; }
@@ -49,13 +49,26 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players, Func<int, 
         told.RemoveAll(one => shown > one.Until);
         (Sentence, Kind) = ("", NoticeKind.Predicted);
         int best = 0;
-        foreach (Line one in told)
+        int shownNow = -1;
+        for (int n = 0; n < told.Count; n++)
         {
-            if (one.Event.Time <= shown && one.Rank >= best)
+            Line one = told[n];
+            if (one.Event.Time <= shown && one.Rank >= best && one.Kind != NoticeKind.InDoubt)
             {
-                best = one.Rank;
-                (Sentence, Kind) = (one.Kind == NoticeKind.Retracted ? $"Not so: {one.Sentence}" : one.Sentence, one.Kind);
+                (best, shownNow) = (one.Rank, n);
             }
+        }
+
+        if (shownNow >= 0)
+        {
+            Line one = told[shownNow];
+            told[shownNow] = one with { WasShown = true };
+            (Sentence, Kind) = one.Kind switch
+            {
+                NoticeKind.Retracted => ($"Not so: {one.Sentence}", NoticeKind.Retracted),
+                NoticeKind.Confirmed => (one.Sentence, NoticeKind.Confirmed),
+                _ => (one.Sentence, NoticeKind.Predicted),
+            };
         }
     }
 
@@ -97,35 +110,37 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players, Func<int, 
             confirmed.RemoveRange(0, Math.Max(0, confirmed.Count - MostKept));
         }
 
-        RuleEvent same = next;
-        int at = told.FindLastIndex(one => one.Event.IsSameNotice(same));
-        if (next.Kind == NoticeKind.Predicted)
+        long id = next.Id;
+        int at = told.FindIndex(one => one.Event.Id == id);
+        Line line = new(next, SentenceOf(next.Notice), next.Kind, at >= 0 && told[at].WasShown, SimTime.MaxValue);
+        if (next.Kind == NoticeKind.Confirmed)
         {
-            told.Add(new Line(next, SentenceOf(next.Notice), NoticeKind.Predicted, SimTime.MaxValue));
+            SimTime least = next.Time + SimDuration.FromSeconds(LeastSeconds);
+            line = line with { Until = SimTime.Max(least, shown + SimDuration.FromSeconds(AfterSeconds)) };
         }
         else if (next.Kind == NoticeKind.Retracted)
         {
-            GoalsTakenBack += next.Notice.Code == (int)Told.Goal && next.Time <= shown ? 1 : 0;
-            if (at >= 0 && next.Time > shown)
-            {
-                told.RemoveAt(at); // nobody has seen it
-            }
-            else if (at >= 0)
-            {
-                told[at] = told[at] with { Kind = NoticeKind.Retracted, Until = shown + SimDuration.FromSeconds(AfterSeconds) };
-            }
+            GoalsTakenBack += line.WasShown && next.Notice.Code == (int)Told.Goal ? 1 : 0;
+            line = line with { Until = shown + SimDuration.FromSeconds(AfterSeconds) };
         }
-        else if (at >= 0)
+
+        if (at >= 0)
         {
-            SimTime least = next.Time + SimDuration.FromSeconds(LeastSeconds);
-            SimTime until = SimTime.Max(least, shown + SimDuration.FromSeconds(AfterSeconds));
-            told[at] = told[at] with { Kind = NoticeKind.Confirmed, Until = until };
+            told.RemoveAt(at);
+        }
+
+        if (next.Kind != NoticeKind.Retracted || line.WasShown)
+        {
+            told.Add(line); // what nobody has seen is not taken back before them
         }
     }
 
-    /// <summary>A sentence, what is known of it, and until when it is shown.</summary>
-    private readonly record struct Line(RuleEvent Event, string Sentence, NoticeKind Kind, SimTime Until)
+    /// <summary>A sentence, what is known of it, whether it has been shown, and until when it is.</summary>
+    private readonly record struct Line(RuleEvent Event, string Sentence, NoticeKind Kind, bool WasShown, SimTime Until)
     {
+        /// <summary>Whether it is neither certain nor taken back.</summary>
+        internal bool IsOpen => Kind is NoticeKind.Predicted or NoticeKind.Moved or NoticeKind.InDoubt;
+
         /// <summary>What stands is shown rather than what does not, a goal rather than a prize; of equals the last.</summary>
         internal int Rank => Kind == NoticeKind.Retracted ? 1 : Event.Notice.Code is (int)Told.Goal or (int)Told.Won ? 3 : 2;
     }

@@ -136,7 +136,7 @@ public class AirHockeyRules : GameRules
             match.Left += 1 - scorer;
             match.Right += scorer;
             int player = world.State<PuckState>(puck)[scorer] - 1;
-            world.Tell((int)Told.Goal, new Goal(scorer, player, match.Left, match.Right).ToValue());
+            world.Tell((int)Told.Goal, new Goal(scorer, player, match.Left, match.Right).ToValue(), key: scorer);
         }
 
         world.State<PuckState>(puck) = default;
@@ -159,7 +159,7 @@ public class AirHockeyRules : GameRules
     {
         ref Match match = ref world.State<Match>();
         PrizeKind kind = Table.KindOf(world.SpecOf(prize));
-        world.Tell((int)Told.Prize, (long)kind + (16 * player));
+        world.Tell((int)Told.Prize, (long)kind + (16 * player), key: (long)kind);
         EndPrize(world);
         if (kind == PrizeKind.SecondPuck)
         {

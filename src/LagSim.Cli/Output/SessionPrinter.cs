@@ -315,9 +315,11 @@ internal sealed class SessionPrinter
         SessionEnd.None => "nothing",
         SessionEnd.Left => "left",
         SessionEnd.HostEnded => "host-ended",
+        SessionEnd.HostFailed => "host-failed",
         SessionEnd.Refused => "refused",
         SessionEnd.HostSilent => "host-silent",
         SessionEnd.Disconnected => "let-go",
+        SessionEnd.Kicked => "kicked",
         SessionEnd.LinkTooSlow => "link-too-slow",
         _ => "failed",
     };

@@ -98,7 +98,7 @@ public sealed class GoalsRules : ShownRules
         state.Left += crossing.Sensor == 1 ? worth : 0;
         state.Right += crossing.Sensor == 0 ? worth : 0;
         state.LastGoalTicks = world.Elapsed.Ticks;
-        world.Tell(GoalTold, 1 - crossing.Sensor);
+        world.Tell(GoalTold, 1 - crossing.Sensor, key: crossing.Sensor);
         Vector3D start = world.Scene.Bodies[crossing.Body.Index].Position;
         world.Teleport(crossing.Body, start, default, WhenOccupied.Beside);
         world.SetTimer(FirstServe + crossing.Body.Index, HalfSecond);

@@ -366,7 +366,11 @@ public sealed class PeerThread : IDisposable
             }
 
             bool hasFailed = fault is not (null or OperationCanceledException);
-            if ((hasFailed || (ownsPort && isDisposed)) && Session.State != SessionState.Ended)
+            if (hasFailed)
+            {
+                owner.Failures.Guard(() => Session.Fail(fault!));
+            }
+            else if (ownsPort && isDisposed && Session.State != SessionState.Ended)
             {
                 owner.Failures.Guard(Session.Leave);
             }

@@ -173,7 +173,7 @@ public abstract class Session
     public SessionEnd EndedBy => parts.Status.EndedBy;
 
     /// <summary>
-    /// The exception that ended the world, and with it the session; null if the session goes on, or ended for another reason. From any
+    /// The exception that ended the world, or the thread, and with it the session; null if it goes on, or ended for another reason. From any
     /// thread, as <see cref="EndReason"/>. What a game's own code threw (its rules, its accelerations) is an inner exception of it, with
     /// the stack.
     /// </summary>
@@ -295,8 +295,18 @@ public abstract class Session
         parts.Owner.ThrowIfForeign();
         if (!parts.Status.HasEnded)
         {
-            protocol.Farewell();
+            protocol.Farewell(null);
             parts.Status.End(SessionEnd.Left, "This peer left.");
+        }
+    }
+
+    /// <summary>Says goodbye and ends the session because an exception ended its thread. What it says is nobody else's affair.</summary>
+    internal void Fail(Exception fault)
+    {
+        if (!parts.Status.HasEnded)
+        {
+            protocol.Farewell("An exception ended its session.");
+            parts.Status.End(SessionEnd.Failed, $"An exception ended the session's thread. {fault.Message}", fault);
         }
     }
 

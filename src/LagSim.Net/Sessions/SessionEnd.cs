@@ -35,4 +35,7 @@ public enum SessionEnd
 
     /// <summary>The host sent this player away.</summary>
     Kicked,
+
+    /// <summary>The host's world cannot be simulated any further, or its session failed otherwise; it is over for all peers.</summary>
+    HostFailed,
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Text;
 
 namespace LagSim.Net.Wire;
 
@@ -6,12 +7,15 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct LeaveDatagram
 {
+    private readonly string? sentence;
+
     /// <summary>Creates a notice from its fields.</summary>
-    public LeaveDatagram(ulong sessionId, byte peer, LeaveReason reason)
+    public LeaveDatagram(ulong sessionId, byte peer, LeaveReason reason, string sentence = "")
     {
         SessionId = sessionId;
         Peer = peer;
         Reason = reason;
+        this.sentence = reason == LeaveReason.HostFailed ? Fitting(sentence) : "";
     }
 
     /// <summary>The session.</summary>
@@ -23,10 +27,13 @@ internal readonly struct LeaveDatagram
     /// <summary>The reason.</summary>
     public LeaveReason Reason { get; }
 
-    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Kicked;
+    /// <summary>What failed, for people; empty with any reason but <see cref="LeaveReason.HostFailed"/>.</summary>
+    public string Sentence => sentence ?? "";
+
+    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.HostFailed;
 
     /// <summary>Writes the datagram.</summary>
-    /// <returns>Its length, <see cref="WireFormat.LeaveBytes"/>.</returns>
+    /// <returns>Its length, from <see cref="WireFormat.LeaveBytes"/> to <see cref="WireFormat.MaxLeaveBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
     /// <exception cref="InvalidOperationException"><see cref="Reason"/> is not a defined value.</exception>
     public int Encode(Span<byte> destination)
@@ -41,6 +48,7 @@ internal readonly struct LeaveDatagram
         writer.WriteUInt64(SessionId);
         writer.WriteByte(Peer);
         writer.WriteByte((byte)Reason);
+        writer.WriteBytes(Encoding.UTF8.GetBytes(Sentence));
         return writer.Position;
     }
 
@@ -53,6 +61,40 @@ internal readonly struct LeaveDatagram
         WireReader reader = WireReader.Open(datagram, DatagramType.Leave);
         leave = new LeaveDatagram(reader.ReadUInt64(), reader.ReadByte(), (LeaveReason)reader.ReadByte());
         reader.Require(leave.IsWellFormed);
+        if (leave.Reason == LeaveReason.HostFailed)
+        {
+            string text = "";
+            reader.Require(reader.Remaining <= WireFormat.MaxLeaveBytes - WireFormat.LeaveBytes
+                && WireText.TryDecode(reader.ReadBytes(reader.Remaining), out text));
+            leave = new LeaveDatagram(leave.SessionId, leave.Peer, leave.Reason, text);
+            reader.Require(string.Equals(leave.Sentence, text, StringComparison.Ordinal));
+        }
+
         return reader.Finish(out refusal);
+    }
+
+    /// <summary>The sentence as it may travel: without control characters, which could change what a terminal shows, and not too
+    /// long.</summary>
+    private static string Fitting(string sentence)
+    {
+        StringBuilder fitting = new();
+        int bytes = 0;
+        for (int at = 0; at < sentence.Length; at++)
+        {
+            bool isPair = at + 1 < sentence.Length && char.IsSurrogatePair(sentence[at], sentence[at + 1]);
+            string one = isPair ? sentence.Substring(at++, 2)
+                : char.IsControl(sentence[at]) ? " "
+                : char.IsSurrogate(sentence[at]) ? "?"
+                : sentence.Substring(at, 1);
+            bytes += Encoding.UTF8.GetByteCount(one);
+            if (bytes > WireFormat.MaxLeaveBytes - WireFormat.LeaveBytes)
+            {
+                break;
+            }
+
+            fitting.Append(one);
+        }
+
+        return fitting.ToString();
     }
 }

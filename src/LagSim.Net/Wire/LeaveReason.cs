@@ -23,4 +23,7 @@ internal enum LeaveReason : byte
 
     /// <summary>The host sent it away: <see cref="Sessions.HostSession.Kick"/> or <see cref="Sessions.HostSession.Ban"/>.</summary>
     Kicked = 7,
+
+    /// <summary>The host's world ended, or its session failed otherwise: the session is over for all peers.</summary>
+    HostFailed = 8,
 }

@@ -75,8 +75,11 @@ internal static class WireFormat
     /// <summary>The length of a <see cref="RefusalDatagram"/>.</summary>
     public const int RefusalBytes = 13;
 
-    /// <summary>The length of a <see cref="LeaveDatagram"/>.</summary>
+    /// <summary>The length of a <see cref="LeaveDatagram"/> without a sentence.</summary>
     public const int LeaveBytes = 14;
+
+    /// <summary>The length of a <see cref="LeaveDatagram"/> with the longest sentence.</summary>
+    public const int MaxLeaveBytes = 1014;
 
     /// <summary>The length of a <see cref="SnapshotRequestDatagram"/>.</summary>
     public const int SnapshotRequestBytes = 29;

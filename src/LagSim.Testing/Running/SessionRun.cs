@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
+using LagSim.Hosting;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Invariant;
@@ -78,11 +79,35 @@ internal sealed class SessionRun
         }
         catch (SessionTestException thrown) when (members[0] is not null && Members.All(member => member.Session.World is not null))
         {
-            failure = thrown; // a world that differs explains most other failures, so it is reported first
+            failure = EndOfAWorld() ?? thrown; // a world that differs explains most other failures, so it is reported first
         }
 
-        SessionTestResult result = Compare(seconds);
+        SessionTestResult result;
+        try
+        {
+            result = Compare(seconds);
+        }
+        catch (SessionTestException) when (failure?.InnerException is SimulationException)
+        {
+            throw failure; // no world gets beyond that
+        }
+
         return failure is not null && result.WorldsAgree ? throw failure : result;
+    }
+
+    /// <summary>What the first world that could not be simulated any further ended with; null if none ended so.</summary>
+    private SessionTestException? EndOfAWorld()
+    {
+        Member? first = Members.Where(member => member.FailedAt is not null).OrderBy(member => member.FailedAt).FirstOrDefault();
+        if (first is null)
+        {
+            return null;
+        }
+
+        string who = first.Link is null ? "the host" : $"over '{first.Link.Name}'";
+        string when = FormattableString.Invariant($"{(first.FailedAt!.Value - Host.World!.Simulation.Start).ToSeconds():0.###} s");
+        string what = $"The world of player {first.Player.Number}, {who}, ended at {when}. {first.Session.EndReason}";
+        return new SessionTestException(what, first.Session.Failure!);
     }
 
     /// <summary>Lets the initial clients in one by one, so that each gets its number, and waits until the world begins.</summary>
@@ -280,16 +305,16 @@ internal sealed class SessionRun
             throw new SessionTestException($"What the players did cannot be simulated: {thrown.Message}", thrown);
         }
 
+        bool hasFailed = Members.Any(member => member.Session.Failure is not null); // then worlds hold what the host has not judged
         Comparison comparison = new(alone);
         foreach (Member member in Members)
         {
             int number = member.Player.Number;
             member.Trace.CompareCommitted(number, comparison);
             member.Trace.CompareWrong(number, comparison);
-            bool hasWorld = member.Session.World is not null && member.Session.Failure is null; // a failure is said by itself
-            if (!member.Player.HasLeft && hasWorld)
+            if (!member.Player.HasLeft && !hasFailed && member.Session.World is LiveWorld world)
             {
-                comparison.Take(number, member.Session.World!.Simulation);
+                comparison.Take(number, world.Simulation);
             }
         }
 
@@ -316,6 +341,7 @@ internal sealed class SessionRun
             Session = session;
             Player = player;
             Trace = new SessionTrace(session, log);
+            session.Ended += () => FailedAt = session.Failure is null ? null : session.SharedTime.Now;
         }
 
         internal LinkProfile? Link { get; }
@@ -326,6 +352,9 @@ internal sealed class SessionRun
 
         /// <summary>The recorded states and worlds.</summary>
         internal SessionTrace Trace { get; }
+
+        /// <summary>When its world could not be simulated any further, in shared time; null if it did not end so.</summary>
+        internal SimTime? FailedAt { get; private set; }
 
         internal long Frames { get; private set; }
 

@@ -16,10 +16,11 @@ namespace LagSim.Hosting;
 /// </remarks>
 public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<ContactNotice>
 {
-    internal ContactNotice(NoticeKind kind, long number, in EventKey key, in ImpactContact contact)
+    private readonly NoticeStamp stamp;
+
+    internal ContactNotice(in EventKey key, in ImpactContact contact)
     {
-        Kind = kind;
-        Number = number;
+        stamp = default;
         Key = key;
         First = contact.First;
         Second = contact.Second;
@@ -28,20 +29,28 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
         ClosingSpeed = contact.ClosingSpeed;
     }
 
-    private ContactNotice(NoticeKind kind, long number, in ContactNotice of)
+    private ContactNotice(in NoticeStamp stamp, in ContactNotice of)
     {
         this = of;
-        Kind = kind;
-        Number = number;
+        this.stamp = stamp;
     }
 
-    /// <summary>Whether it is predicted, confirmed or retracted.</summary>
-    public NoticeKind Kind { get; }
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    public NoticeKind Kind => stamp.Kind;
 
     /// <summary>
     /// Counts the notices of this peer from 1, lost ones included: a gap is one that found no room; see <see cref="ContactNotices.Lost"/>.
     /// </summary>
-    public long Number { get; }
+    public long Number => stamp.Number;
+
+    /// <summary>
+    /// Which contact it is, the same in all notices of it: the <see cref="Number"/> of the one that predicted it. A late event may change its
+    /// instant and all else; this stays.
+    /// </summary>
+    public long Id => stamp.Id;
+
+    /// <summary>The instant that was told before, where it was <see cref="NoticeKind.Moved"/>; otherwise <see cref="Time"/>.</summary>
+    public SimTime MovedFrom => stamp.MovedFrom;
 
     /// <summary>The impact. All contacts of one tick and round that share bodies are one impact, and so have one key.</summary>
     public EventKey Key { get; }
@@ -91,7 +100,8 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
         Compare(this, other) == 0 && Position.Equals(other.Position) && ClosingSpeed.Equals(other.ClosingSpeed);
 
     /// <inheritdoc/>
-    public bool Equals(ContactNotice other) => Kind == other.Kind && Number == other.Number && IsSameContact(other);
+    public bool Equals(ContactNotice other) =>
+        Kind == other.Kind && Number == other.Number && Id == other.Id && MovedFrom == other.MovedFrom && IsSameContact(other);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is ContactNotice other && Equals(other);
@@ -121,7 +131,14 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
 
     int INotice<ContactNotice>.CompareWith(ContactNotice other) => Compare(this, other);
 
+    int INotice<ContactNotice>.CompareSeries(ContactNotice other)
+    {
+        int byFirst = First.CompareTo(other.First);
+        int bySecond = byFirst != 0 ? byFirst : Second.CompareTo(other.Second);
+        return bySecond != 0 ? bySecond : Surface.CompareTo(other.Surface);
+    }
+
     bool INotice<ContactNotice>.IsSameAs(ContactNotice other) => IsSameContact(other);
 
-    ContactNotice INotice<ContactNotice>.As(NoticeKind kind, long number) => new(kind, number, this);
+    ContactNotice INotice<ContactNotice>.As(in NoticeStamp stamp) => new(stamp, this);
 }

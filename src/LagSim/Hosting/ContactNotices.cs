@@ -6,19 +6,23 @@ using LagSim.Timelines;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Reports contacts to a game: each is predicted, then confirmed when nothing can change it any more, or retracted after a late event.
+/// Reports contacts to a game: each is predicted, moved by late events, then confirmed when nothing can change it any more, or retracted.
 /// </summary>
 /// <remarks>
 /// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with
 /// the options of a session. It changes no bit of what happens.</para>
 /// <para>Notices are made after each step of the world. A contact that a rewind undid and re-simulation made again unchanged gives no
-/// notice: nothing is retracted and then predicted unchanged. Each predicted contact is in the end either retracted or confirmed, once.
-/// Confirmed ones come in ascending order of their keys, each once, and are the same on all peers from where each of them began. A contact
-/// that is not committed when a world ends is never confirmed. Confirmation comes as late as a late event may: the history of the world or
-/// session, and up to as long as a session at rest is silent.</para>
+/// notice. One that came again at another instant, or otherwise, is moved: it keeps its <see cref="ContactNotice.Id"/>. It is the same if
+/// body and body, or body and surface, are, and it is at most half a second off; of several as many as possible are taken to be the same,
+/// in their order, and then the nearest. One that did not come again is in doubt until it is moved after all, or nothing can bring it back.
+/// </para>
+/// <para>Each predicted contact is in the end either retracted or confirmed, once. Confirmed ones come in ascending order of their keys,
+/// each once, and are the same on all peers from where each of them began. A contact that is not committed when a world ends is never
+/// confirmed. Confirmation comes as late as a late event may: the history of the world or session, and up to as long as a session at rest
+/// is silent; a retraction half a second after that. Only a world that another takes the place of retracts what it cannot know.</para>
 /// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with
 /// <see cref="TryRead"/>, without a lock.</para>
-/// <para>Memory: the queue, and some 150 bytes for each contact that is neither confirmed nor retracted. These are no more than the world's
+/// <para>Memory: the queue, and some 170 bytes for each contact that is neither confirmed nor retracted. These are no more than the world's
 /// own segments, which the world bounds.</para>
 /// </remarks>
 /// <example>
@@ -58,6 +62,11 @@ public sealed class ContactNotices : IImpactObserver
     /// <see cref="DefaultCapacity"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     public ContactNotices(double minClosingSpeed = DefaultMinClosingSpeed, int capacity = DefaultCapacity)
+        : this(minClosingSpeed, capacity, new NoticePairing<ContactNotice>())
+    {
+    }
+
+    internal ContactNotices(double minClosingSpeed, int capacity, NoticePairing<ContactNotice> pairing)
     {
         if (!(minClosingSpeed >= 0) || double.IsInfinity(minClosingSpeed))
         {
@@ -66,7 +75,7 @@ public sealed class ContactNotices : IImpactObserver
         }
 
         MinClosingSpeed = minClosingSpeed;
-        ledger = new NoticeLedger<ContactNotice>(capacity);
+        ledger = new NoticeLedger<ContactNotice>(capacity, pairing);
     }
 
     /// <summary>
@@ -85,8 +94,8 @@ public sealed class ContactNotices : IImpactObserver
     public int Capacity => ledger.Capacity;
 
     /// <summary>
-    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Predictions take at most half of the
-    /// queue; other notices that find no room are left out too, each with a gap in <see cref="ContactNotice.Number"/>.
+    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. What is not certain yet takes at most
+    /// half of the queue; other notices that find no room are left out too, each with a gap in <see cref="ContactNotice.Number"/>.
     /// <see cref="Noticed"/> had them. From any thread.
     /// </summary>
     public long Lost => ledger.Lost;
@@ -102,7 +111,7 @@ public sealed class ContactNotices : IImpactObserver
     {
         if (contact.ClosingSpeed >= MinClosingSpeed)
         {
-            ledger.Made(new ContactNotice(NoticeKind.Predicted, 0, impact, contact));
+            ledger.Made(new ContactNotice(impact, contact));
         }
     }
 

@@ -14,20 +14,35 @@ namespace LagSim.Hosting;
 /// </remarks>
 public readonly struct CrossingNotice : IEquatable<CrossingNotice>, INotice<CrossingNotice>
 {
-    internal CrossingNotice(NoticeKind kind, long number, in Crossing crossing)
+    private readonly NoticeStamp stamp;
+
+    internal CrossingNotice(in Crossing crossing)
+        : this(default, crossing)
     {
-        Kind = kind;
-        Number = number;
+    }
+
+    private CrossingNotice(in NoticeStamp stamp, in Crossing crossing)
+    {
+        this.stamp = stamp;
         Crossing = crossing;
     }
 
-    /// <summary>Whether it is predicted, confirmed or retracted.</summary>
-    public NoticeKind Kind { get; }
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    public NoticeKind Kind => stamp.Kind;
 
     /// <summary>
     /// Counts the notices of this peer from 1, lost ones included: a gap is one that found no room; see <see cref="CrossingNotices.Lost"/>.
     /// </summary>
-    public long Number { get; }
+    public long Number => stamp.Number;
+
+    /// <summary>
+    /// Which crossing it is, the same in all notices of it: the <see cref="Number"/> of the one that predicted it. A late event may change its
+    /// instant and all else; this stays.
+    /// </summary>
+    public long Id => stamp.Id;
+
+    /// <summary>The instant that was told before, where it was <see cref="NoticeKind.Moved"/>; otherwise <see cref="Time"/>.</summary>
+    public SimTime MovedFrom => stamp.MovedFrom;
 
     /// <summary>The crossing.</summary>
     public Crossing Crossing { get; }
@@ -49,12 +64,20 @@ public readonly struct CrossingNotice : IEquatable<CrossingNotice>, INotice<Cros
 
     int INotice<CrossingNotice>.CompareWith(CrossingNotice other) => EventKey.Compare(Key, other.Key);
 
+    int INotice<CrossingNotice>.CompareSeries(CrossingNotice other)
+    {
+        int byBody = Body.CompareTo(other.Body);
+        int bySensor = byBody != 0 ? byBody : Sensor.CompareTo(other.Sensor);
+        return bySensor != 0 ? bySensor : Entered.CompareTo(other.Entered);
+    }
+
     bool INotice<CrossingNotice>.IsSameAs(CrossingNotice other) => Crossing == other.Crossing;
 
-    CrossingNotice INotice<CrossingNotice>.As(NoticeKind kind, long number) => new(kind, number, Crossing);
+    CrossingNotice INotice<CrossingNotice>.As(in NoticeStamp stamp) => new(stamp, Crossing);
 
     /// <inheritdoc/>
-    public bool Equals(CrossingNotice other) => Kind == other.Kind && Number == other.Number && Crossing == other.Crossing;
+    public bool Equals(CrossingNotice other) =>
+        Kind == other.Kind && Number == other.Number && Id == other.Id && MovedFrom == other.MovedFrom && Crossing == other.Crossing;
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is CrossingNotice other && Equals(other);

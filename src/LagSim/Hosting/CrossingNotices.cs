@@ -5,14 +5,14 @@ using LagSim.Timelines;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Reports crossings of sensors to a game: each is predicted, then confirmed when nothing can change it any more, or retracted after a late
-/// event.
+/// Reports crossings of sensors to a game: each is predicted, moved by late events, then confirmed when nothing can change it any more, or
+/// retracted.
 /// </summary>
 /// <remarks>
 /// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with
 /// the options of a session. It changes no bit of what happens. In a scene without sensors it never reports anything.</para>
 /// <para>The rules are those of <see cref="ContactNotices"/>: a crossing that a rewind undid and re-simulation made again unchanged gives no
-/// notice; each predicted crossing is in the end either retracted or confirmed, once; confirmed ones come in ascending order of their keys,
+/// notice; it is the same, moved, if body, sensor and direction are the same; each predicted crossing is in the end either retracted or confirmed, once; confirmed ones come in ascending order of their keys,
 /// the same on all peers from where each of them began. A body that is inside from the start of a world enters then; one that joins a
 /// session later is told of what comes after its copy.</para>
 /// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same notices with
@@ -41,7 +41,13 @@ public sealed class CrossingNotices : ICrossingObserver
     /// <param name="capacity">How many notices may wait to be read, 16 to <see cref="ContactNotices.MaxCapacity"/>, default
     /// <see cref="ContactNotices.DefaultCapacity"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The capacity is out of its range.</exception>
-    public CrossingNotices(int capacity = ContactNotices.DefaultCapacity) => ledger = new NoticeLedger<CrossingNotice>(capacity);
+    public CrossingNotices(int capacity = ContactNotices.DefaultCapacity)
+        : this(capacity, new NoticePairing<CrossingNotice>())
+    {
+    }
+
+    internal CrossingNotices(int capacity, NoticePairing<CrossingNotice> pairing) =>
+        ledger = new NoticeLedger<CrossingNotice>(capacity, pairing);
 
     /// <summary>
     /// Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.
@@ -68,7 +74,7 @@ public sealed class CrossingNotices : ICrossingObserver
     /// <returns>False if there is none at the moment.</returns>
     public bool TryRead(out CrossingNotice notice) => ledger.TryRead(out notice);
 
-    void ICrossingObserver.OnCrossing(in Crossing crossing) => ledger.Made(new CrossingNotice(NoticeKind.Predicted, 0, crossing));
+    void ICrossingObserver.OnCrossing(in Crossing crossing) => ledger.Made(new CrossingNotice(crossing));
 
     void ICrossingObserver.OnCut(in Crossing crossing) => ledger.Cut(crossing.Key);
 

@@ -9,12 +9,18 @@ internal interface INotice<T>
     /// <summary>The event it belongs to.</summary>
     EventKey Key { get; }
 
+    /// <summary>The number of the notice that predicted it.</summary>
+    long Id { get; }
+
     /// <summary>Negative, zero or positive as it comes before the other, is about the same, or comes after it; by key first.</summary>
     int CompareWith(T other);
 
-    /// <summary>Whether it says the same, to the bit, whatever its kind and number.</summary>
+    /// <summary>Zero if a heal may move the one to the place of the other, as between contacts of one pair; else an order.</summary>
+    int CompareSeries(T other);
+
+    /// <summary>Whether it says the same, to the bit, whatever its stamp.</summary>
     bool IsSameAs(T other);
 
-    /// <summary>The same of another kind, and with another number.</summary>
-    T As(NoticeKind kind, long number);
+    /// <summary>The same with another stamp.</summary>
+    T As(in NoticeStamp stamp);
 }

@@ -7,8 +7,9 @@ using LagSim.Time;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Keeps account of what is predicted of a world, such as contacts, crossings and what rules tell: each is reported as predicted, and then
-/// confirmed when nothing can change it any more, or retracted after a late event.
+/// Keeps account of what is predicted of a world, such as contacts, crossings and what rules tell: each is reported as predicted, as moved
+/// whenever a late event changes it, and then as confirmed when nothing can change it any more, or as retracted when nothing can bring it
+/// back.
 /// </summary>
 /// <remarks>For the simulation's thread, apart from <see cref="TryRead"/> and <see cref="Lost"/>.</remarks>
 internal sealed class NoticeLedger<T>
@@ -17,12 +18,16 @@ internal sealed class NoticeLedger<T>
     private const int MinCapacity = 16;
     private const int FewChanges = 1024;
 
+    private static readonly Comparison<NoticePairing<T>.Candidate> byPlace = static (a, b) => a.Place.CompareTo(b.Place);
+
     private readonly NoticeQueue<T> queue;
     private readonly List<T> tail = new(); // what is known, while it is merged with the changes
     private List<Change> changes = new(); // since the last step that was reported, in the order in which they came
     private List<Change> spare = new();
-    private readonly List<T> standing = new(); // predicted and neither confirmed nor retracted, in order
-    private int confirmed; // the number of these at the front that have been confirmed
+    private readonly List<T> standing = new(); // is to happen and not confirmed, in order
+    private readonly List<T> doubtful = new(); // was taken out by a heal, and may come again
+    private readonly NoticePairing<T> pairing;
+    private int confirmed; // the number of those standing at the front that have been confirmed
     private int settledChanges; // how many changes were left when they were last put together
     private long number;
     private long lost;
@@ -30,8 +35,9 @@ internal sealed class NoticeLedger<T>
 
     /// <summary>An account of nothing yet.</summary>
     /// <param name="capacity">How many notices may wait to be read.</param>
+    /// <param name="pairing">Finds what has only moved; of this account alone.</param>
     /// <exception cref="ArgumentOutOfRangeException">It is out of its range.</exception>
-    internal NoticeLedger(int capacity)
+    internal NoticeLedger(int capacity, NoticePairing<T> pairing)
     {
         if (capacity is < MinCapacity or > ContactNotices.MaxCapacity)
         {
@@ -39,6 +45,7 @@ internal sealed class NoticeLedger<T>
         }
 
         queue = new NoticeQueue<T>(capacity);
+        this.pairing = pairing;
     }
 
     /// <summary>Raised for every notice, none left out.</summary>
@@ -51,7 +58,7 @@ internal sealed class NoticeLedger<T>
     internal long Lost => Volatile.Read(ref lost);
 
     /// <summary>How many are predicted and neither confirmed nor retracted.</summary>
-    internal int Pending => standing.Count - confirmed;
+    internal int Pending => standing.Count - confirmed + doubtful.Count;
 
     /// <summary>The next notice, in order; for one thread only, the game's.</summary>
     internal bool TryRead(out T notice) => queue.TryRead(out notice);
@@ -93,9 +100,15 @@ internal sealed class NoticeLedger<T>
         settledChanges = 0;
         for (; confirmed < standing.Count; confirmed++)
         {
-            Emit(NoticeKind.Retracted, standing[confirmed]);
+            doubtful.Add(standing[confirmed]);
         }
 
+        foreach (T known in doubtful)
+        {
+            Emit(NoticeKind.Retracted, known);
+        }
+
+        doubtful.Clear();
         standing.Clear();
         confirmed = 0;
         isFollowing = false;
@@ -118,6 +131,7 @@ internal sealed class NoticeLedger<T>
             Emit(NoticeKind.Confirmed, standing[confirmed++]);
         }
 
+        Retract(simulation.HistoryEdge);
         if (confirmed > FewChanges && confirmed > standing.Count / 2)
         {
             standing.RemoveRange(0, confirmed);
@@ -135,7 +149,13 @@ internal sealed class NoticeLedger<T>
             return SimTime.MaxValue; // the owner that forgets for it has it step
         }
 
-        return standing[confirmed].Key.Time + history - lookAhead + SimDuration.OneTick;
+        SimTime last = confirmed < standing.Count ? standing[confirmed].Key.Time : SimTime.MaxValue;
+        foreach (T known in doubtful)
+        {
+            last = SimTime.Min(last, known.Key.Time + pairing.Within);
+        }
+
+        return last + history - lookAhead + SimDuration.OneTick;
     }
 
     private void Note(in Change change)
@@ -179,7 +199,7 @@ internal sealed class NoticeLedger<T>
         settledChanges = changes.Count;
     }
 
-    /// <summary>Merges the changes into what is known, and reports the difference.</summary>
+    /// <summary>Merges the changes into what is known, and reports the difference: what moved, what is new, and what is in doubt.</summary>
     private void Merge()
     {
         if (changes.Count == 0)
@@ -220,12 +240,12 @@ internal sealed class NoticeLedger<T>
                 }
                 else if (compared <= 0)
                 {
-                    Emit(NoticeKind.Retracted, tail[old++]);
+                    pairing.Gone.Add(new NoticePairing<T>.Candidate(tail[old++], doubtful.Count + pairing.Gone.Count));
                 }
                 else
                 {
-                    standing.Add(changes[at].Notice);
-                    Emit(NoticeKind.Predicted, changes[at++].Notice);
+                    pairing.Made.Add(new NoticePairing<T>.Candidate(changes[at].Notice, standing.Count));
+                    standing.Add(changes[at++].Notice);
                 }
             }
         }
@@ -237,6 +257,66 @@ internal sealed class NoticeLedger<T>
 
         changes.Clear();
         settledChanges = 0;
+        TellDifference();
+    }
+
+    /// <summary>Reports what a merge found to have been taken out and put in.</summary>
+    private void TellDifference()
+    {
+        int doubted = doubtful.Count;
+        if (pairing.Made.Count > 0)
+        {
+            for (int n = 0; n < doubted; n++)
+            {
+                pairing.Gone.Add(new NoticePairing<T>.Candidate(doubtful[n], n));
+            }
+
+            if (pairing.Gone.Count > 0)
+            {
+                pairing.Pair();
+            }
+
+            doubtful.Clear();
+            pairing.Made.Sort(byPlace);
+        }
+
+        foreach (NoticePairing<T>.Candidate made in pairing.Made)
+        {
+            standing[made.Place] = made.Partner == NoticePairing<T>.None ? Emit(NoticeKind.Predicted, made.Notice)
+                : Emit(NoticeKind.Moved, made.Notice, pairing.Gone[made.Partner].Notice);
+        }
+
+        pairing.Gone.Sort(byPlace);
+        foreach (NoticePairing<T>.Candidate gone in pairing.Gone)
+        {
+            if (gone.Partner == NoticePairing<T>.None)
+            {
+                doubtful.Add(gone.Place < doubted ? gone.Notice : Emit(NoticeKind.InDoubt, gone.Notice));
+            }
+        }
+
+        pairing.Made.Clear();
+        pairing.Gone.Clear();
+    }
+
+    /// <summary>Reports of what is in doubt what cannot come again: all that it could have moved to lies before the edge.</summary>
+    private void Retract(SimTime edge)
+    {
+        int kept = 0;
+        for (int n = 0; n < doubtful.Count; n++)
+        {
+            T known = doubtful[n];
+            if (known.Key.Time < edge && edge - known.Key.Time > pairing.Within)
+            {
+                Emit(NoticeKind.Retracted, known);
+            }
+            else
+            {
+                doubtful[kept++] = known;
+            }
+        }
+
+        doubtful.RemoveRange(kept, doubtful.Count - kept);
     }
 
     /// <summary>
@@ -262,14 +342,21 @@ internal sealed class NoticeLedger<T>
         return low;
     }
 
-    private void Emit(NoticeKind kind, in T known)
+    private T Emit(NoticeKind kind, in T notice) => Emit(kind, notice, notice);
+
+    /// <summary>Reports a notice of what was told before, except for a prediction.</summary>
+    private T Emit(NoticeKind kind, in T notice, in T told)
     {
-        T notice = known.As(kind, ++number);
-        Noticed?.Invoke(notice);
-        if (!queue.TryWrite(notice, kind == NoticeKind.Predicted ? queue.Capacity / 2 : queue.Capacity))
+        number++;
+        T stamped = notice.As(new NoticeStamp(kind, number, kind == NoticeKind.Predicted ? number : told.Id, told.Key.Time));
+        Noticed?.Invoke(stamped);
+        bool isLast = kind is NoticeKind.Confirmed or NoticeKind.Retracted;
+        if (!queue.TryWrite(stamped, isLast ? queue.Capacity : queue.Capacity / 2))
         {
             Volatile.Write(ref lost, lost + 1); // no other thread writes it
         }
+
+        return stamped;
     }
 
     /// <summary>What was made, or that all of a key was cut.</summary>

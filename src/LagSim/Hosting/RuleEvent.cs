@@ -6,25 +6,40 @@ using LagSim.Time;
 
 namespace LagSim.Hosting;
 
-/// <summary>Something that the rules of a game told, predicted, confirmed or retracted.</summary>
+/// <summary>Something that the rules of a game told, and what is known of it.</summary>
 /// <remarks>Immutable, safe on any thread. Key, place and notice are the same on every peer; <see cref="Number"/>, and which come as
 /// predicted, are each peer's own.</remarks>
 public readonly struct RuleEvent : IEquatable<RuleEvent>, INotice<RuleEvent>
 {
-    internal RuleEvent(NoticeKind kind, long number, in EventKey key, int place, RuleNotice notice)
+    private readonly NoticeStamp stamp;
+
+    internal RuleEvent(in EventKey key, int place, RuleNotice notice)
+        : this(default, key, place, notice)
     {
-        Kind = kind;
-        Number = number;
+    }
+
+    private RuleEvent(in NoticeStamp stamp, in EventKey key, int place, RuleNotice notice)
+    {
+        this.stamp = stamp;
         Key = key;
         Place = place;
         Notice = notice;
     }
 
-    /// <summary>Whether it is predicted, confirmed or retracted.</summary>
-    public NoticeKind Kind { get; }
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    public NoticeKind Kind => stamp.Kind;
 
     /// <summary>Counts those of this peer from 1, lost ones included; see <see cref="RuleNotices.Lost"/>.</summary>
-    public long Number { get; }
+    public long Number => stamp.Number;
+
+    /// <summary>
+    /// Which thing it is, the same in all notices of it: the <see cref="Number"/> of the one that predicted it. A late event may change its
+    /// instant and all else; this stays.
+    /// </summary>
+    public long Id => stamp.Id;
+
+    /// <summary>The instant that was told before, where it was <see cref="NoticeKind.Moved"/>; otherwise <see cref="Time"/>.</summary>
+    public SimTime MovedFrom => stamp.MovedFrom;
 
     /// <summary>The event for which the rules were called.</summary>
     public EventKey Key { get; }
@@ -47,12 +62,19 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>, INotice<RuleEvent>
         return byKey != 0 ? byKey : Place.CompareTo(other.Place);
     }
 
+    int INotice<RuleEvent>.CompareSeries(RuleEvent other)
+    {
+        int byCode = Notice.Code.CompareTo(other.Notice.Code);
+        return byCode != 0 ? byCode : Notice.Key.CompareTo(other.Notice.Key);
+    }
+
     bool INotice<RuleEvent>.IsSameAs(RuleEvent other) => IsSameNotice(other);
 
-    RuleEvent INotice<RuleEvent>.As(NoticeKind kind, long number) => new(kind, number, Key, Place, Notice);
+    RuleEvent INotice<RuleEvent>.As(in NoticeStamp stamp) => new(stamp, Key, Place, Notice);
 
     /// <inheritdoc/>
-    public bool Equals(RuleEvent other) => Kind == other.Kind && Number == other.Number && IsSameNotice(other);
+    public bool Equals(RuleEvent other) =>
+        Kind == other.Kind && Number == other.Number && Id == other.Id && MovedFrom == other.MovedFrom && IsSameNotice(other);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is RuleEvent other && Equals(other);

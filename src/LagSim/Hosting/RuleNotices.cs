@@ -6,13 +6,14 @@ using LagSim.Time;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Reports to a game what its rules tell (<see cref="RuleWorld.Tell"/>): each notice is predicted, then confirmed when nothing can change it
-/// any more, or retracted after a late event.
+/// Reports to a game what its rules tell (<see cref="RuleWorld.Tell"/>): each is predicted, moved by late events, then confirmed when nothing
+/// can change it any more, or retracted.
 /// </summary>
 /// <remarks>
 /// <para>Made by the game and given to the one world it is to follow: to a <see cref="SimulationHost"/> or <see cref="LiveWorld"/>, or with
 /// the options of a session. It changes no bit of what happens.</para>
-/// <para>What a heal undoes and makes again unchanged gives nothing. Each predicted notice is in the end either retracted or confirmed,
+/// <para>What a heal undoes and makes again unchanged gives nothing. What it makes again with the same code and key is moved, as contacts
+/// are (<see cref="ContactNotices"/>), even if its value is another. Each predicted notice is in the end either retracted or confirmed,
 /// once. Confirmed ones come in the order in which the rules told them, each once, and are the same on all peers from where each of them
 /// began. One that is not committed when a world ends is never confirmed.</para>
 /// <para>The simulation's thread raises <see cref="Noticed"/>; one other thread, the game's, may read the same with <see cref="TryRead"/>,
@@ -44,7 +45,12 @@ public sealed class RuleNotices
     /// <summary>Creates the notices for the rules of one world, which is given them.</summary>
     /// <param name="capacity">How many may wait to be read, 16 to <see cref="MaxCapacity"/>, default <see cref="DefaultCapacity"/>.</param>
     /// <exception cref="ArgumentOutOfRangeException">The capacity is out of its range.</exception>
-    public RuleNotices(int capacity = DefaultCapacity) => ledger = new NoticeLedger<RuleEvent>(capacity);
+    public RuleNotices(int capacity = DefaultCapacity)
+        : this(capacity, new NoticePairing<RuleEvent>())
+    {
+    }
+
+    internal RuleNotices(int capacity, NoticePairing<RuleEvent> pairing) => ledger = new NoticeLedger<RuleEvent>(capacity, pairing);
 
     /// <summary>
     /// Raised on the simulation's thread for every notice, none left out. Handlers must not throw, and not change the world.
@@ -56,8 +62,8 @@ public sealed class RuleNotices
     }
 
     /// <summary>
-    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Predictions take at most half of the
-    /// queue. <see cref="Noticed"/> had them. From any thread.
+    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. What is not certain yet takes at most
+    /// half of the queue. <see cref="Noticed"/> had them. From any thread.
     /// </summary>
     public long Lost => ledger.Lost;
 
@@ -107,7 +113,7 @@ public sealed class RuleNotices
             place = n > 0 && log[n - 1].Key == log[n].Key ? place : 0;
             foreach (RuleNotice notice in log[n].Notices)
             {
-                ledger.Made(new RuleEvent(NoticeKind.Predicted, 0, log[n].Key, place++, notice));
+                ledger.Made(new RuleEvent(log[n].Key, place++, notice));
             }
         }
     }

@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace LagSim.Rules;
 
-/// <summary>What rules tell the game outside: a number and a value, whose meaning is the game's.</summary>
+/// <summary>What rules tell the game outside: a number, a value and a key, whose meaning is the game's.</summary>
 /// <remarks>Immutable.</remarks>
 public readonly struct RuleNotice : IEquatable<RuleNotice>
 {
@@ -15,10 +15,11 @@ public readonly struct RuleNotice : IEquatable<RuleNotice>
     /// value is how much of what the first such call did had no effect.</summary>
     public const int ChainEnded = int.MinValue + 1;
 
-    internal RuleNotice(int code, long value, string? sentence = null)
+    internal RuleNotice(int code, long value, long key, string? sentence = null)
     {
         Code = code;
         Value = value;
+        Key = key;
         Sentence = sentence;
     }
 
@@ -27,6 +28,12 @@ public readonly struct RuleNotice : IEquatable<RuleNotice>
 
     /// <summary>More about it; the game's own meaning.</summary>
     public long Value { get; }
+
+    /// <summary>
+    /// What it is about, such as a player; the game's own meaning. When a late event moves something that was told, what has the same code
+    /// and key is the same thing, whatever its value.
+    /// </summary>
+    public long Key { get; }
 
     /// <summary>Of what the world itself tells, what happened in words, for a log; null for what rules tell. Not part of equality.</summary>
     public string? Sentence { get; }
@@ -45,26 +52,27 @@ public readonly struct RuleNotice : IEquatable<RuleNotice>
 
     /// <summary>A command failed and counts as none.</summary>
     internal static RuleNotice OfFailedCommand(byte player, int number, string sentence) =>
-        new(CommandFailed, ((long)player << 32) | unchecked((uint)number), sentence);
+        new(CommandFailed, ((long)player << 32) | unchecked((uint)number), player, sentence);
 
     /// <summary>Rules wanted to do so much more in a tick than they may.</summary>
-    internal static RuleNotice OfEndedChain(int dropped, string sentence) => new(ChainEnded, dropped, sentence);
+    internal static RuleNotice OfEndedChain(int dropped, string sentence) => new(ChainEnded, dropped, 0, sentence);
 
     /// <inheritdoc/>
-    public bool Equals(RuleNotice other) => Code == other.Code && Value == other.Value;
+    public bool Equals(RuleNotice other) => Code == other.Code && Value == other.Value && Key == other.Key;
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is RuleNotice other && Equals(other);
 
     /// <inheritdoc/>
-    public override int GetHashCode() => Code ^ Value.GetHashCode();
+    public override int GetHashCode() => Code ^ Value.GetHashCode() ^ (Key.GetHashCode() * 397);
 
-    /// <summary>Same code and value.</summary>
+    /// <summary>Same code, value and key.</summary>
     public static bool operator ==(RuleNotice a, RuleNotice b) => a.Equals(b);
 
-    /// <summary>Another code or value.</summary>
+    /// <summary>Another code, value or key.</summary>
     public static bool operator !=(RuleNotice a, RuleNotice b) => !a.Equals(b);
 
-    /// <summary>Code and value, or the sentence if there is one, for logs.</summary>
-    public override string ToString() => Sentence ?? string.Format(CultureInfo.InvariantCulture, "notice {0} of {1}", Code, Value);
+    /// <summary>Code, value, and the key if it is not zero, or the sentence if there is one, for logs.</summary>
+    public override string ToString() => Sentence
+        ?? string.Format(CultureInfo.InvariantCulture, Key == 0 ? "notice {0} of {1}" : "notice {0} of {1} for {2}", Code, Value, Key);
 }

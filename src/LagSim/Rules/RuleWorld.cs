@@ -333,9 +333,11 @@ public sealed class RuleWorld
     /// as confirmed when nothing can change it any more.</summary>
     /// <param name="code">What; the game's own meaning.</param>
     /// <param name="value">More about it.</param>
+    /// <param name="key">What it is about, such as a player, where several things of one code are told: a late event that moves one of them
+    /// moves the one of that key.</param>
     /// <exception cref="RuleException">The call has told too much, or the code is one of the world's own
     /// (<see cref="RuleNotice.CommandFailed"/>, <see cref="RuleNotice.ChainEnded"/>).</exception>
-    public void Tell(int code, long value = 0)
+    public void Tell(int code, long value = 0, long key = 0)
     {
         CheckCalled();
         if (notices.Count == MaxNotices)
@@ -348,7 +350,7 @@ public sealed class RuleWorld
             throw new RuleException($"Code {code} is told, which stands for what the world tells itself; codes from {RuleNotice.ChainEnded + 1} on are the game's.");
         }
 
-        notices.Add(new RuleNotice(code, value));
+        notices.Add(new RuleNotice(code, value, key));
     }
 
     /// <summary>A call begins.</summary>

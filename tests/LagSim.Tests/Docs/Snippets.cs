@@ -64,11 +64,11 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         {
             switch (contact.Kind)
             {
-                case NoticeKind.Predicted:
-                    PlaySound(contact.Position, contact.ClosingSpeed, at: contact.Time);
+                case NoticeKind.Predicted or NoticeKind.Moved:
+                    PlaySound(contact.Id, contact.Position, contact.ClosingSpeed, at: contact.Time); // one sound an Id: what has begun goes on
                     break;
-                case NoticeKind.Retracted:
-                    StopSound(contact.Position);
+                case NoticeKind.InDoubt or NoticeKind.Retracted:
+                    StopSound(contact.Id); // what has not begun does not begin
                     break;
                 case NoticeKind.Confirmed:
                     Score(contact.First, contact.Second); // on the floor both are the ball; contact.Surface is the number of the surface, and -1 between two bodies
@@ -303,9 +303,9 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
     private void DrawHand(Vector3D place) => show(place);
 
-    private void PlaySound(Vector3D place, double speed, SimTime at) => show(place * (speed + at.ToSeconds()));
+    private void PlaySound(long id, Vector3D place, double speed, SimTime at) => show(place * (id + speed + at.ToSeconds()));
 
-    private void StopSound(Vector3D place) => show(place);
+    private void StopSound(long id) => show(new Vector3D(id, 0, 0));
 
     private void Score(BodyId first, BodyId second) => show(new Vector3D(first.Index, second.Index, 0));
 }

@@ -3,15 +3,16 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Rules;
+using LagSim.Tests.Hosting;
 using LagSim.Time;
 using Xunit;
 
 namespace LagSim.Tests.Rules;
 
-/// <summary>What one world's rules told, as a game hears it: fails if something is confirmed or retracted that was not predicted, or twice.</summary>
+/// <summary>What one world's rules told, as a game hears it: fails if a notice breaks its course.</summary>
 internal sealed class RuleEvents
 {
-    private readonly HashSet<(EventKey Key, int Place, RuleNotice Notice)> open = [];
+    private readonly NoticeCourses<RuleEvent> courses = new(n => new NoticeStamp(n.Kind, n.Number, n.Id, n.MovedFrom));
 
     internal RuleEvents() => Notices.Noticed += Take;
 
@@ -21,9 +22,11 @@ internal sealed class RuleEvents
 
     internal List<RuleEvent> All { get; } = [];
 
-    internal int Predicted { get; private set; }
+    internal int Predicted => courses.Predicted;
 
-    internal int Retracted { get; private set; }
+    internal int Moved => courses.Moved;
+
+    internal int Retracted => courses.Retracted;
 
     /// <summary>What the rules of a world told that kept everything, in order.</summary>
     internal static List<(EventKey Key, int Place, RuleNotice Notice)> Of(Simulation world)
@@ -46,20 +49,11 @@ internal sealed class RuleEvents
     private void Take(RuleEvent told)
     {
         All.Add(told);
-        Assert.Equal(All.Count, told.Number);
-        (EventKey Key, int Place, RuleNotice Notice) what = (told.Key, told.Place, told.Notice);
-        if (told.Kind == NoticeKind.Predicted)
-        {
-            Predicted++;
-            Assert.True(open.Add(what), $"{told} was predicted already");
-            return;
-        }
-
-        Assert.True(open.Remove(what), $"{told} was not predicted, or came before");
-        Retracted += told.Kind == NoticeKind.Retracted ? 1 : 0;
+        courses.Take(told);
+        Assert.Null(courses.Broken);
         if (told.Kind == NoticeKind.Confirmed)
         {
-            Confirmed.Add(what);
+            Confirmed.Add((told.Key, told.Place, told.Notice));
         }
     }
 }

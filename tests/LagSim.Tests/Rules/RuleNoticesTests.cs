@@ -19,7 +19,7 @@ public sealed class RuleNoticesTests
     [InlineData(HealingMode.FullRollback)]
     public void Notices_OfRandomWorldsWithLateEvents_ConfirmEachOnceInOrderAndNoOther(HealingMode mode)
     {
-        int confirmed = 0, retracted = 0, different = 0;
+        int confirmed = 0, moved = 0, different = 0;
         for (int seed = 0; seed < 60; seed++)
         {
             RandomWorld world = new(seed, sensors: seed % 2 == 0, rules: true);
@@ -43,10 +43,10 @@ public sealed class RuleNoticesTests
             Assert.Equal(late.Predicted - late.Retracted, late.Confirmed.Count + late.Notices.Pending);
             different += RuleEvents.Of(world.OnTime(world.Events.Skip(1)), At(RandomWorld.End)).SequenceEqual(late.Confirmed) ? 0 : 1;
             confirmed += late.Confirmed.Count;
-            retracted += late.Retracted;
+            moved += late.Moved;
         }
 
-        Assert.True(confirmed > 300 && retracted > 50, $"{confirmed} confirmed, {retracted} retracted");
+        Assert.True(confirmed > 300 && moved > 50, $"{confirmed} confirmed, {moved} moved");
         Assert.True(different > 10, $"{different}"); // the control: without one of the events they told something else
     }
 
@@ -75,7 +75,7 @@ public sealed class RuleNoticesTests
         world.Step(At(0.6));
         Assert.DoesNotContain(told.All.Skip(before), one => one.Notice.Code == 0);
         Assert.Equal(
-            [(NoticeKind.Retracted, 1, 0L), (NoticeKind.Predicted, 1, 7L)],
+            [(NoticeKind.Moved, 1, 7L)],
             told.All.Skip(before).Where(one => one.Key == impact).Select(one => (one.Kind, one.Place, one.Notice.Value)));
 
         // A push makes the ball meet the sides one after the other.

@@ -159,7 +159,8 @@ public sealed class PeerThreadTests
         _ = client.Do(PlayerAction.Impulse(BodyId.OfScene(0), new Vector3D(0, 1, 0)));
 
         Assert.True(ended.Wait(Deadline, TestContext.Current.CancellationToken)); // long before the time-out, whose sentence is another
-        Assert.EndsWith(" ended the session.", client.Session.EndReason, StringComparison.Ordinal);
+        Assert.EndsWith(" failed, and the session is over. An exception ended its session.", client.Session.EndReason, StringComparison.Ordinal);
+        Assert.Equal(SessionEnd.HostFailed, client.Session.EndedBy);
         Exception? told = null;
         Assert.True(SpinWait.SpinUntil(() => (told = Record.Exception(host.Latest)) is not null, Deadline)); // the others are told first
         Assert.IsType<FormatException>(Assert.IsType<InvalidOperationException>(told).InnerException);

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Text;
 using System.Text.RegularExpressions;
 using FsCheck;
 using FsCheck.Fluent;
@@ -229,7 +230,7 @@ public sealed class WirePageTests
         foreach (LeaveDatagram d in Sample(WireGen.Leave, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason)));
+                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason), ("sentence", Encoding.UTF8.GetBytes(d.Sentence))));
         }
 
         foreach ((ulong nonce, byte[] cookie) in Sample(from n in WireGen.Bits64 from c in Gen.ArrayOf(WireGen.Byte, 16) select (n, c), each))

@@ -68,7 +68,7 @@ internal sealed class ClientProtocol : ISessionProtocol
 
     internal DivergenceFinder Finder { get; }
 
-    public void Farewell() => Connection.Farewell();
+    public void Farewell(string? failure) => Connection.Farewell();
 
     public void WipeKeys()
     {

@@ -73,7 +73,7 @@ internal sealed class HostLoss(
     {
         if (connection.Link is UpdateLink link && leave.SessionId == link.SessionId && leave.Peer == 0)
         {
-            Lose(leave.Reason);
+            Lose(leave.Reason, leave.Sentence);
         }
         else
         {
@@ -94,7 +94,7 @@ internal sealed class HostLoss(
         }
         else
         {
-            Lose(reset.Reason);
+            Lose(reset.Reason, "");
         }
     }
 
@@ -158,14 +158,15 @@ internal sealed class HostLoss(
     }
 
     /// <summary>Handles a host that does not have this peer any more.</summary>
-    private void Lose(LeaveReason reason)
+    private void Lose(LeaveReason reason, string failure)
     {
-        string why = Sentence(reason);
+        string why = Sentence(reason, failure);
         SimTime now = clock.Now;
         bool isOver = reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind);
         if (isOver)
         {
             SessionEnd by = reason == LeaveReason.HostEnded ? SessionEnd.HostEnded
+                : reason == LeaveReason.HostFailed ? SessionEnd.HostFailed
                 : reason == LeaveReason.Kicked ? SessionEnd.Kicked
                 : SessionEnd.Disconnected;
             status.End(by, why);
@@ -243,7 +244,7 @@ internal sealed class HostLoss(
         return FormattableString.Invariant($"No answer from the {connection.Name} within {named.ToSeconds():0.###} s.") + unproven.Sentence;
     }
 
-    private string Sentence(LeaveReason reason) => reason switch
+    private string Sentence(LeaveReason reason, string failure) => reason switch
     {
         LeaveReason.TimedOut => $"The {connection.Name} heard nothing from this peer for too long.",
         LeaveReason.Replaced => $"This player came in from elsewhere; the {connection.Name} let this peer go.",
@@ -251,6 +252,7 @@ internal sealed class HostLoss(
         LeaveReason.FellBehind => FormattableString.Invariant(
             $"The link to the {connection.Name} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
             + " has not come over it yet.",
+        LeaveReason.HostFailed => $"The {connection.Name} failed, and the session is over.{(failure.Length == 0 ? "" : $" {failure}")}",
         LeaveReason.Kicked => $"The {connection.Name} sent this player away.",
         _ => $"The {connection.Name} ended the session.",
     };

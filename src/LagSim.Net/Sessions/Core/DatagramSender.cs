@@ -50,9 +50,10 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
     /// <param name="link">The link.</param>
     /// <param name="self">This peer's number.</param>
     /// <param name="reason">The reason.</param>
-    internal void SayGoodbye(UpdateLink link, byte self, LeaveReason reason)
+    /// <param name="sentence">What failed, where that is the reason.</param>
+    internal void SayGoodbye(UpdateLink link, byte self, LeaveReason reason, string sentence = "")
     {
-        Span<byte> bytes = stackalloc byte[WireFormat.LeaveBytes];
-        Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, self, reason).Encode(bytes)), link);
+        Span<byte> bytes = stackalloc byte[WireFormat.MaxLeaveBytes];
+        Send(bytes.Slice(0, new LeaveDatagram(link.SessionId, self, reason, sentence).Encode(bytes)), link);
     }
 }

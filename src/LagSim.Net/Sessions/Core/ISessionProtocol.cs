@@ -31,7 +31,8 @@ internal interface ISessionProtocol : IDatagramHandler
     SimTime NextDue(SimTime now);
 
     /// <summary>Says goodbye.</summary>
-    void Farewell();
+    /// <param name="failure">What failed, as a sentence, which a host tells its clients; null if nothing did.</param>
+    void Farewell(string? failure);
 
     /// <summary>Wipes the keys of all links; nothing can be sent over them any more.</summary>
     void WipeKeys();

@@ -54,12 +54,10 @@ internal sealed class SessionLoop
             return; // a fresh snapshot would be useless, and the end was reported already
         }
 
-        protocol.Farewell();
-        parts.Status.End(
-            isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed,
-            isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}"
-                : $"The world cannot be simulated any further. {failure.Message}",
-            failure);
+        string why = isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}"
+            : $"The world cannot be simulated any further. {failure.Message}";
+        protocol.Farewell(why);
+        parts.Status.End(isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed, why, failure);
     }
 
     private SimDuration StepOnce()

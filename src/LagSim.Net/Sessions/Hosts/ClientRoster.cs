@@ -137,13 +137,14 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     internal void WipeKeys() => clients.ForEach(static client => client.Link.Seal?.Dispose());
 
     /// <summary>Notifies all clients that the session is over.</summary>
-    internal void Farewell()
+    /// <param name="failure">What failed, as a sentence; null if the session ends properly.</param>
+    internal void Farewell(string? failure)
     {
         for (int n = 0; n < DatagramSender.Goodbyes; n++)
         {
             foreach (Client client in clients)
             {
-                sender.SayGoodbye(client.Link, 0, LeaveReason.HostEnded);
+                sender.SayGoodbye(client.Link, 0, failure is null ? LeaveReason.HostEnded : LeaveReason.HostFailed, failure ?? "");
             }
         }
     }

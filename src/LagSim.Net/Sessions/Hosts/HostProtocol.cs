@@ -79,7 +79,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
     public ExternalEvent Do(in PlayerAction action, SimTime time) => actions.Do(action, time);
 
-    public void Farewell() => Roster.Farewell();
+    public void Farewell(string? failure) => Roster.Farewell(failure);
 
     public bool TryRenew(SessionEnd by, string why) => false;
 
@@ -181,11 +181,10 @@ internal sealed class HostProtocol : ISessionProtocol
         timeouts.Tend(now);
         if (now > SessionParts.MaxClock)
         {
-            Farewell();
-            Parts.Status.End(
-                SessionEnd.Failed,
-                FormattableString.Invariant($"The session has lasted {SessionParts.MaxClock.ToSeconds():F0} s, the longest there is;")
-                    + " host a new one.");
+            string why = FormattableString.Invariant($"The session has lasted {SessionParts.MaxClock.ToSeconds():F0} s, the longest there is;")
+                + " host a new one.";
+            Farewell(why);
+            Parts.Status.End(SessionEnd.Failed, why);
             return;
         }
 

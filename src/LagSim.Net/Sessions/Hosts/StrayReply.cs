@@ -31,7 +31,9 @@ internal sealed class StrayReply(
 
     internal void Send(PeerAddress to, ulong sessionId)
     {
-        LeaveReason reason = status.HasEnded ? LeaveReason.HostEnded : places.WhyGone(sessionId);
+        LeaveReason reason = !status.HasEnded ? places.WhyGone(sessionId)
+            : status.EndedBy == SessionEnd.Left ? LeaveReason.HostEnded
+            : LeaveReason.HostFailed;
         Span<byte> bytes = stackalloc byte[WireFormat.ResetBytes];
         if (protection is null)
         {
