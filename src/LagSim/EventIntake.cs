@@ -71,7 +71,7 @@ internal sealed class EventIntake(
         log.DropBefore(slot, progress.HistoryEdge); // what is older can no longer be changed
         int next = log.Due(slot);
         EventKey due = next == EventLog.None ? EventKey.Before(progress.Start) : log.Key(next);
-        if (!log.TryRemove(slot, external.Peer, external.Sequence, out EventKey key))
+        if (!log.TryRemove(slot, external, out EventKey key))
         {
             return false;
         }

@@ -135,7 +135,8 @@ public sealed class Simulation
     /// <summary>Lets everything happen up to and including <paramref name="time"/>; what late events have changed is simulated
     /// again.</summary>
     /// <remarks>Reading, and advancing in smaller or larger steps, changes no bit of what happens. Cost: per event, not per time.</remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>, or more than 84 days after the
+    /// origin.</exception>
     /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
     /// memory.</exception>
     /// <exception cref="OperationCanceledException">The options' token was cancelled; everything before <see cref="SimulatedTo"/>
@@ -156,7 +157,8 @@ public sealed class Simulation
     /// that an endless instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes
     /// that is no later.</returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>, or more than 84 days after the
+    /// origin.</exception>
     /// <exception cref="SimulationException">A body left the range in which its state means something, or the timelines their
     /// memory.</exception>
     /// <exception cref="OperationCanceledException">The options' token was cancelled; everything before <see cref="SimulatedTo"/>
@@ -169,6 +171,12 @@ public sealed class Simulation
             throw new ArgumentOutOfRangeException(
                 nameof(time), time.ToShortString(), $"The world is simulated to {SimulatedTo.ToShortString()} already; it advances, and an event that lies"
                     + " before rolls it back.");
+        }
+
+        if (time > Limits.LatestTime)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(time), time.ToShortString(), $"A world lasts until {Limits.LatestTime.ToShortString()} (84 days) at most.");
         }
 
         bool isThere = Engine.Loop.TryAdvanceTo(time, ref events);
@@ -196,7 +204,7 @@ public sealed class Simulation
     /// event's time to the arrival: its own motion and contacts with static geometry, as the thesis does. Nothing before the arrival is
     /// rewritten. A hand's actions (grab, keyframe, release) are applied at the arrival as they are.</summary>
     /// <returns>The result.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The arrival is before the event's time, or more than 84 days after the origin.</exception>
     /// <exception cref="SceneException">The event carries a value that may not enter the world; nothing changed.</exception>
     public SubmitResult SubmitForwarded(in ExternalEvent external, SimTime arrival)
     {
@@ -204,6 +212,12 @@ public sealed class Simulation
         {
             throw new ArgumentOutOfRangeException(nameof(arrival), arrival.ToShortString(), $"An event of {external.Time.ToShortString()} cannot arrive before"
                 + " it happened.");
+        }
+
+        if (arrival > Limits.LatestTime)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(arrival), arrival.ToShortString(), $"A world lasts until {Limits.LatestTime.ToShortString()} (84 days) at most.");
         }
 
         Check(external);

@@ -27,6 +27,7 @@ internal sealed class ContactStep
     private NormalRefinement? normals; // made when a step needs it, as the next
     private EnergyLimit? limit;
     private readonly StepContacts contacts;
+    private readonly DeepestContacts deepest;
     private Motion[] free = Array.Empty<Motion>(); // by body
 
     internal ContactStep(Scene scene, ContactScale scale, SolverRules? rules = null)
@@ -34,6 +35,7 @@ internal sealed class ContactStep
         Scale = scale;
         Rules = rules ?? SolverRules.Usual;
         contacts = new StepContacts(scene.Surfaces, scale, Problem);
+        deepest = new DeepestContacts(Problem);
     }
 
     /// <summary>The bodies and contacts of the step, with the velocities of its middle once it is solved.</summary>
@@ -48,7 +50,11 @@ internal sealed class ContactStep
     internal int Sweeps { get; private set; }
 
     /// <summary>Begins again, with no body.</summary>
-    internal void Clear() => Problem.Clear();
+    internal void Clear()
+    {
+        Problem.Clear();
+        deepest.Clear();
+    }
 
     /// <summary>Adds a body of the island.</summary>
     /// <param name="spec">The body's spec.</param>
@@ -86,6 +92,11 @@ internal sealed class ContactStep
     /// <summary>Solves the step from the impulses that its contacts have.</summary>
     internal void Solve(double seconds, double tolerance)
     {
+        if (Rules.LimitsCrowds)
+        {
+            deepest.LeaveOut();
+        }
+
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
@@ -132,15 +143,17 @@ internal sealed class ContactStep
 
     /// <summary>
     /// Which contacts hold in the step that was solved: those that push, and those that held before and open by less than a quarter of the
-    /// tolerance, as along what is round, where a chord leads away a little and comes back.
+    /// tolerance, as along what is round, where a chord leads away a little and comes back. What the solution left out
+    /// holds where it overlaps.
     /// </summary>
     internal void FindHolding(double seconds)
     {
+        deepest.PutBack();
         contacts.FindMeetings(seconds);
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
-            c.Holds = c.Impulse > 0 || (c.Held && !c.IsElastic && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
+            c.Holds = c.Impulse > 0 || (c.IsLeftOut && c.Gap <= 0) || (c.Held && !c.IsElastic && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
         }
     }
 

@@ -15,4 +15,8 @@ internal class SolverRules
 
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
     internal virtual bool RefinesNormals => true;
+
+    /// <summary>Whether bodies that lie inside one another cost no more than as many that lie side by side: each keeps its deepest contacts in a
+    /// step, and in an impact they share the sweeps.</summary>
+    internal virtual bool LimitsCrowds => true;
 }

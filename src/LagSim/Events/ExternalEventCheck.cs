@@ -22,6 +22,11 @@ public static class ExternalEventCheck
             throw new SceneException($"{external} is of peer {SceneRules.Peer}; in a scene with rules that number stands for them.");
         }
 
+        if (external.Time > Limits.LatestTime)
+        {
+            throw new SceneException($"The time of {external} is {external.Time.ToShortString()}; a world lasts until {Limits.LatestTime.ToShortString()} at most.");
+        }
+
         ThrowIfUnfit(external, scene);
     }
 

@@ -98,8 +98,8 @@ internal sealed class IslandStepper(
             for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
             {
                 ref readonly PersistentContact contact = ref timelines.Carried.At(at);
-                if (contact.Holds && contact.Surface == PersistentContact.NoSurface && partners.TryFind(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner)
-                    && graph.IndexOf(partner) < 0)
+                if (contact.Holds && contact.Surface == PersistentContact.NoSurface && graph.IndexOf(bodies.SlotOf(contact.Partner)) < 0
+                    && partners.TryFind(bodies.Id(graph.Slots[i]), contact.Partner, key, out int partner))
                 {
                     graph.AddBody(partner);
                 }

@@ -107,10 +107,11 @@ internal class Rewinder : ISegmentOpenedObserver
     /// </summary>
     internal virtual void Mark(int slot, in EventKey key)
     {
+        SimTime last = LastPlacingTime();
         if (!IsBegunAt(key))
         {
             Rewind(slot, key);
-            RewindPlacings(key);
+            RewindPlacings(key, last);
         }
     }
 
@@ -118,9 +119,10 @@ internal class Rewinder : ISegmentOpenedObserver
     /// further than to before it.</summary>
     internal virtual void MarkRules(in EventKey key)
     {
+        SimTime last = LastPlacingTime();
         if (!IsBegunAt(key))
         {
-            RewindPlacings(key);
+            RewindPlacings(key, last);
         }
     }
 
@@ -151,18 +153,26 @@ internal class Rewinder : ISegmentOpenedObserver
     }
 
     /// <summary>
+    /// Up to when events that put a body where another may be have to be rewound: as far as the world is known, unless a rollback is under way,
+    /// which has rewound those that come after what it has done. So many late events do not rewind all of them each.
+    /// </summary>
+    private SimTime LastPlacingTime() => rollback.Kind == RollbackKind.CausalCone ? progress.SimulatedTo + SimDuration.OneTick : KnownTo;
+
+    /// <summary>
     /// Events that put a body where another may be are decided again: what a heal does before them may change who is there, also a body that
     /// was not there.
     /// </summary>
-    private protected virtual void RewindPlacings(in EventKey after)
+    /// <param name="after">From which key on.</param>
+    /// <param name="last">Up to when.</param>
+    private protected virtual void RewindPlacings(in EventKey after, SimTime last)
     {
-        for (int n = 0; n < log.PlacingCount && rollback.Kind == RollbackKind.CausalCone; n++)
+        EventKey key = after;
+        int at = log.PlacingAfter(key, out int slot);
+        while (at != EventLog.None && log.Key(at).Time <= last && rollback.Kind == RollbackKind.CausalCone)
         {
-            (int slot, EventKey key) = log.Placing(n);
-            if (EventKey.Compare(key, after) > 0 && IsKnown(key))
-            {
-                Rewind(slot, key);
-            }
+            key = log.Key(at);
+            Rewind(slot, key);
+            at = log.PlacingAfter(key, out slot);
         }
     }
 

@@ -15,6 +15,12 @@ internal static class Limits
     internal const double MaxMass = 1e30;
 
     /// <summary>
+    /// The latest instant of a world: 7 x 2^20 s, which is 84 days. The rest of what a <see cref="SimTime"/> holds, 12 days, is room for what lies
+    /// ahead of the present: steps, waits and looks ahead are instants too.
+    /// </summary>
+    internal static readonly SimTime LatestTime = SimTime.FromTicks(7L << 60);
+
+    /// <summary>
     /// The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.
     /// </summary>
     internal const double MaxRate = 1e6;

@@ -33,15 +33,28 @@ internal sealed class CarriedContacts
     internal ref readonly PersistentContact At(int contact) => ref contacts[contact];
 
     /// <summary>The contact of a member's segment with a body, or <see cref="None"/>.</summary>
+    /// <remarks>
+    /// It looks on from behind the one that it found last, since whoever asks goes through bodies in their order, as the list does.
+    /// </remarks>
     internal int With(int segment, BodyId partner)
     {
-        int at = First(segment);
-        while (at != None && (contacts[at].Surface != PersistentContact.NoSurface || contacts[at].Partner != partner))
+        ref Member member = ref members[segment];
+        int begin = member.Found == None ? None : nextContact[member.Found];
+        int found = Find(begin, None, partner);
+        found = found == None ? Find(member.First, begin, partner) : found;
+        member.Found = found == None ? member.Found : found;
+        return found;
+    }
+
+    private int Find(int from, int end, BodyId partner)
+    {
+        int at = from;
+        while (at != end && (contacts[at].Surface != PersistentContact.NoSurface || contacts[at].Partner != partner))
         {
             at = nextContact[at];
         }
 
-        return at;
+        return at == end ? None : at;
     }
 
     /// <summary>The contact of a member's segment with a static surface, or <see cref="None"/>.</summary>
@@ -86,7 +99,7 @@ internal sealed class CarriedContacts
             Array.Resize(ref members, room);
         }
 
-        members[segment] = new Member { Centre = centre, Still = still, First = None, Last = None };
+        members[segment] = new Member { Centre = centre, Still = still, First = None, Last = None, Found = None };
     }
 
     /// <summary>Adds a contact to the list of the segment begun.</summary>
@@ -148,6 +161,7 @@ internal sealed class CarriedContacts
             freeContact = members[segment].First;
             members[segment].First = None;
             members[segment].Last = None;
+            members[segment].Found = None;
         }
     }
 
@@ -172,5 +186,6 @@ internal sealed class CarriedContacts
         internal SimTime Still;
         internal int First;
         internal int Last;
+        internal int Found;
     }
 }

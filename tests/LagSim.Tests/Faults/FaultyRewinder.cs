@@ -34,11 +34,11 @@ internal sealed class FaultyRewinder(
         }
     }
 
-    private protected override void RewindPlacings(in EventKey after)
+    private protected override void RewindPlacings(in EventKey after, SimTime last)
     {
         if (!faults.Has(HealingFault.LeavesPlacings))
         {
-            base.RewindPlacings(after);
+            base.RewindPlacings(after, last);
         }
     }
 

@@ -14,9 +14,14 @@ internal sealed class FaultySolverRules : SolverRules
     /// <summary>What sweeps do not settle stays unsettled.</summary>
     internal bool SweepsAlone { get; init; }
 
+    /// <summary>Bodies inside one another are solved with all their pairs.</summary>
+    internal bool SolvesCrowds { get; init; }
+
     internal override bool LimitsHands => !HasTirelessHands;
 
     internal override bool LimitsEnergy => !GainsEnergy;
 
     internal override bool RefinesNormals => !SweepsAlone;
+
+    internal override bool LimitsCrowds => !SolvesCrowds;
 }
