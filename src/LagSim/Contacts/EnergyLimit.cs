@@ -13,6 +13,7 @@ internal sealed class EnergyLimit
 {
     private SolverBody[] bodies = Array.Empty<SolverBody>();
     private SolverContact[] contacts = Array.Empty<SolverContact>();
+    private double work; // of hands
 
     /// <summary>Remembers the solution that a problem has, to go towards it later.</summary>
     internal void Remember(ContactProblem problem)
@@ -29,10 +30,12 @@ internal sealed class EnergyLimit
 
         Array.Copy(problem.Bodies, bodies, problem.BodyCount);
         Array.Copy(problem.Contacts, contacts, problem.ContactCount);
+        work = problem.HandWork();
     }
 
     /// <summary>
-    /// Goes from the solution that the problem has now towards the remembered one, until its kinetic energy is as large as it may be, in J.
+    /// Goes from the solution that the problem has now towards the remembered one, until its kinetic energy, without the work of hands, is as
+    /// large as it may be, in J.
     /// </summary>
     internal void GoTowards(ContactProblem problem, double most)
     {
@@ -50,6 +53,7 @@ internal sealed class EnergyLimit
             c.Impulse += (contacts[i].Impulse - c.Impulse) * part;
             c.FrictionImpulse += (contacts[i].FrictionImpulse - c.FrictionImpulse) * part;
             c.Turn += (contacts[i].Turn - c.Turn) * part;
+            (c.Friction, c.Lever) = (contacts[i].Friction, contacts[i].Lever);
         }
     }
 
@@ -74,7 +78,9 @@ internal sealed class EnergyLimit
             }
         }
 
-        double room = most - energy;
+        double done = problem.HandWork();
+        along -= 0.5 * (work - done);
+        double room = most - (energy - done);
         if (!(room > 0))
         {
             return along < 0 ? Math.Min(1, -along / square) : 0; // the least energy on the way
