@@ -33,9 +33,10 @@ internal sealed class ContactProblem
             Array.Resize(ref Bodies, Math.Max(1, 2 * BodyCount));
         }
 
-        if (mass == double.PositiveInfinity && handRooms.Length < Bodies.Length)
+        if (double.IsPositiveInfinity(mass))
         {
-            Array.Resize(ref handRooms, Bodies.Length);
+            Array.Resize(ref handRooms, Math.Max(handRooms.Length, Bodies.Length));
+            handRooms[BodyCount] = mass;
         }
 
         Bodies[BodyCount] = new SolverBody { Velocity = velocity, Spin = spin, InverseMass = ImpactSolver.Inverse(mass), Radius = radius };
@@ -89,7 +90,7 @@ internal sealed class ContactProblem
     }
 
     /// <summary>
-    /// The largest impulse that a held body may give in all its contacts together, friction included, in N s. It is to be set after each is added.
+    /// The largest impulse that a held body may give in all its contacts together, friction included, in N s. Infinite until it is set.
     /// </summary>
     internal ref double HandRoom(int body) => ref handRooms[body];
 
@@ -222,11 +223,11 @@ internal sealed class ContactProblem
         return sum;
     }
 
-    /// <summary>Whether energy has grown by more than rounding, of a sum over thousands of bodies.</summary>
-    internal static bool IsGain(double before, double after) => after > before * (1 + 1e-9);
+    /// <summary>By which part energy may have grown by rounding, of a sum over thousands of bodies.</summary>
+    private const double GainByRounding = 1e-9;
 
     /// <summary>Whether the bodies have more energy than so much and the work of hands, in J, by more than rounding.</summary>
-    internal bool Gains(double most) => IsGain(most, KineticEnergy() - HandWork());
+    internal bool Gains(double most) => !(KineticEnergy() - HandWork() <= most * (1 + GainByRounding)); // also if it is not a number
 
     /// <summary>The kinetic energy of a body that is not held, at this velocity and spin; in J.</summary>
     internal static double EnergyOf(in SolverBody body, in Vector3D velocity, in Vector3D spin) =>

@@ -43,16 +43,23 @@ internal sealed class EnergyLimit
         for (int b = 0; b < problem.BodyCount; b++)
         {
             ref SolverBody body = ref problem.Bodies[b];
-            body.Velocity += (bodies[b].Velocity - body.Velocity) * part;
-            body.Spin += (bodies[b].Spin - body.Spin) * part;
+            if (part > 0)
+            {
+                body.Velocity += (bodies[b].Velocity - body.Velocity) * part;
+                body.Spin += (bodies[b].Spin - body.Spin) * part;
+            }
         }
 
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref SolverContact c = ref problem.Contacts[i];
-            c.Impulse += (contacts[i].Impulse - c.Impulse) * part;
-            c.FrictionImpulse += (contacts[i].FrictionImpulse - c.FrictionImpulse) * part;
-            c.Turn += (contacts[i].Turn - c.Turn) * part;
+            if (part > 0)
+            {
+                c.Impulse += (contacts[i].Impulse - c.Impulse) * part;
+                c.FrictionImpulse += (contacts[i].FrictionImpulse - c.FrictionImpulse) * part;
+                c.Turn += (contacts[i].Turn - c.Turn) * part;
+            }
+
             (c.Friction, c.Lever) = (contacts[i].Friction, contacts[i].Lever);
         }
     }
@@ -88,6 +95,6 @@ internal sealed class EnergyLimit
 
         double root = Math.Sqrt((along * along) + (square * room));
         double part = along > 0 ? room / (along + root) : (root - along) / square;
-        return part <= 1 ? part : 1; // not a number if the two solutions are the same
+        return part > 1 || square == 0 ? 1 : part >= 0 ? part : 0; // the same two solutions; or the remembered one is beyond all numbers
     }
 }

@@ -1,5 +1,4 @@
 using System;
-using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Motion;

@@ -1,7 +1,6 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Motion;
-using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
