@@ -110,7 +110,7 @@ internal sealed class Engine
         CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, hasIslands);
         FreeImpactResponse resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
-        HandBlows blows = new(Bodies, Timelines, graph, Step.Rules);
+        HandBlows blows = new(Bodies, Timelines, graph, capture, Step.Rules);
         ImpactSegments segments = new(Timelines, graph, trajectories, blows);
         SegmentLinker linker = parts.SegmentLinker(Bodies, Timelines, graph, partners, members);
         Isolated = parts.IsolatedImpact(
@@ -120,7 +120,7 @@ internal sealed class Engine
         IslandImpactProblem problem = new(Step, work);
         IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments);
         IslandImpact island = new(
-            scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, capture, trajectories.Friction, notifier,
+            scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, trajectories.Friction, notifier,
             memberSegments, blows);
         ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, linker);
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);

@@ -22,8 +22,6 @@ internal static class SnapshotFormat
     private const byte FilterFlag = 2;
     private const byte PlayersFlag = 4;
     private const byte SensorsFlag = 8;
-    private const byte StrengthFlag = 16;
-    private const byte BusyFlag = 32;
     private const int HoldBytes = 57; // cubic, peer, offset, keyframe
     private const int MemberBytes = 18; // centre, still since, number of contacts
     private const int SideBytes = 4; // two counts
@@ -169,7 +167,7 @@ internal static class SnapshotFormat
         }
 
         writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0) | (body.Players != PeerSet.Everyone ? PlayersFlag : 0)
-            | (IsOfSensors(body) ? SensorsFlag : 0) | (SaysStrength(body) ? StrengthFlag : 0) | (IsBusy(body) ? BusyFlag : 0)));
+            | (IsOfSensors(body) ? SensorsFlag : 0) | (body.Law == MotionLaw.Held ? HandFormat.Has(body.Hold) : 0)));
         if (Turns(body))
         {
             WriteExactly(ref writer, body.Spin);
@@ -186,15 +184,9 @@ internal static class SnapshotFormat
             writer.WriteUInt32(body.Players.Mask);
         }
 
-        if (SaysStrength(body))
+        if (body.Law == MotionLaw.Held)
         {
-            writer.WriteDouble(body.Hold.MaxForce);
-            writer.WriteDouble(body.Hold.MaxPower);
-        }
-
-        if (IsBusy(body))
-        {
-            writer.WriteInt64(body.Hold.BusyUntil.Ticks);
+            HandFormat.Write(ref writer, body.Hold);
         }
 
         if (IsMember(body.Law, body.SupportCount))
@@ -318,23 +310,6 @@ internal static class SnapshotFormat
     /// <summary>Whether its filter was changed.</summary>
     private static bool HasOtherFilter(in BodySnapshot body) => body.Filter != body.Spec.Filter;
 
-    private static bool SaysStrength(in BodySnapshot body) => body.Law == MotionLaw.Held && (body.Hold.MaxForce != 0 || body.Hold.MaxPower != 0);
-
-    private static bool IsBusy(in BodySnapshot body) => body.Law == MotionLaw.Held && body.Hold.BusyUntil != default;
-
-    /// <summary>Reads what a hand says of its strength, and until when it is busy with what it struck.</summary>
-    private static Hold ReadStrength(ref WireReader reader, in Hold hold, byte has)
-    {
-        bool saysStrength = (has & StrengthFlag) != 0;
-        bool isBusy = (has & BusyFlag) != 0;
-        double maxForce = saysStrength ? reader.ReadDouble() : 0;
-        double maxPower = saysStrength ? reader.ReadDouble() : 0;
-        SimTime busy = isBusy ? SimTime.FromTicks(reader.ReadInt64()) : default;
-        reader.Require(maxForce >= 0 && maxPower >= 0);
-        reader.Require((!saysStrength || maxForce != 0 || maxPower != 0) && isBusy == (busy != default)); // exactly one encoding
-        return new Hold(hold.Peer, hold.Offset, hold.KeyframeTime, maxForce, maxPower, busy);
-    }
-
     private static bool IsOfSensors(in BodySnapshot body) => body.Inside.Length > 0 || body.Crossings.Length > 0;
 
     private static BodySnapshot Read(ref WireReader reader)
@@ -377,14 +352,14 @@ internal static class SnapshotFormat
         byte has = reader.ReadByte();
         bool turns = (has & TurnsFlag) != 0;
         bool hasOtherFilter = (has & FilterFlag) != 0;
-        reader.Require(has <= (TurnsFlag | FilterFlag | PlayersFlag | SensorsFlag) || (held && has < 2 * BusyFlag));
+        reader.Require(has <= (TurnsFlag | FilterFlag | PlayersFlag | SensorsFlag) || (held && has <= HandFormat.MaxHas));
         Vector3D spin = turns ? ReadExactly(ref reader) : default;
         Vector3D spinRate = turns ? ReadExactly(ref reader) : default;
         CollisionFilter filter = hasOtherFilter ? EventFormat.ReadFilter(ref reader) : spec.Filter;
         reader.Require(hasOtherFilter == (filter != spec.Filter));
         PeerSet players = (has & PlayersFlag) != 0 ? EventFormat.ReadPeers(ref reader) : default;
         reader.Require((has & PlayersFlag) != 0 == (players != PeerSet.Everyone));
-        hold = held ? ReadStrength(ref reader, hold, has) : hold;
+        hold = held ? HandFormat.Read(ref reader, hold, has) : hold;
         reader.Require(!turns || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
         SimTime centre = default;
         SimTime stillSince = default;

@@ -1,5 +1,6 @@
 using System;
 using LagSim.Contacts;
+using LagSim.Islands;
 using LagSim.Motion;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -11,7 +12,7 @@ namespace LagSim.Response;
 /// An impact takes no time, so a force alone does not bound it. A hand gives in impacts what its force gives in the time that has passed, and a
 /// blow more. How much of that it has given already is on its path (<see cref="Hold.BusyUntil"/>), in the segment that each impact opens.
 /// </remarks>
-internal sealed class HandBlows(BodyTable bodies, TimelineStore timelines, ContactGraph graph, SolverRules rules)
+internal sealed class HandBlows(BodyTable bodies, TimelineStore timelines, ContactGraph graph, CaptureRule capture, SolverRules rules)
 {
     /// <summary>The largest impulse that a held body may give in all contacts of an impact together, friction included, in N s.</summary>
     internal double Room(int body, SimTime now)
@@ -22,16 +23,24 @@ internal sealed class HandBlows(BodyTable bodies, TimelineStore timelines, Conta
             : double.PositiveInfinity;
     }
 
-    /// <summary>Whether a hand would have to give more than it may so that what it strikes rebounds.</summary>
-    internal bool AreTooHard(SimTime now)
+    /// <summary>
+    /// Whether what a hand strikes may stay in contact with it: it is backed by something else, or would take more than the hand may give so
+    /// that it rebounds.
+    /// </summary>
+    internal bool MayPress(SimTime now)
     {
-        bool are = false;
-        for (int b = 0; b < graph.BodyCount && !are; b++)
+        bool may = false;
+        for (int b = 0; b < graph.BodyCount && !may; b++)
         {
-            are = double.IsPositiveInfinity(graph.Masses[b]) && WantedOf(b) > Room(b, now);
+            may = double.IsPositiveInfinity(graph.Masses[b]) && WantedOf(b) > Room(b, now);
         }
 
-        return are;
+        for (int i = 0; i < graph.ContactCount && !may; i++)
+        {
+            may = graph.IsByHand(graph.Contacts[i]) && capture.IsBacked(graph.Contacts[i]);
+        }
+
+        return may;
     }
 
     /// <summary>The impulse that a held body has given in the impact that was solved, with the most friction that goes with it, in N s.</summary>

@@ -17,7 +17,7 @@ namespace LagSim.Response;
 /// </summary>
 internal sealed class IslandImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
-    IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
+    IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, SlipFactory friction,
     ImpactNotifier notifier, IslandImpactSegments segments, HandBlows blows)
 {
     /// <summary>
@@ -33,7 +33,7 @@ internal sealed class IslandImpact(
     /// <summary>Whether the impact of the graph reaches an island, or begins one: also where a hand cannot give what it takes.</summary>
     internal bool Reaches(SimTime time)
     {
-        bool reaches = graph.HasHand() && blows.AreTooHard(time);
+        bool reaches = graph.HasHand() && blows.MayPress(time);
         for (int i = 0; i < graph.BodyCount && !reaches; i++)
         {
             reaches = paths.IsMember(timelines.Last(graph.Slots[i]));
@@ -41,7 +41,7 @@ internal sealed class IslandImpact(
 
         for (int i = 0; i < graph.ContactCount && !reaches; i++)
         {
-            reaches = graph.Contacts[i].Lasts || (graph.IsByHand(graph.Contacts[i]) && capture.IsBacked(graph.Contacts[i]));
+            reaches = graph.Contacts[i].Lasts;
         }
 
         return reaches;

@@ -57,7 +57,9 @@ internal sealed class PlayerLimits
         return Verdict.Invalid;
     }
 
-    /// <summary>A hand is no stronger than a player's may be; on a body that it spawns later, of any mass, it has to say how strong it is.</summary>
+    /// <summary>
+    /// A hand is no stronger than a player's may be; on a body that it spawns later, of any mass, it has to say how strong it is.
+    /// </summary>
     private Verdict WhyNoHand(in ExternalEvent grab, Simulation world, out string sentence)
     {
         bool isLater = grab.Body.Peer == grab.Peer && grab.Body.Sequence > grab.Sequence;
@@ -71,8 +73,10 @@ internal sealed class PlayerLimits
         return sentence.Length > 0 ? Verdict.Invalid : Verdict.Accepted;
     }
 
-    private static string TooStrong(in ExternalEvent grab, Simulation world, string what, double asked, double most, string unit) => FormattableString.Invariant(
-        $"The Grab takes {world.Scene.Describe(grab.Body)} with a greatest {what} of {asked:R} {unit}; in this session a player's hand has {most:R} {unit} there at most.");
+    private static string TooStrong(
+        in ExternalEvent grab, Simulation world, string what, double asked, double most, string unit) =>
+        FormattableString.Invariant($"The Grab takes {world.Scene.Describe(grab.Body)} with a greatest {what} of {asked:R} {unit};")
+        + FormattableString.Invariant($" in this session a player's hand has {most:R} {unit} there at most.");
 
     /// <summary>
     /// Counts a player's spawned bodies that exist. A separate method, because a lambda's closure is allocated where its method begins.
