@@ -111,7 +111,8 @@ internal sealed class Engine
         CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, hasIslands);
         FreeImpactResponse resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
-        ImpactSegments segments = new(Timelines, graph, trajectories);
+        HandBlows blows = new(Bodies, Timelines, graph, capture, Step.Rules);
+        ImpactSegments segments = new(Timelines, graph, trajectories, blows);
         SegmentLinker linker = parts.SegmentLinker(Bodies, Timelines, graph, partners, members);
         Isolated = parts.IsolatedImpact(
             scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
@@ -120,8 +121,8 @@ internal sealed class Engine
         IslandImpactProblem problem = new(Step, work);
         IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments);
         IslandImpact island = new(
-            scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, capture, trajectories.Friction, notifier,
-            memberSegments);
+            scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, trajectories.Friction, notifier,
+            memberSegments, blows);
         ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, linker);
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
         ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));

@@ -224,6 +224,16 @@ internal static class SnapshotCheck
         }
 
         Limits.Components(hold.Offset, Limits.MaxCoordinate, whose, "offset of the hand", "m");
+        Limits.InRange(hold.MaxForce, 0, Limits.MaxStrength, whose, "hand's greatest force", "N");
+        Limits.InRange(hold.MaxPower, 0, Limits.MaxStrength, whose, "hand's greatest power", "W");
+        SimTime busy = hold.BusyUntil;
+        if (busy != default && (busy <= body.Opened.Time || busy > body.Opened.Time + HandPath.Settles))
+        {
+            throw new SceneException(
+                $"The hand that holds {whose} is busy until {busy}; it must be after {body.Opened.Time.ToShortString()}, at which its path was opened, and no"
+                + $" more than {HandPath.Settles} after.");
+        }
+
         bool isPast = hold.KeyframeTime >= snapshot.Start && hold.KeyframeTime <= body.Epoch;
         SimTime told = hold.KeyframeTime;
         bool isAnEnd = body.End == told + HandPath.Settles || body.End == told + HandPath.Stops || body.End == told + HandPath.Lasts;

@@ -19,6 +19,7 @@ internal sealed class ScriptedAction
         + "keyframe (also knot: the hand that holds BODY is at a point, in m, at rest; without another for a second it releases the body), "
         + "release (with a velocity, in m/s) "
         + "or remove (without X,Y,Z). "
+        + "After X,Y,Z of a grab, /force=NEWTONS and /power=WATTS say how strong the hand is. "
         + "After X,Y,Z of a spawn or teleport, /skip does nothing if another body is there at that instant, /beside puts it beside that one; of a"
         + " spawn, /players=0+2 or /players=me says which players it belongs to. "
         + "command@SECONDS:NUMBER[,DATA] tells the scene's rules something: NUMBER is 0 to 65535, DATA up to 128 bytes as 0x and hexadecimal digits, or a text. "
@@ -33,10 +34,13 @@ internal sealed class ScriptedAction
     private readonly string? body;
     private readonly Vector3D vector;
     private readonly PlacingOptions placing;
+    private readonly HandOptions hand;
     private readonly GameCommand? command;
 
-    private ScriptedAction(string text, string kind, double seconds, double? at, string? body, Vector3D vector, PlacingOptions placing, GameCommand? command)
+    private ScriptedAction(string text, string kind, double seconds, double? at, string? body, Vector3D vector, PlacingOptions placing, GameCommand? command,
+        HandOptions hand = default)
     {
+        this.hand = hand;
         Text = text;
         this.kind = kind;
         Seconds = seconds;
@@ -97,8 +101,9 @@ internal sealed class ScriptedAction
 
         string[] last = isRemoval ? [] : parts[^1].Split('/');
         Vector3D vector = isRemoval ? default : Vector(text, last[0]);
-        PlacingOptions placing = PlacingOptions.Parse(last.Skip(1), kind, why => Wrong(text, why));
-        return new ScriptedAction(text, kind, seconds, effect, body, vector, placing, null);
+        PlacingOptions placing = kind == "grab" ? default : PlacingOptions.Parse(last.Skip(1), kind, why => Wrong(text, why));
+        HandOptions hand = kind == "grab" ? HandOptions.Parse(last.Skip(1), why => Wrong(text, why)) : default;
+        return new ScriptedAction(text, kind, seconds, effect, body, vector, placing, null, hand);
     }
 
     /// <summary>Resolves the action in a scene.</summary>
@@ -120,7 +125,7 @@ internal sealed class ScriptedAction
             "teleport" => PlayerAction.Teleport(id, vector, whenOccupied: placing.WhenOccupied),
             "set-velocity" => PlayerAction.SetVelocity(id, vector),
             "impulse" => PlayerAction.Impulse(id, vector),
-            "grab" => PlayerAction.Grab(id, vector),
+            "grab" => PlayerAction.Grab(id, vector, hand.MaxForce, hand.MaxPower),
             "keyframe" => PlayerAction.HoldKeyframe(id, vector, Vector3D.Zero),
             "release" => PlayerAction.Release(id, vector),
             "remove" => PlayerAction.Remove(id),

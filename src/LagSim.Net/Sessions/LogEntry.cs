@@ -49,7 +49,7 @@ public readonly struct LogEntry : IEquatable<LogEntry>
             EventKind.Teleport => $": to {Event.Position} m with {Event.Velocity} m/s" + Occupied(),
             EventKind.SetVelocity => $": to {Event.Velocity} m/s",
             EventKind.Impulse => $": of {Event.Velocity} N s",
-            EventKind.Grab => $": by the point {Event.Position} m from its centre",
+            EventKind.Grab => $": by the point {Event.Position} m from its centre" + Strength(),
             EventKind.HoldKeyframe => $": the hand at {Event.Position} m with {Event.Velocity} m/s",
             EventKind.Release => $": with {Event.Velocity} m/s",
             EventKind.SetFilter => $": to {Event.Filter}",
@@ -59,6 +59,9 @@ public readonly struct LogEntry : IEquatable<LogEntry>
     }
 
     private string Belongs() => Event.Players == PeerSet.Everyone ? "" : $", for {Event.Players} alone";
+
+    private string Strength() => (Event.MaxForce == 0 ? "" : FormattableString.Invariant($", with {Event.MaxForce:R} N at most"))
+        + (Event.MaxPower == 0 ? "" : FormattableString.Invariant($", with {Event.MaxPower:R} W at most"));
 
     private string Occupied() => Event.WhenOccupied == WhenOccupied.Overlap ? "" : $", {Event.WhenOccupied} if another body is there";
 }

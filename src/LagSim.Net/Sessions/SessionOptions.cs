@@ -86,6 +86,20 @@ public abstract record SessionOptions
     /// </remarks>
     public double MaxGivenSpeed { get; init; } = 1_000;
 
+    /// <summary>
+    /// The greatest force in N that a player's hand may have, above 0, up to <see cref="double.PositiveInfinity"/>; or 0, the default, for that
+    /// of a hand that asks for none: 1000 N for each kg that it holds (<see cref="Motion.HandStrength"/>). A host refuses a grab of a
+    /// stronger hand as <see cref="Verdict.Invalid"/>, by its own option; a client's own <see cref="Session.Do"/> goes by the client's.
+    /// </summary>
+    /// <remarks>Below 1000 N for each kg that is held, players have to say in <see cref="Events.PlayerAction.Grab"/> that they ask for less.</remarks>
+    public double MaxHandForce { get; init; }
+
+    /// <summary>
+    /// The greatest power in W that a player's hand may have, above 0, up to <see cref="double.PositiveInfinity"/>; or 0, the default, for
+    /// that of a hand that asks for none: what the greatest force that it may have gives at 50 m/s. As <see cref="MaxHandForce"/>.
+    /// </summary>
+    public double MaxHandPower { get; init; }
+
     /// <summary>How many bodies spawned by one player may exist at a time, 0 to 1,000,000; default 64.</summary>
     /// <remarks>
     /// Those of former holders of the player's number count too. A host refuses more as <see cref="Verdict.NoRight"/>, by its own
@@ -288,6 +302,18 @@ public abstract record SessionOptions
         {
             throw new ArgumentOutOfRangeException(
                 nameof(MaxGivenSpeed), MaxGivenSpeed, "The highest speed that a player may give is above 0 m/s.");
+        }
+
+        if (!(MaxHandForce >= 0))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(MaxHandForce), MaxHandForce, "The greatest force of a player's hand is above 0 N, or 0 for what a hand has by default.");
+        }
+
+        if (!(MaxHandPower >= 0))
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(MaxHandPower), MaxHandPower, "The greatest power of a player's hand is above 0 W, or 0 for what a hand has by default.");
         }
 
         if (MaxSpawned is < 0 or > 1_000_000)

@@ -34,6 +34,8 @@ internal static class EventFormat
     private const int PlainSpawnBytes = HeadBytes + SpecHeadBytes + (3 * VectorBytes) + 1; // everyone's, without a filter and a tag
     private const int OccupiedShift = 6; // the two highest bits of the kind: what becomes of what is put where another body is
     private const int KindBits = (1 << OccupiedShift) - 1;
+    private const int StrengthBytes = 2 * sizeof(double);
+    private const int HasStrength = 1; // in the two highest bits of a grab's kind, which places nothing
 
     // What a spawn has, so that a plain one stays short.
     private const int PlayersFlag = 1;
@@ -50,7 +52,7 @@ internal static class EventFormat
 
         int has = what.Kind == EventKind.Spawn ? Has(what) : 0;
         return ShortestLength(what.Kind) + ((has & PlayersFlag) != 0 ? PlayersBytes : 0) + ((has & FilterFlag) != 0 ? FilterBytes : 0)
-            + ((has & TagFlag) != 0 ? TagBytes : 0);
+            + ((has & TagFlag) != 0 ? TagBytes : 0) + (SaysStrength(what) ? StrengthBytes : 0);
     }
 
     private static int ShortestLength(EventKind kind) => kind switch
@@ -75,6 +77,8 @@ internal static class EventFormat
         && what.Velocity.IsFinite
         && what.Spin.IsFinite
         && what.WhenOccupied <= WhenOccupied.Beside
+        && what.MaxForce is >= 0 and <= double.MaxValue
+        && what.MaxPower is >= 0 and <= double.MaxValue
         && (what.Kind != EventKind.Spawn || IsSpecWellFormed(what.Spec));
 
     /// <summary>Writes an event; every -0.0 becomes 0.0.</summary>
@@ -86,7 +90,7 @@ internal static class EventFormat
             throw new ArgumentException($"'{what}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(what));
         }
 
-        writer.WriteByte((byte)((int)what.Kind | ((int)what.WhenOccupied << OccupiedShift)));
+        writer.WriteByte((byte)((int)what.Kind | ((SaysStrength(what) ? HasStrength : (int)what.WhenOccupied) << OccupiedShift)));
         writer.WriteByte(what.Peer);
         writer.WriteUInt32(what.Sequence);
         writer.WriteTime(what.Time);
@@ -125,7 +129,16 @@ internal static class EventFormat
         {
             WriteFilter(ref writer, what.Filter);
         }
+
+        if (SaysStrength(what))
+        {
+            writer.WriteDouble(what.MaxForce);
+            writer.WriteDouble(what.MaxPower);
+        }
     }
+
+    /// <summary>Whether a grab says how strong the hand is.</summary>
+    private static bool SaysStrength(in ExternalEvent what) => what.MaxForce != 0 || what.MaxPower != 0;
 
     /// <summary>Reads an event; the reader refuses one that is not well formed. Never throws.</summary>
     /// <returns>The event; <c>default</c> when the reader has refused.</returns>
@@ -133,7 +146,8 @@ internal static class EventFormat
     {
         int first = reader.ReadByte();
         EventKind kind = (EventKind)(first & KindBits);
-        WhenOccupied whenOccupied = (WhenOccupied)(first >> OccupiedShift);
+        bool saysStrength = kind == EventKind.Grab && first >> OccupiedShift == HasStrength;
+        WhenOccupied whenOccupied = saysStrength ? WhenOccupied.Overlap : (WhenOccupied)(first >> OccupiedShift);
         reader.Require((ShortestLength(kind) > 0 || kind == EventKind.Command)
             && (whenOccupied == WhenOccupied.Overlap || kind is EventKind.Spawn or EventKind.Teleport));
         byte peer = reader.ReadByte();
@@ -156,11 +170,15 @@ internal static class EventFormat
         }
 
         CollisionFilter filter = kind == EventKind.SetFilter ? ReadFilter(ref reader) : default;
+        double maxForce = saysStrength ? reader.ReadDouble() : 0;
+        double maxPower = saysStrength ? reader.ReadDouble() : 0;
+        reader.Require(!saysStrength || maxForce != 0 || maxPower != 0); // exactly one encoding
         PlayerAction action = kind switch
         {
             EventKind.Spawn => PlayerAction.Spawn(spec, position, velocity, spin, players, whenOccupied),
             EventKind.Teleport => PlayerAction.Teleport(body, position, velocity, whenOccupied),
             EventKind.SetFilter => PlayerAction.SetFilter(body, filter),
+            EventKind.Grab => PlayerAction.Grab(body, position, maxForce, maxPower),
             _ => Action(kind, body, position, velocity),
         };
         ExternalEvent what = action.Kind == EventKind.None ? default : action.Stamp(time, peer, sequence);
@@ -198,7 +216,6 @@ internal static class EventFormat
             EventKind.Remove => PlayerAction.Remove(body),
             EventKind.SetVelocity => PlayerAction.SetVelocity(body, velocity),
             EventKind.Impulse => PlayerAction.Impulse(body, velocity),
-            EventKind.Grab => PlayerAction.Grab(body, position),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, position, velocity),
             EventKind.Release => PlayerAction.Release(body, velocity),
             _ => default,

@@ -167,7 +167,7 @@ internal static class SnapshotFormat
         }
 
         writer.WriteByte((byte)((Turns(body) ? TurnsFlag : 0) | (HasOtherFilter(body) ? FilterFlag : 0) | (body.Players != PeerSet.Everyone ? PlayersFlag : 0)
-            | (IsOfSensors(body) ? SensorsFlag : 0)));
+            | (IsOfSensors(body) ? SensorsFlag : 0) | (body.Law == MotionLaw.Held ? HandFormat.Has(body.Hold) : 0)));
         if (Turns(body))
         {
             WriteExactly(ref writer, body.Spin);
@@ -182,6 +182,11 @@ internal static class SnapshotFormat
         if (body.Players != PeerSet.Everyone)
         {
             writer.WriteUInt32(body.Players.Mask);
+        }
+
+        if (body.Law == MotionLaw.Held)
+        {
+            HandFormat.Write(ref writer, body.Hold);
         }
 
         if (IsMember(body.Law, body.SupportCount))
@@ -347,13 +352,14 @@ internal static class SnapshotFormat
         byte has = reader.ReadByte();
         bool turns = (has & TurnsFlag) != 0;
         bool hasOtherFilter = (has & FilterFlag) != 0;
-        reader.Require(has <= (TurnsFlag | FilterFlag | PlayersFlag | SensorsFlag));
+        reader.Require(has <= (TurnsFlag | FilterFlag | PlayersFlag | SensorsFlag) || (held && has <= HandFormat.MaxHas));
         Vector3D spin = turns ? ReadExactly(ref reader) : default;
         Vector3D spinRate = turns ? ReadExactly(ref reader) : default;
         CollisionFilter filter = hasOtherFilter ? EventFormat.ReadFilter(ref reader) : spec.Filter;
         reader.Require(hasOtherFilter == (filter != spec.Filter));
         PeerSet players = (has & PlayersFlag) != 0 ? EventFormat.ReadPeers(ref reader) : default;
         reader.Require((has & PlayersFlag) != 0 == (players != PeerSet.Everyone));
+        hold = held ? HandFormat.Read(ref reader, hold, has) : hold;
         reader.Require(!turns || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
         SimTime centre = default;
         SimTime stillSince = default;

@@ -109,7 +109,8 @@ internal sealed class MemberContacts(
     }
 
     /// <summary>
-    /// The same for a hand, which may speed up, and a member: they close neither where the later segment begins nor where the step ends.
+    /// The same for a hand, which may speed up, and a member: they close neither where the later segment begins nor where the step ends, or the
+    /// hand may give no more in an impact than it will in a step.
     /// </summary>
     private bool IsCoveredFromHand(int hand, int handPiece, int piece)
     {
@@ -125,6 +126,11 @@ internal sealed class MemberContacts(
         }
 
         SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(handPiece).Time);
+        if (HandStrength.BlowLeft(timelines.HoldOf(handPiece), opened) < scale.Step.ToSeconds())
+        {
+            return true; // it has struck with all that it has: the next step gives more
+        }
+
         SimTime end = SimTime.Min(timelines.Segment(piece).End, timelines.Segment(handPiece).End);
         return end >= opened && OpeningAt(handPiece, piece, opened) >= -scale.ImpactSpeed && OpeningAt(handPiece, piece, end) >= -scale.ImpactSpeed;
     }

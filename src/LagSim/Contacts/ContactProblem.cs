@@ -36,6 +36,12 @@ internal sealed class ContactProblem
             Array.Resize(ref Bodies, Math.Max(1, 2 * BodyCount));
         }
 
+        if (double.IsPositiveInfinity(mass))
+        {
+            Array.Resize(ref handRooms, Math.Max(handRooms.Length, Bodies.Length));
+            handRooms[BodyCount] = mass;
+        }
+
         Bodies[BodyCount] = new SolverBody { Velocity = velocity, Spin = spin, InverseMass = ImpactSolver.Inverse(mass), Radius = radius };
         return BodyCount++;
     }
@@ -84,6 +90,47 @@ internal sealed class ContactProblem
             TurnMass = turning > 0 ? 1 / (ImpactFriction.TurnPerImpulse * turning) : 0,
         };
         return ref c;
+    }
+
+    /// <summary>
+    /// The largest impulse that a held body may give in all its contacts together, friction included, in N s. Infinite until it is set.
+    /// </summary>
+    internal ref double HandRoom(int body) => ref handRooms[body];
+
+    private double[] handRooms = Array.Empty<double>(); // by body, of held ones
+
+    /// <summary>Whether a contact is with a held body, and which that is.</summary>
+    internal bool IsByHand(in SolverContact c, out int hand)
+    {
+        hand = Bodies[c.First].InverseMass == 0 ? c.First : c.Second;
+        return hand >= 0 && Bodies[hand].InverseMass == 0;
+    }
+
+    /// <summary>The work that hands do on the bodies that they touch, in J: what they push times how far they go.</summary>
+    internal double HandWork()
+    {
+        double sum = 0;
+        for (int i = 0; i < ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref Contacts[i];
+            if (IsByHand(c, out int hand))
+            {
+                Vector3D push = (c.Normal * c.Impulse) + c.FrictionImpulse; // on the first
+                sum += Vector3D.Dot(hand == c.First ? -push : push, Bodies[hand].Velocity);
+            }
+        }
+
+        return sum;
+    }
+
+    /// <summary>No contact has impulses, need open, or rubs: a solution of this makes no energy, even where sweeps do not settle.</summary>
+    internal void DropFriction()
+    {
+        DropRebounds();
+        for (int i = 0; i < ContactCount; i++)
+        {
+            (Contacts[i].Friction, Contacts[i].Lever) = (0, 0);
+        }
     }
 
     /// <summary>No contact has impulses any more, nor need it open.</summary>
@@ -196,8 +243,11 @@ internal sealed class ContactProblem
         return sum;
     }
 
-    /// <summary>Whether energy has grown by more than rounding, of a sum over thousands of bodies.</summary>
-    internal static bool IsGain(double before, double after) => after > before * (1 + 1e-9);
+    /// <summary>By which part energy may have grown by rounding, of a sum over thousands of bodies.</summary>
+    private const double GainByRounding = 1e-9;
+
+    /// <summary>Whether the bodies have more energy than so much and the work of hands, in J, by more than rounding.</summary>
+    internal bool Gains(double most) => !(KineticEnergy() - HandWork() <= most * (1 + GainByRounding)); // also if it is not a number
 
     /// <summary>The kinetic energy of a body that is not held, at this velocity and spin; in J.</summary>
     internal static double EnergyOf(in SolverBody body, in Vector3D velocity, in Vector3D spin) =>

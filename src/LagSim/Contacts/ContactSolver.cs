@@ -1,4 +1,5 @@
 using System;
+using LagSim.Motion;
 using LagSim.Scenes;
 
 namespace LagSim.Contacts;
@@ -142,11 +143,63 @@ internal static class ContactSolver
         for (int i = 0; i < problem.ContactCount && hasHand; i++)
         {
             ref SolverContact c = ref problem.Contacts[i];
-            bool isByHand = problem.Bodies[c.First].InverseMass == 0 || (c.Second >= 0 && problem.Bodies[c.Second].InverseMass == 0);
-            c.Most = isByHand ? mass * (Math.Max(0, c.Target - Opening(problem, c)) + more) : double.PositiveInfinity;
+            bool isByHand = problem.IsByHand(c, out int hand);
+            c.Most = isByHand
+                ? Math.Min(mass * (Math.Max(0, c.Target - Opening(problem, c)) + more), problem.HandRoom(hand) / HandStrength.WithFriction(c.Friction))
+                : double.PositiveInfinity;
             c.Impulse = Math.Min(c.Impulse, c.Most);
             c.Seen = isByHand ? double.NegativeInfinity : c.Seen;
         }
+    }
+
+    /// <summary>
+    /// Where a hand gives more in all its contacts together than it may, each of them is limited to its share of that; true if any is, and the
+    /// problem has to be solved again.
+    /// </summary>
+    internal static bool ShareHands(ContactProblem problem)
+    {
+        bool any = false;
+        for (int b = 0; b < problem.BodyCount; b++)
+        {
+            if (problem.Bodies[b].InverseMass > 0)
+            {
+                continue;
+            }
+
+            double given = GivenBy(problem, b);
+            double room = problem.HandRoom(b);
+            if (!(given > room * (1 + 1e-12))) // but for rounding, of a share that was kept
+            {
+                continue;
+            }
+
+            any = true;
+            for (int i = 0; i < problem.ContactCount; i++)
+            {
+                ref SolverContact c = ref problem.Contacts[i];
+                if (problem.IsByHand(c, out int hand) && hand == b)
+                {
+                    c.Most = c.Impulse * (room / given);
+                    c.Impulse = c.Most;
+                    c.Seen = double.NegativeInfinity;
+                }
+            }
+        }
+
+        return any;
+    }
+
+    /// <summary>The impulse that a held body gives in all its contacts together, with the most friction that goes with it, in N s.</summary>
+    internal static double GivenBy(ContactProblem problem, int held)
+    {
+        double given = 0;
+        for (int i = 0; i < problem.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref problem.Contacts[i];
+            given += c.First == held || c.Second == held ? c.Impulse * HandStrength.WithFriction(c.Friction) : 0;
+        }
+
+        return given;
     }
 
     /// <summary>How fast, and which way, the surfaces of the two of a contact slip on each other, in m/s.</summary>

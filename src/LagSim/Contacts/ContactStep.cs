@@ -120,6 +120,12 @@ internal sealed class ContactStep
     /// </summary>
     internal void LimitEnergy(double seconds, double tolerance)
     {
+        bool hasHand = Problem.HasHand();
+        if (hasHand && ContactSolver.ShareHands(Problem))
+        {
+            SolveAgain(tolerance);
+        }
+
         double most = Problem.EnergyAt(Scale.Pull * seconds);
         double came = 0;
         for (int b = 0; b < Problem.BodyCount; b++)
@@ -128,8 +134,8 @@ internal sealed class ContactStep
             came += body.InverseMass > 0 ? ContactProblem.EnergyOf(body, free[b].Velocity, free[b].Spin) : 0;
         }
 
-        most = Math.Max(most, came);
-        if (Problem.HasHand() || !Rules.LimitsEnergy || !ContactProblem.IsGain(most, Problem.KineticEnergy()))
+        most = hasHand ? most + came : Math.Max(most, came);
+        if (!Rules.LimitsEnergy || (hasHand && !Rules.BoundsHands) || !Problem.Gains(most))
         {
             return;
         }
@@ -138,6 +144,12 @@ internal sealed class ContactStep
         limit.Remember(Problem);
         Problem.DropRebounds();
         SolveAgain(tolerance);
+        if (Problem.Gains(most))
+        {
+            Problem.DropFriction();
+            SolveAgain(tolerance);
+        }
+
         limit.GoTowards(Problem, most);
     }
 

@@ -13,6 +13,7 @@ internal sealed class EnergyLimit
 {
     private SolverBody[] bodies = Array.Empty<SolverBody>();
     private SolverContact[] contacts = Array.Empty<SolverContact>();
+    private double work; // of hands
 
     /// <summary>Remembers the solution that a problem has, to go towards it later.</summary>
     internal void Remember(ContactProblem problem)
@@ -29,10 +30,12 @@ internal sealed class EnergyLimit
 
         Array.Copy(problem.Bodies, bodies, problem.BodyCount);
         Array.Copy(problem.Contacts, contacts, problem.ContactCount);
+        work = problem.HandWork();
     }
 
     /// <summary>
-    /// Goes from the solution that the problem has now towards the remembered one, until its kinetic energy is as large as it may be, in J.
+    /// Goes from the solution that the problem has now towards the remembered one, until its kinetic energy, without the work of hands, is as
+    /// large as it may be, in J.
     /// </summary>
     internal void GoTowards(ContactProblem problem, double most)
     {
@@ -40,16 +43,24 @@ internal sealed class EnergyLimit
         for (int b = 0; b < problem.BodyCount; b++)
         {
             ref SolverBody body = ref problem.Bodies[b];
-            body.Velocity += (bodies[b].Velocity - body.Velocity) * part;
-            body.Spin += (bodies[b].Spin - body.Spin) * part;
+            if (part > 0)
+            {
+                body.Velocity += (bodies[b].Velocity - body.Velocity) * part;
+                body.Spin += (bodies[b].Spin - body.Spin) * part;
+            }
         }
 
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref SolverContact c = ref problem.Contacts[i];
-            c.Impulse += (contacts[i].Impulse - c.Impulse) * part;
-            c.FrictionImpulse += (contacts[i].FrictionImpulse - c.FrictionImpulse) * part;
-            c.Turn += (contacts[i].Turn - c.Turn) * part;
+            if (part > 0)
+            {
+                c.Impulse += (contacts[i].Impulse - c.Impulse) * part;
+                c.FrictionImpulse += (contacts[i].FrictionImpulse - c.FrictionImpulse) * part;
+                c.Turn += (contacts[i].Turn - c.Turn) * part;
+            }
+
+            (c.Friction, c.Lever) = (contacts[i].Friction, contacts[i].Lever);
         }
     }
 
@@ -74,7 +85,9 @@ internal sealed class EnergyLimit
             }
         }
 
-        double room = most - energy;
+        double done = problem.HandWork();
+        along -= 0.5 * (work - done);
+        double room = most - (energy - done);
         if (!(room > 0))
         {
             return along < 0 ? Math.Min(1, -along / square) : 0; // the least energy on the way
@@ -82,6 +95,6 @@ internal sealed class EnergyLimit
 
         double root = Math.Sqrt((along * along) + (square * room));
         double part = along > 0 ? room / (along + root) : (root - along) / square;
-        return part <= 1 ? part : 1; // not a number if the two solutions are the same
+        return part > 1 || square == 0 ? 1 : part >= 0 ? part : 0; // the same two solutions; or the remembered one is beyond all numbers
     }
 }

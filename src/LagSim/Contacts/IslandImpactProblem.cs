@@ -77,12 +77,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
         int taken = ContactSolver.Solve(Problem, tolerance, most, knownBodies, knownContacts);
         if (most == ContactStep.MaxSweeps && step.Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, taken, tolerance))
         {
-            for (int i = 0; i < Problem.BodyCount; i++)
-            {
-                Problem.Bodies[i].Velocity = velocitiesBefore[i];
-                Problem.Bodies[i].Spin = spinsBefore[i];
-            }
-
+            GoBack();
             normals ??= new NormalRefinement();
             taken += normals.Solve(Problem, tolerance);
         }
@@ -105,22 +100,49 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
     /// <summary>Rebound and friction together may make energy where several contacts share bodies; then there is no rebound.</summary>
     internal void DropReboundsThatGain(double tolerance)
     {
-        double after = Problem.KineticEnergy();
         SwapVelocities();
-        if (!step.Rules.LimitsEnergy || Problem.HasHand() || !ContactProblem.IsGain(Problem.KineticEnergy(), after))
+        double before = Problem.KineticEnergy();
+        SwapVelocities();
+        if (!step.Rules.LimitsEnergy || (!step.Rules.BoundsHands && Problem.HasHand()) || !Problem.Gains(before))
         {
-            SwapVelocities();
             return;
         }
 
+        Problem.DropRebounds();
+        SolveAnew(tolerance);
+        if (Problem.Gains(before))
+        {
+            Problem.DropFriction();
+            SolveAnew(tolerance);
+        }
+    }
+
+    /// <summary>
+    /// Has each hand give no more in all its contacts together than it may; true if one would have given more, and the impact was solved again.
+    /// </summary>
+    internal void ShareHands(double tolerance)
+    {
+        if (ContactSolver.ShareHands(Problem))
+        {
+            SolveAnew(tolerance);
+        }
+    }
+
+    /// <summary>Solves it again from no impulses.</summary>
+    private void SolveAnew(double tolerance)
+    {
+        Problem.DropImpulses();
+        GoBack();
+        Solve(tolerance, ContactStep.MaxSweeps, 0, 0);
+    }
+
+    private void GoBack()
+    {
         for (int i = 0; i < Problem.BodyCount; i++)
         {
-            velocitiesBefore[i] = Problem.Bodies[i].Velocity;
-            spinsBefore[i] = Problem.Bodies[i].Spin;
+            Problem.Bodies[i].Velocity = velocitiesBefore[i];
+            Problem.Bodies[i].Spin = spinsBefore[i];
         }
-
-        Problem.DropRebounds();
-        Solve(tolerance, ContactStep.MaxSweeps, 0, 0);
     }
 
     private void SwapVelocities()

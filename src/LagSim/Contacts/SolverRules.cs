@@ -7,8 +7,11 @@ internal class SolverRules
     /// <summary>All of them.</summary>
     internal static readonly SolverRules Usual = new();
 
-    /// <summary>Whether a hand pushes with a limited force only.</summary>
+    /// <summary>Whether a hand pushes only as hard as what gives way needs.</summary>
     internal virtual bool LimitsHands => true;
+
+    /// <summary>Whether a hand has a greatest force and power of its own, and what it touches gains no more energy than it gives.</summary>
+    internal virtual bool BoundsHands => true;
 
     /// <summary>Whether overlap is pushed out, and what is struck rebounds, only as far as that makes no energy.</summary>
     internal virtual bool LimitsEnergy => true;

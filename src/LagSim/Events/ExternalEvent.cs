@@ -16,8 +16,11 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 {
     private ExternalEvent(
         EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
-        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default, GameCommand? command = null)
+        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default, GameCommand? command = null,
+        double maxForce = 0, double maxPower = 0)
     {
+        MaxForce = maxForce;
+        MaxPower = maxPower;
         Command = command;
         Kind = kind;
         Time = time;
@@ -74,6 +77,12 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>What becomes of a spawn or a teleport if another body is there; the default for any other event.</summary>
     public WhenOccupied WhenOccupied { get; }
 
+    /// <summary>The greatest force in N of a hand that grabs; 0 for the default, and for any other event.</summary>
+    public double MaxForce { get; }
+
+    /// <summary>The greatest power in W of a hand that grabs; 0 for the default, and for any other event.</summary>
+    public double MaxPower { get; }
+
     /// <summary>What a <see cref="EventKind.Command"/> tells the game's rules; null for any other.</summary>
     public GameCommand? Command { get; }
 
@@ -115,8 +124,9 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// the hand is assumed to be at rest where the body was. It does not get a body that is held already, or one that is faster than a
     /// player may make it. A held body does not turn, nor does it when it is released.
     /// </summary>
-    internal static ExternalEvent Grab(SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default) =>
-        new(EventKind.Grab, time, peer, sequence, body, offset, default, default);
+    internal static ExternalEvent Grab(
+        SimTime time, byte peer, uint sequence, BodyId body, Vector3D offset = default, double maxForce = 0, double maxPower = 0) =>
+        new(EventKind.Grab, time, peer, sequence, body, offset, default, default, maxForce: maxForce, maxPower: maxPower);
 
     /// <summary>
     /// The peer's hand, if it holds the body, is at a position (metres) with a velocity (m/s) now; see <see cref="Motion.HandPath"/> for
@@ -141,13 +151,14 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>
     public ExternalEvent At(SimTime time) =>
-        new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Players, WhenOccupied, Command);
+        new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Players, WhenOccupied, Command, MaxForce, MaxPower);
 
     /// <inheritdoc/>
     public bool Equals(ExternalEvent other) =>
         Kind == other.Kind && Time == other.Time && Peer == other.Peer && Sequence == other.Sequence && Body == other.Body
         && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin)
         && Filter == other.Filter && Players == other.Players && WhenOccupied == other.WhenOccupied
+        && MaxForce.Equals(other.MaxForce) && MaxPower.Equals(other.MaxPower)
         && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
 
     /// <inheritdoc/>

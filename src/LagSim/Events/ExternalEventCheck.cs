@@ -73,6 +73,8 @@ public static class ExternalEventCheck
             Limits.CheckVelocity(external.Velocity, scene.SmallestRadius, whose);
         }
 
+        Limits.InRange(external.MaxForce, 0, Limits.MaxStrength, whose, "greatest force", "N (0: the default)");
+        Limits.InRange(external.MaxPower, 0, Limits.MaxStrength, whose, "greatest power", "W (0: the default)");
         if (external.Kind == EventKind.Spawn)
         {
             CheckSpawn(external, scene, whose);

@@ -25,13 +25,17 @@ public readonly struct PlayerAction
     private readonly CollisionFilter filter;
     private readonly PeerSet players;
     private readonly WhenOccupied whenOccupied;
+    private readonly double maxForce;
+    private readonly double maxPower;
 
     private readonly GameCommand? command;
 
     private PlayerAction(
         EventKind kind, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
-        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default)
+        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default, double maxForce = 0, double maxPower = 0)
     {
+        this.maxForce = maxForce;
+        this.maxPower = maxPower;
         command = null;
         Kind = kind;
         this.body = body;
@@ -96,7 +100,14 @@ public readonly struct PlayerAction
     /// where the body was. A body that is held already, or faster than a player may make it, is not taken. A held body does not turn, nor
     /// does it when it is released.
     /// </summary>
-    public static PlayerAction Grab(BodyId body, Vector3D offset = default) => new(EventKind.Grab, body, offset, default, default);
+    /// <param name="body">The body.</param>
+    /// <param name="offset">From its centre to the hand's point, in metres; default none.</param>
+    /// <param name="maxForce">The greatest force in N with which it pushes what it meets, above 0 and up to 1e30. By default 1000 N for each kg
+    /// of the body (<see cref="Motion.HandStrength"/>). What would take more force, it goes through. A host may refuse a grab that asks for
+    /// more than it allows.</param>
+    /// <param name="maxPower">Its greatest power in W, above 0 and up to 1e30. By default what its greatest force gives at 50 m/s.</param>
+    public static PlayerAction Grab(BodyId body, Vector3D offset = default, double maxForce = 0, double maxPower = 0) =>
+        new(EventKind.Grab, body, offset, default, default, maxForce: maxForce, maxPower: maxPower);
 
     /// <summary>The hand that holds the body is at a position (metres) with a velocity (m/s).</summary>
     public static PlayerAction HoldKeyframe(BodyId body, Vector3D position, Vector3D velocity) => new(EventKind.HoldKeyframe, body, position, velocity, default);
@@ -127,7 +138,7 @@ public readonly struct PlayerAction
         EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity, whenOccupied),
         EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
         EventKind.Impulse => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
-        EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
+        EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position, maxForce, maxPower),
         EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
         EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
         EventKind.Command => ExternalEvent.Tell(time, peer, sequence, command!),

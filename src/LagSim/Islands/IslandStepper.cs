@@ -198,6 +198,11 @@ internal sealed class IslandStepper(
             step.AddBody(
                 spec, graph.Positions[i], velocity, gain, graph.Spins[i], isHeld, spec.Forces.IsEmpty || isHeld ? 0 : graph.Accelerations[i].Length,
                 timelines.Extras.Filter(piece));
+            if (isHeld)
+            {
+                step.Problem.HandRoom(i) = step.Rules.BoundsHands
+                    ? seconds * HandStrength.ForceAt(timelines.HoldOf(piece), spec.Mass, velocity.Length) : double.PositiveInfinity;
+            }
         }
 
         step.FindContacts(seconds);

@@ -44,7 +44,9 @@ internal class SegmentLinker(
         }
         else
         {
-            timelines.Append(slot, bodies.Id(slot), key, timelines.Segment(last), timelines.Dense(last), timelines.HoldOf(last), timelines.SpinOf(last));
+            Hold hold = timelines.HoldOf(last);
+            timelines.Append(
+                slot, bodies.Id(slot), key, timelines.Segment(last), timelines.Dense(last), hold.Busy(hold.BusyAt(key.Time)), timelines.SpinOf(last));
         }
     }
 }

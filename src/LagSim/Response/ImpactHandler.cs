@@ -41,7 +41,7 @@ internal sealed class ImpactHandler(
         partners.NearMisses.Clear();
         EventKey canonical = graph.CanonicalKey(key);
         ImpactOutcome outcome = graph.HasHand() ? island.Handle(canonical, residual, presses: true) : ImpactOutcome.GivesWay;
-        if (outcome == ImpactOutcome.GivesWay && island.Reaches())
+        if (outcome == ImpactOutcome.GivesWay && island.Reaches(canonical.Time))
         {
             outcome = island.Handle(canonical, residual, presses: false);
         }

@@ -7,7 +7,7 @@ using LagSim.Trajectories;
 namespace LagSim.Response;
 
 /// <summary>Opens the segments on which bodies leave an impact.</summary>
-internal sealed class ImpactSegments(TimelineStore timelines, ContactGraph graph, TrajectoryFactory trajectories)
+internal sealed class ImpactSegments(TimelineStore timelines, ContactGraph graph, TrajectoryFactory trajectories, HandBlows blows)
 {
     private readonly Paths paths = new(timelines);
     private readonly PlaneSet touched = new();
@@ -21,7 +21,7 @@ internal sealed class ImpactSegments(TimelineStore timelines, ContactGraph graph
         int slot = graph.Slots[body];
         if (paths.IsHeld(timelines.Last(slot)))
         {
-            trajectories.Hands.GoOn(slot, key);
+            trajectories.Hands.GoOn(slot, key, blows.GivenBy(body), graph.Velocities[body].Length);
             return;
         }
 

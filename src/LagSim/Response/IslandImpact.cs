@@ -17,8 +17,8 @@ namespace LagSim.Response;
 /// </summary>
 internal sealed class IslandImpact(
     Scene scene, BodyTable bodies, TimelineStore timelines, RewindRequests rewinds, ContactGraph graph, ContactScale scale,
-    IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, CaptureRule capture, SlipFactory friction,
-    ImpactNotifier notifier, IslandImpactSegments segments)
+    IslandImpactProblem impact, Partners partners, MemberContacts memberContacts, SlipFactory friction,
+    ImpactNotifier notifier, IslandImpactSegments segments, HandBlows blows)
 {
     /// <summary>
     /// One sweep to and one fro, while an impact still reaches more bodies: how far it goes shows in its first sweeps, and it is solved to
@@ -30,10 +30,10 @@ internal sealed class IslandImpact(
     private readonly CollisionFilters filters = new(timelines.Extras, scene.Surfaces);
     private readonly Paths paths = new(timelines);
 
-    /// <summary>Whether the impact of the graph reaches an island, or begins one.</summary>
-    internal bool Reaches()
+    /// <summary>Whether the impact of the graph reaches an island, or begins one: also where a hand cannot give what it takes.</summary>
+    internal bool Reaches(SimTime time)
     {
-        bool reaches = false;
+        bool reaches = graph.HasHand() && blows.MayPress(time);
         for (int i = 0; i < graph.BodyCount && !reaches; i++)
         {
             reaches = paths.IsMember(timelines.Last(graph.Slots[i]));
@@ -41,7 +41,7 @@ internal sealed class IslandImpact(
 
         for (int i = 0; i < graph.ContactCount && !reaches; i++)
         {
-            reaches = graph.Contacts[i].Lasts || (graph.IsByHand(graph.Contacts[i]) && capture.IsBacked(graph.Contacts[i]));
+            reaches = graph.Contacts[i].Lasts;
         }
 
         return reaches;
@@ -58,7 +58,7 @@ internal sealed class IslandImpact(
     {
         EventKey key = graph.CanonicalKey(popped);
         int struckBodies = graph.BodyCount;
-        Begin();
+        Begin(key.Time);
         bool isNear = Spread(key, residual, presses);
         if (!rewinds.AreNone)
         {
@@ -77,6 +77,7 @@ internal sealed class IslandImpact(
         }
 
         notifier.Tell(key);
+        impact.ShareHands(scale.SweepSpeed);
         impact.DropReboundsThatGain(scale.SweepSpeed);
         KeepPressed(isNear);
         segments.Open(key, residual);
@@ -84,12 +85,12 @@ internal sealed class IslandImpact(
     }
 
     /// <summary>The impulse begins at the bodies struck and at those that carry them.</summary>
-    private void Begin()
+    private void Begin(SimTime time)
     {
         impact.Clear();
         for (int i = 0; i < graph.BodyCount; i++)
         {
-            AddBody(i);
+            AddBody(i, time);
         }
 
         for (int i = 0; i < graph.ContactCount; i++)
@@ -270,7 +271,7 @@ internal sealed class IslandImpact(
         {
             other = graph.AddBody(partner);
             graph.Evaluate(other, key.Time, residual);
-            AddBody(other);
+            AddBody(other, key.Time);
         }
 
         bool ordered = id < partnerId;
@@ -278,7 +279,14 @@ internal sealed class IslandImpact(
         return true;
     }
 
-    private void AddBody(int body) => impact.AddBody(graph.Masses[body], graph.Radii[body], graph.Velocities[body], graph.Spins[body]);
+    private void AddBody(int body, SimTime time)
+    {
+        impact.AddBody(graph.Masses[body], graph.Radii[body], graph.Velocities[body], graph.Spins[body]);
+        if (double.IsPositiveInfinity(graph.Masses[body]))
+        {
+            impact.Problem.HandRoom(body) = blows.Room(body, time);
+        }
+    }
 
     /// <summary>The surfaces that carry a body by a closed form hold it up while it is struck.</summary>
     private void AddSupports()

@@ -38,7 +38,7 @@ internal sealed class IslandImpactSegments(
             int before = timelines.Last(graph.Slots[i]);
             if (paths.IsHeld(before))
             {
-                trajectories.Hands.GoOn(graph.Slots[i], key);
+                trajectories.Hands.GoOn(graph.Slots[i], key, ContactSolver.GivenBy(impact.Problem, i), graph.Velocities[i].Length);
             }
             else if (!paths.IsMember(before) && !HasPersistentContact(i))
             {

@@ -28,7 +28,9 @@ internal static class Limits
     /// <summary>The largest coefficient of friction, which leaves friction to the other side of a contact.</summary>
     internal const double MaxFriction = 100;
 
-    private const double MaxStrength = 1e30;
+    /// <summary>The greatest strength of a force, and of a hand in N and in W.</summary>
+    internal const double MaxStrength = 1e30;
+
     private const int MaxPower = 4;
 
     internal static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);

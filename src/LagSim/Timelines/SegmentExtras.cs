@@ -92,6 +92,7 @@ internal sealed class SegmentExtras
             hash.Add(holds[segment].KeyframeTime - origin);
             hash.Add(motion.Acceleration);
             hash.Add(dense[segment].Cubic);
+            AddStrengthTo(ref hash, holds[segment], origin);
         }
 
         Spin spin = Spin(segment);
@@ -111,6 +112,23 @@ internal sealed class SegmentExtras
         if (motion.IsOfIsland)
         {
             Carried.AddTo(ref hash, segment, origin);
+        }
+    }
+
+    /// <summary>Adds what a hand says of its strength, and what it has given of it: nothing for one that has struck nothing and says nothing.</summary>
+    private static void AddStrengthTo(ref StableHash hash, in Hold hold, SimTime origin)
+    {
+        if (hold.MaxForce != 0 || hold.MaxPower != 0)
+        {
+            hash.Add(0xF02CEUL);
+            hash.Add(hold.MaxForce);
+            hash.Add(hold.MaxPower);
+        }
+
+        if (hold.BusyUntil != default)
+        {
+            hash.Add(0xB054UL);
+            hash.Add(hold.BusyUntil - origin);
         }
     }
 

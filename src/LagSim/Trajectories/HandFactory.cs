@@ -1,6 +1,7 @@
 using LagSim.Events;
 using LagSim.Motion;
 using LagSim.Scenes;
+using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim.Trajectories;
@@ -36,12 +37,12 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         if (external.Kind == EventKind.Grab && !paths.IsHeld(last))
         {
             // Until the first keyframe the hand is taken to be at rest where it took the body.
-            Converge(slot, key, position, velocity, position, Vector3D.Zero, new Hold(external.Peer, external.Position, key.Time));
+            Converge(slot, key, position, velocity, position, Vector3D.Zero, new Hold(external.Peer, external.Position, key.Time, external.MaxForce, external.MaxPower));
         }
         else if (external.Kind == EventKind.HoldKeyframe && IsHolding(slot, external.Peer))
         {
-            Vector3D offset = timelines.HoldOf(last).Offset;
-            Converge(slot, key, position, velocity, external.Position - offset, external.Velocity, new Hold(external.Peer, offset, key.Time));
+            Hold hold = timelines.HoldOf(last);
+            Converge(slot, key, position, velocity, external.Position - hold.Offset, external.Velocity, hold.WithKeyframe(key.Time));
         }
         else if (external.Kind == EventKind.Release && IsHolding(slot, external.Peer))
         {
@@ -100,7 +101,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
         else
         {
-            Follow(slot, key, position, timelines.Segment(last).VelocityAt(seconds, dense), hold);
+            Follow(slot, key, position, timelines.Segment(last).VelocityAt(seconds, dense), hold.Busy(hold.BusyAt(key.Time)));
         }
     }
 
@@ -108,11 +109,17 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
     /// A held body continues after an impact as before it: the same path, to the bit, in a new segment, so that cutting it cuts what it
     /// struck.
     /// </summary>
-    internal void GoOn(int slot, in EventKey key)
+    /// <param name="slot">The held body.</param>
+    /// <param name="key">The impact, or what else opens the segment.</param>
+    /// <param name="given">The impulse that the hand has given in it, in N s.</param>
+    /// <param name="speed">How fast the hand was, in m/s.</param>
+    internal void GoOn(int slot, in EventKey key, double given = 0, double speed = 0)
     {
         int last = timelines.Last(slot);
         MotionSegment path = timelines.Segment(last);
-        timelines.Append(slot, bodies.Id(slot), key, path, timelines.Dense(last), timelines.HoldOf(last));
+        Hold hold = timelines.HoldOf(last);
+        SimTime busy = HandStrength.BusyAfter(hold, key.Time, given, HandStrength.ForceAt(hold, bodies.Spec(slot).Mass, speed));
+        timelines.Append(slot, bodies.Id(slot), key, path, timelines.Dense(last), hold.Busy(busy));
     }
 
     /// <summary>The place where a body is released: outside of what stops it.</summary>

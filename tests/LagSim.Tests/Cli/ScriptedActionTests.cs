@@ -54,6 +54,16 @@ public sealed class ScriptedActionTests
         Assert.Contains("scene 'two' has no rules", Assert.Throws<UsageException>(() => ScriptedAction.Parse(text).ActionIn(Two, 2)).Message);
     }
 
+    [Theory]
+    [InlineData("grab@2:ball:0,0,0.1", 0, 0)]
+    [InlineData("grab@2:ball:0,0,0.1/force=40", 40, 0)]
+    [InlineData("grab@2:ball:0,0,0.1/power=5e3/force=40", 40, 5000)]
+    public void Parse_Grab_HasTheHandsStrength(string text, double force, double power)
+    {
+        ExternalEvent grab = Stamped(text, 2);
+        Assert.Equal((EventKind.Grab, force, power), (grab.Kind, grab.MaxForce, grab.MaxPower));
+    }
+
     [Fact]
     public void Parse_Ahead_HasBothTimes()
     {
@@ -65,6 +75,8 @@ public sealed class ScriptedActionTests
     [Theory]
     [InlineData("teleport", "it must be KIND@SECONDS:X,Y,Z")]
     [InlineData("", "it must be KIND@SECONDS:X,Y,Z")]
+    [InlineData("grab@1:0,0,0/strength=3", "'/strength=3' must be one of /force=NEWTONS, /power=WATTS")]
+    [InlineData("grab@1:0,0,0/force=-3", "'/force=-3' must be a number above 0, up to 1e30")]
     [InlineData("fly@3:0,1,2", "'fly' must be one of teleport, set-velocity, impulse, spawn, grab, keyframe, release, remove, command")]
     [InlineData("teleport@3..:0,1,2", "its time is '', it must be a number of seconds between 0 and 1000000")]
     [InlineData("teleport@3..2:0,1,2", "it is to be done at 3 s for 2 s, which must be later")]

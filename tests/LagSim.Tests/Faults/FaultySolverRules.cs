@@ -8,6 +8,9 @@ internal sealed class FaultySolverRules : SolverRules
     /// <summary>A hand pushes as hard as it takes.</summary>
     internal bool HasTirelessHands { get; init; }
 
+    /// <summary>A hand has no greatest force and power of its own, and what it touches gains what it likes.</summary>
+    internal bool HasUnboundedHands { get; init; }
+
     /// <summary>Overlap is pushed out, and what is struck rebounds, whatever energy that makes.</summary>
     internal bool GainsEnergy { get; init; }
 
@@ -18,6 +21,8 @@ internal sealed class FaultySolverRules : SolverRules
     internal bool SolvesCrowds { get; init; }
 
     internal override bool LimitsHands => !HasTirelessHands;
+
+    internal override bool BoundsHands => !HasUnboundedHands;
 
     internal override bool LimitsEnergy => !GainsEnergy;
 

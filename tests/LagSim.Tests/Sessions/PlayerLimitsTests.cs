@@ -117,6 +117,34 @@ public sealed class PlayerLimitsTests
     }
 
     [Fact]
+    public void Claim_OfAStrongerHandThanAPlayersMayBe_IsInvalid()
+    {
+        SessionGroup usual = Group(), weak = Group(force: 150, power: 3_000);
+        Assert.Equal("1:Accepted 2:Accepted 3:Invalid 4:Accepted 5:Invalid 6:Accepted 7:Invalid", Verdicts(usual)); // what it has by default, on 2 kg
+        Assert.Equal("1:Invalid 2:Accepted 3:Invalid 4:Accepted 5:Invalid 6:Invalid 7:Accepted", Verdicts(weak));
+        SceneException strong = Assert.Throws<SceneException>(() => usual.Do(1, PlayerAction.Grab(Second, maxForce: 2_001)));
+        Assert.Equal("The Grab takes body 'ball 1' (0.0.1) with a greatest force of 2001 N; in this session a player's hand has 2000 N there at most.", strong.Message);
+        Assert.Throws<SceneException>(() => usual.Do(1, PlayerAction.Grab(Second, maxForce: -1)));
+
+        static string Verdicts(SessionGroup group)
+        {
+            RawClient hands = new(group);
+            SimTime now = group.Host.SharedTime.Now;
+            hands.Claim(
+                1,
+                ExternalEvent.Grab(now, hands.Peer, 1, Second),
+                ExternalEvent.Grab(now, hands.Peer, 2, Second, maxForce: 150, maxPower: 3_000),
+                ExternalEvent.Grab(now, hands.Peer, 3, Second, maxForce: 2_001, maxPower: 10),
+                ExternalEvent.Grab(now, hands.Peer, 4, Second, maxForce: 10),
+                ExternalEvent.Grab(now, hands.Peer, 5, Second, maxForce: 150, maxPower: 100_001),
+                ExternalEvent.Grab(now, hands.Peer, 6, new BodyId(hands.Peer, 8, 0)), // what it spawns later, of any mass
+                ExternalEvent.Grab(now, hands.Peer, 7, new BodyId(hands.Peer, 8, 0), maxForce: 1, maxPower: 1));
+            group.Run(0.1);
+            return string.Join(' ', group.Log.Values.Where(e => e.Event.Peer > 1).Select(e => $"{e.Event.Sequence}:{e.Verdict}"));
+        }
+    }
+
+    [Fact]
     public void Do_WithinOnesOwnLimitsButNotTheHosts_IsTakenBack()
     {
         SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, peer => Options(peer == 0 ? 100 : 1_000, 3)).Connect();
@@ -134,11 +162,11 @@ public sealed class PlayerLimitsTests
     public void Options_OutOfRange_AreRefused(double speed, int bodies) =>
         Assert.Throws<System.ArgumentOutOfRangeException>(() => new SessionGroup(ScriptedActions.Box(), 1, LinkProfiles.Lan, 1, _ => Options(speed, bodies)));
 
-    private static SessionGroup Group(double speed = 100, int bodies = 3) =>
-        new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, _ => Options(speed, bodies)).Connect();
+    private static SessionGroup Group(double speed = 100, int bodies = 3, double force = 0, double power = 0) =>
+        new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, _ => Options(speed, bodies, force, power)).Connect();
 
-    private static HostOptions Options(double speed, int bodies) =>
-        new() { MaxGivenSpeed = speed, MaxSpawned = bodies, ExtraHistory = SimDuration.FromSeconds(60) };
+    private static HostOptions Options(double speed, int bodies, double force = 0, double power = 0) =>
+        new() { MaxGivenSpeed = speed, MaxSpawned = bodies, MaxHandForce = force, MaxHandPower = power, ExtraHistory = SimDuration.FromSeconds(60) };
 
     private static PlayerAction Above(int place) => PlayerAction.Spawn(Ball(0.25), V(0, 10 + place));
 

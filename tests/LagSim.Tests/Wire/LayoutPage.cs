@@ -114,7 +114,7 @@ internal static class LayoutPage
             case "member":
                 return ((SimTime Centre, SimTime Still, int Contacts)?)value is var (centre, still, contacts)
                     ? [.. Bytes("ticks", centre), .. Bytes("ticks", still), .. Bytes("u16", contacts)] : [];
-            case "bytes" or "8 bytes" or "token" or "entry" or "contacts" or "sensors" or "players":
+            case "bytes" or "8 bytes" or "token" or "entry" or "contacts" or "sensors" or "players" or "strength" or "busy":
                 return (byte[])value;
             case "spec":
                 BodySpec spec = (BodySpec)value;

@@ -41,13 +41,15 @@ public sealed class SnapshotFormatTests
         from filter in WireGen.Filter
         from players in Gen.Elements(PeerSet.Everyone, PeerSet.Of(3, 7), PeerSet.Nobody)
         from contacts in Gen.Choose(0, 4).SelectMany(count => Gen.ArrayOf(WireGen.Contact, count))
+        from strength in Gen.Elements((0.0, 0.0), (100.0, 0.0), (0.0, 3e-5), (double.MaxValue, double.Epsilon))
+        from busy in Gen.OneOf(Gen.Constant(default(SimTime)), Ticks)
         from supports in Gen.Choose(0, 3).SelectMany(count => Gen.ArrayOf(Gen.OneOf(Gen.Constant(int.MaxValue), Gen.Choose(0, 1000)), count))
         select new BodySnapshot(
             BodyId.FromPacked(id), spec, new EventKey(at, round, (EventKind)kind, BodyId.FromPacked(bodies[0]), BodyId.FromPacked(bodies[1]), peer, sequence),
             law, times[0], times[1], vectors[0], vectors[1], vectors[2], supports,
             IsDense(law) || law == MotionLaw.Held ? vectors[3] : default, IsDense(law) ? vectors[4] : default,
             IsDense(law) ? vectors[5] : default,
-            law == MotionLaw.Held ? new Hold(peer, vectors[6], times[2]) : default,
+            law == MotionLaw.Held ? new Hold(peer, vectors[6], times[2], strength.Item1, strength.Item2, busy) : default,
             law == MotionLaw.DormandPrince54 ? SimDuration.FromTicks(times[3].Ticks) : default, spins[0], spins[1],
             IsMember(law, supports) ? times[4] : default, IsMember(law, supports) ? times[5] : default,
             IsMember(law, supports) ? contacts : [], filter, players: players);
@@ -278,7 +280,7 @@ public sealed class SnapshotFormatTests
     {
         return new BodySnapshot(
             b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, Negative(b.Position), Negative(b.Velocity), Negative(b.Acceleration),
-            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.KeyframeTime) : default, b.NextStep, b.Spin, b.SpinRate,
+            Enumerable.Range(0, b.SupportCount).Select(b.Support).ToArray(), b.Cubic, b.Quartic, b.Quintic, b.Law == MotionLaw.Held ? new Hold(b.Hold.Peer, Negative(b.Hold.Offset), b.Hold.KeyframeTime, b.Hold.MaxForce, b.Hold.MaxPower, b.Hold.BusyUntil) : default, b.NextStep, b.Spin, b.SpinRate,
             b.Centre, b.StillSince,
             [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, Negative(c.Push), Negative(c.Turn)))], b.Filter, players: b.Players);
 

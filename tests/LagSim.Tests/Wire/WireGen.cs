@@ -91,6 +91,7 @@ internal static class WireGen
         from filter in Filter
         from command in Command
         from players in Gen.OneOf(Gen.Constant(PeerSet.Everyone), Gen.Choose(0, (int)PeerSet.Everyone.Mask).Select(mask => PeerSet.FromMask((uint)mask)))
+        from strength in Gen.Elements((0.0, 0.0), (100.0, 0.0), (0.0, 3e-5), (double.MaxValue, double.Epsilon))
         from occupied in Gen.Elements(WhenOccupied.Overlap, WhenOccupied.Skip, WhenOccupied.Beside)
         select kind switch
         {
@@ -98,7 +99,7 @@ internal static class WireGen
             EventKind.Remove => ExternalEvent.Remove(time, peer, sequence, body),
             EventKind.Teleport => ExternalEvent.Teleport(time, peer, sequence, body, position, velocity, occupied),
             EventKind.SetVelocity => ExternalEvent.SetVelocity(time, peer, sequence, body, velocity),
-            EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position),
+            EventKind.Grab => ExternalEvent.Grab(time, peer, sequence, body, position, strength.Item1, strength.Item2),
             EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
             EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
             EventKind.Command => ExternalEvent.Tell(time, peer, sequence, command),

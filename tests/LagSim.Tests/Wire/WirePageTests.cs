@@ -80,7 +80,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 32 + 6 + 5 + 4 + 10 + 3, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 34 + 6 + 5 + 4 + 10 + 3, rows);
     }
 
     [Fact]
@@ -180,7 +180,7 @@ public sealed class WirePageTests
         {
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot held = new(
-                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7)));
+                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7), 8, 9, At(10)));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [held]);
         }
 
@@ -387,7 +387,7 @@ public sealed class WirePageTests
     private static byte[] Event(string[] page, ExternalEvent what)
     {
         MemoryStream bytes = new();
-        Write(bytes, Table(page, "### Event"), Values(("kind", (byte)((int)what.Kind + ((int)what.WhenOccupied * 64))), ("peer", what.Peer), ("sequence", what.Sequence), ("time", what.Time)));
+        Write(bytes, Table(page, "### Event"), Values(("kind", (byte)((int)what.Kind + (((int)what.WhenOccupied + (Strength(what).Length > 0 ? 1 : 0)) * 64))), ("peer", what.Peer), ("sequence", what.Sequence), ("time", what.Time)));
         string words = Regex.Replace(what.Kind.ToString(), "(?<!^)([A-Z])", " $1").ToLowerInvariant();
         string[] row = page.Single(line => line.StartsWith($"| {words} |", StringComparison.Ordinal)).Split('|');
         foreach (string field in row[3].Split(';')[0].Split(',', StringSplitOptions.TrimEntries))
@@ -399,6 +399,7 @@ public sealed class WirePageTests
                 "what it has" => More(page, what),
                 "u64 body" => Bytes("u64", what.Body.Packed),
                 "position" => Bytes("vector", what.Position),
+                "strength" => Strength(what),
                 "offset" => Bytes("vector", what.Position),
                 "spin" => Bytes("vector", what.Spin),
                 "filter" => Bytes("filter", what.Filter),
@@ -410,10 +411,13 @@ public sealed class WirePageTests
             });
         }
 
-        byte[] more = what.Kind == EventKind.Spawn ? More(page, what) : what.Command?.Data.ToArray() ?? [];
+        byte[] more = what.Kind == EventKind.Spawn ? More(page, what) : what.Command?.Data.ToArray() ?? Strength(what);
         Assert.Equal(int.Parse(row[2].Split(' ', StringSplitOptions.RemoveEmptyEntries)[0], CultureInfo.InvariantCulture) + more.Length, EventFormat.EncodedLength(what));
         return bytes.ToArray();
     }
+
+    private static byte[] Strength(ExternalEvent grab) =>
+        grab.MaxForce == 0 && grab.MaxPower == 0 ? [] : [.. BitConverter.GetBytes(grab.MaxForce), .. BitConverter.GetBytes(grab.MaxPower)];
 
     /// <summary>What a spawn has besides: players, filter, tag.</summary>
     private static byte[] More(string[] page, ExternalEvent spawn) =>
@@ -477,7 +481,10 @@ public sealed class WirePageTests
             ? new[] { b.Cubic, b.Quartic, b.Quintic } : []),
         ("next step", b.Law == MotionLaw.DormandPrince54 ? new[] { b.NextStep.Ticks } : []),
         ("has", (b.Spin != Vector3D.Zero || b.SpinRate != Vector3D.Zero ? 1 : 0) + (b.Filter != b.Spec.Filter ? 2 : 0)
-            + (b.Players != PeerSet.Everyone ? 4 : 0) + (b.Inside.Length + b.Crossings.Length > 0 ? 8 : 0)),
+            + (b.Players != PeerSet.Everyone ? 4 : 0) + (b.Inside.Length + b.Crossings.Length > 0 ? 8 : 0)
+            + (b.Hold.MaxForce != 0 || b.Hold.MaxPower != 0 ? 16 : 0) + (b.Hold.BusyUntil != default ? 32 : 0)),
+        ("strength", b.Hold.MaxForce != 0 || b.Hold.MaxPower != 0 ? [.. BitConverter.GetBytes(b.Hold.MaxForce), .. BitConverter.GetBytes(b.Hold.MaxPower)] : Array.Empty<byte>()),
+        ("busy", b.Hold.BusyUntil != default ? BitConverter.GetBytes(b.Hold.BusyUntil.Ticks) : []),
         ("players", b.Players != PeerSet.Everyone ? BitConverter.GetBytes(b.Players.Mask) : []),
         ("filter", b.Filter != b.Spec.Filter ? b.Filter : null!),
         ("sensors", Sensors(b)),

@@ -38,6 +38,11 @@ internal sealed class PlayerLimits
             return Verdict.NoRight;
         }
 
+        if (external.Kind == EventKind.Grab)
+        {
+            return WhyNoHand(external, world, out sentence);
+        }
+
         bool turns = external.Kind == EventKind.Spawn && SurfaceSpeed(external) > external.Velocity.Length;
         double before = 0;
         double speed = turns ? SurfaceSpeed(external) : SpeedAfter(external, world, out before);
@@ -51,6 +56,27 @@ internal sealed class PlayerLimits
             + FormattableString.Invariant($" in this session a player may give {options.MaxGivenSpeed:R} m/s at most.");
         return Verdict.Invalid;
     }
+
+    /// <summary>
+    /// A hand is no stronger than a player's may be; on a body that it spawns later, of any mass, it has to say how strong it is.
+    /// </summary>
+    private Verdict WhyNoHand(in ExternalEvent grab, Simulation world, out string sentence)
+    {
+        bool isLater = grab.Body.Peer == grab.Peer && grab.Body.Sequence > grab.Sequence;
+        double usual = HandStrength.DefaultForce(MassOf(grab.Body, world));
+        double force = grab.MaxForce > 0 ? grab.MaxForce : isLater && options.MaxHandForce > 0 ? double.PositiveInfinity : usual;
+        double mostForce = options.MaxHandForce > 0 ? options.MaxHandForce : isLater && grab.MaxForce > 0 ? 0 : usual;
+        double power = grab.MaxPower > 0 ? grab.MaxPower : HandStrength.DefaultPower(force);
+        double mostPower = options.MaxHandPower > 0 ? options.MaxHandPower : HandStrength.DefaultPower(mostForce);
+        sentence = force > mostForce ? TooStrong(grab, world, "force", force, mostForce, "N")
+            : power > mostPower ? TooStrong(grab, world, "power", power, mostPower, "W") : "";
+        return sentence.Length > 0 ? Verdict.Invalid : Verdict.Accepted;
+    }
+
+    private static string TooStrong(
+        in ExternalEvent grab, Simulation world, string what, double asked, double most, string unit) =>
+        FormattableString.Invariant($"The Grab takes {world.Scene.Describe(grab.Body)} with a greatest {what} of {asked:R} {unit};")
+        + FormattableString.Invariant($" in this session a player's hand has {most:R} {unit} there at most.");
 
     /// <summary>
     /// Counts a player's spawned bodies that exist. A separate method, because a lambda's closure is allocated where its method begins.

@@ -1,0 +1,49 @@
+using LagSim.Time;
+
+namespace LagSim.Net.Wire;
+
+/// <summary>How the hand on a held body of a snapshot is encoded: how strong it is, and until when it is busy with what it struck.</summary>
+/// <remarks>Only what is not the default is there. Pure functions, safe on any thread, without allocation.</remarks>
+internal static class HandFormat
+{
+    /// <summary>The largest value of what a body has, with a hand.</summary>
+    internal const byte MaxHas = (2 * BusyFlag) - 1;
+
+    private const byte StrengthFlag = 16;
+    private const byte BusyFlag = 32;
+
+    /// <summary>What a hand has that is not the default, as bits.</summary>
+    internal static int Has(in Hold hold) => (SaysStrength(hold) ? StrengthFlag : 0) | (IsBusy(hold) ? BusyFlag : 0);
+
+    /// <summary>Writes what a hand has.</summary>
+    internal static void Write(ref WireWriter writer, in Hold hold)
+    {
+        if (SaysStrength(hold))
+        {
+            writer.WriteDouble(hold.MaxForce);
+            writer.WriteDouble(hold.MaxPower);
+        }
+
+        if (IsBusy(hold))
+        {
+            writer.WriteInt64(hold.BusyUntil.Ticks);
+        }
+    }
+
+    /// <summary>Reads what a hand has, by those bits; the reader refuses what is not well formed.</summary>
+    internal static Hold Read(ref WireReader reader, in Hold hold, byte has)
+    {
+        bool saysStrength = (has & StrengthFlag) != 0;
+        bool isBusy = (has & BusyFlag) != 0;
+        double maxForce = saysStrength ? reader.ReadDouble() : 0;
+        double maxPower = saysStrength ? reader.ReadDouble() : 0;
+        SimTime busy = isBusy ? SimTime.FromTicks(reader.ReadInt64()) : default;
+        reader.Require(maxForce >= 0 && maxPower >= 0);
+        reader.Require((!saysStrength || maxForce != 0 || maxPower != 0) && isBusy == (busy != default)); // exactly one encoding
+        return new Hold(hold.Peer, hold.Offset, hold.KeyframeTime, maxForce, maxPower, busy);
+    }
+
+    private static bool SaysStrength(in Hold hold) => hold.MaxForce != 0 || hold.MaxPower != 0;
+
+    private static bool IsBusy(in Hold hold) => hold.BusyUntil != default;
+}
