@@ -4,6 +4,7 @@ using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Islands;
+using LagSim.Motion;
 using LagSim.Response;
 using LagSim.Rollback;
 using LagSim.Rules;
@@ -65,6 +66,9 @@ internal class EngineParts
     internal virtual SleepWaker SleepWaker(
         BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new(bodies, timelines, view, graph, rewinds, members);
+
+    internal virtual IslandStatics IslandStatics(BodyTable bodies, in Forces forces, ContactGraph graph, ContactStep step) =>
+        new(bodies, forces, graph, step);
 
     internal virtual SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>

@@ -27,6 +27,7 @@ internal sealed class ContactStep
     private NormalRefinement? normals; // made when a step needs it, as the next
     private EnergyLimit? limit;
     private readonly StepContacts contacts;
+    private bool hasDeep; // whether something is deeper in something than the tolerance, and to be pushed out as such
     private Motion[] free = Array.Empty<Motion>(); // by body
 
     internal ContactStep(Scene scene, ContactScale scale, SolverRules? rules = null)
@@ -46,6 +47,9 @@ internal sealed class ContactStep
 
     /// <summary>How many sweeps the last took, and steps of <see cref="NormalRefinement"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
+
+    /// <summary>Whether the sweeps of the last solution settled, so that nothing of friction or rolling resistance is left.</summary>
+    internal bool HasSettled { get; private set; }
 
     /// <summary>Begins again, with no body.</summary>
     internal void Clear() => Problem.Clear();
@@ -86,10 +90,21 @@ internal sealed class ContactStep
     /// <summary>Solves the step from the impulses that its contacts have.</summary>
     internal void Solve(double seconds, double tolerance)
     {
+        hasDeep = false;
+        bool isFree = !Problem.HasHand(); // a hand gives energy without bound: deep overlap is pushed out when it lets go
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
+            bool isDeep = -c.Gap > Scale.Length && isFree;
             c.Target = c.Gap >= 0 ? -c.Gap / seconds : Math.Min(-c.Gap / seconds, Scale.Pull * seconds);
+            if (isDeep)
+            {
+                c.Target = Scale.DeepSpeed(-c.Gap, seconds);
+                Brake(c, 2 * Scale.Pull * seconds);
+                Deepen(c.First, c.Target);
+                Deepen(c.Second, c.Target);
+                hasDeep = true;
+            }
         }
 
         if (Rules.LimitsHands)
@@ -99,6 +114,41 @@ internal sealed class ContactStep
 
         Sweeps = 0;
         Sweep(tolerance);
+    }
+
+    /// <summary>
+    /// Slows two down that are deep in each other and part faster than they are to: by no more than twice the pull would, and the
+    /// speed to be pushed out at falls. So what leaves keeps none of it, and what flies through is hardly held back.
+    /// </summary>
+    private void Brake(in SolverContact c, double most)
+    {
+        double excess = ContactSolver.Opening(Problem, c) - c.Target;
+        if (excess > 0)
+        {
+            Vector3D push = c.Normal * (-Math.Min(excess, most) * c.NormalMass);
+            Brake(c.First, push);
+            if (c.Second != ContactPoint.Static)
+            {
+                Brake(c.Second, -push);
+            }
+        }
+    }
+
+    /// <summary>Notes that a deep contact pushes a body out so fast.</summary>
+    private void Deepen(int body, double speed)
+    {
+        if (body != ContactPoint.Static)
+        {
+            free[body].PushedOut = Math.Max(free[body].PushedOut, speed);
+        }
+    }
+
+    private void Brake(int body, in Vector3D push)
+    {
+        Vector3D change = push * Problem.Bodies[body].InverseMass;
+        Problem.Bodies[body].Velocity += change;
+        free[body].Velocity += change;
+        free[body].Braked += change;
     }
 
     /// <summary>
@@ -117,7 +167,7 @@ internal sealed class ContactStep
             came += body.InverseMass > 0 ? ContactProblem.EnergyOf(body, free[b].Velocity, free[b].Spin) : 0;
         }
 
-        most = Math.Max(most, came);
+        most = Math.Max(most, came) + (hasDeep ? DeepEnergy() : 0);
         if (Problem.HasHand() || !Rules.LimitsEnergy || !ContactProblem.IsGain(most, Problem.KineticEnergy()))
         {
             return;
@@ -128,6 +178,18 @@ internal sealed class ContactStep
         Problem.DropRebounds();
         SolveAgain(tolerance);
         limit.GoTowards(Problem, most);
+    }
+
+    /// <summary>The kinetic energy of all, in J, if each were as fast as its deepest contact pushes it out.</summary>
+    private double DeepEnergy()
+    {
+        double sum = 0;
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            sum += 0.5 * free[b].PushedOut * free[b].PushedOut / Problem.Bodies[b].InverseMass;
+        }
+
+        return sum;
     }
 
     /// <summary>
@@ -147,7 +209,7 @@ internal sealed class ContactStep
     /// <summary>Has a body come with another velocity, forces included: then the step is to be solved again.</summary>
     internal void Regain(int body, in Vector3D velocity, in Vector3D spin)
     {
-        free[body].Velocity = velocity;
+        free[body].Velocity = velocity + free[body].Braked;
         free[body].Spin = spin;
     }
 
@@ -156,6 +218,50 @@ internal sealed class ContactStep
     {
         BeginAnew();
         Sweep(tolerance);
+    }
+
+    /// <summary>Has a body come from rest, with what forces give it in a step, until it is taken from rest.</summary>
+    internal void PutToRest(int body, in Vector3D gain)
+    {
+        ref Motion came = ref free[body];
+        (came.BeforeRest, came.SpinBeforeRest) = (came.Velocity, came.Spin);
+        (came.Velocity, came.Spin) = (gain, Vector3D.Zero);
+    }
+
+    /// <summary>Has all bodies come as before they were put to rest.</summary>
+    internal void TakeFromRest()
+    {
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            (free[b].Velocity, free[b].Spin) = (free[b].BeforeRest, free[b].SpinBeforeRest);
+        }
+
+        BeginAnew();
+    }
+
+    /// <summary>Solves a step of bodies that were put to rest: what holds is closed, and nothing is pushed out.</summary>
+    internal void SolveAtRest(double seconds, double tolerance)
+    {
+        for (int i = 0; i < Problem.ContactCount; i++)
+        {
+            ref SolverContact c = ref Problem.Contacts[i];
+            c.Target = c.Held ? 0 : Math.Min(0, -c.Gap / seconds);
+        }
+
+        Sweeps = 0;
+        SolveAgain(tolerance);
+    }
+
+    /// <summary>Whether something is deeper in something than the tolerance.</summary>
+    internal bool IsDeep()
+    {
+        bool isDeep = false;
+        for (int i = 0; i < Problem.ContactCount && !isDeep; i++)
+        {
+            isDeep = -Problem.Contacts[i].Gap > Scale.Length;
+        }
+
+        return isDeep;
     }
 
     private void BeginAnew()
@@ -184,6 +290,7 @@ internal sealed class ContactStep
         }
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MaxSweeps);
+        HasSettled = sweeps < MaxSweeps;
         Sweeps += sweeps;
         if (Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
         {
@@ -201,6 +308,10 @@ internal sealed class ContactStep
     /// <summary>A velocity and a spin without contacts.</summary>
     private struct Motion
     {
+        internal Vector3D Braked; // part of the velocity
+        internal Vector3D BeforeRest; // the velocity that it came with, as long as it is put to rest, and the spin
+        internal Vector3D SpinBeforeRest;
+        internal double PushedOut; // in m/s: by its deepest contact, if that is deeper than the tolerance
         internal Vector3D Velocity;
         internal Vector3D Spin;
     }
