@@ -125,11 +125,8 @@ internal class ContactScale
     /// </summary>
     internal double LeastPull => 2 * Length / (16 * 16);
 
-    /// <summary>
-    /// The same where sweeps have not settled what friction and rolling resistance hold: within 4 s. Measured: a column of seven balls with
-    /// resistance leaves up to half of it after 200 sweeps.
-    /// </summary>
-    internal double LeastUnsettledPull => 2 * Length / (4 * 4);
+    /// <summary>The speed, in m/s, that sweeps may leave at a contact of an island that hardly moves, however slow it is.</summary>
+    internal double FinestSweepSpeed => 0.05 * StillSpeed;
 
     /// <summary>
     /// How fast, in m/s, two are pushed apart in a step that are deeper in each other than the tolerance. It is the speed of a fall under

@@ -48,7 +48,10 @@ internal sealed class ContactStep
     /// <summary>How many sweeps the last took, and steps of <see cref="NormalRefinement"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
 
-    /// <summary>Whether the sweeps of the last solution settled, so that nothing of friction or rolling resistance is left.</summary>
+    /// <summary>
+    /// Whether the last solution is one: its sweeps settled, or its normals were solved instead and nothing rubs in it. Else friction and
+    /// rolling resistance are as far as the sweeps got.
+    /// </summary>
     internal bool HasSettled { get; private set; }
 
     /// <summary>Begins again, with no body.</summary>
@@ -296,6 +299,7 @@ internal sealed class ContactStep
         {
             BeginAnew();
             Sweeps += SolveNormals(tolerance);
+            HasSettled = !Problem.Rubs();
         }
     }
 

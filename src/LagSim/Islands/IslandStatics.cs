@@ -1,4 +1,3 @@
-using System;
 using LagSim.Contacts;
 using LagSim.Motion;
 using LagSim.Scenes;
@@ -43,7 +42,9 @@ internal class IslandStatics(BodyTable bodies, in Forces forces, ContactGraph gr
         }
 
         step.SolveAtRest(seconds, SweepPart * step.Scale.LeastPull * seconds);
-        double most = (step.HasSettled ? step.Scale.LeastPull : step.Scale.LeastUnsettledPull) * seconds;
+
+        // What sweeps have not settled is no better known than a step of an island that hardly moves has it.
+        double most = step.HasSettled ? step.Scale.LeastPull * seconds : step.Scale.FinestSweepSpeed;
         bool holds = true;
         for (int i = 0; i < graph.BodyCount && holds; i++)
         {

@@ -296,6 +296,6 @@ internal sealed class IslandStepper(
             mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(graph.Slots[i]));
         }
 
-        return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
+        return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, step.Scale.FinestSweepSpeed));
     }
 }
