@@ -136,7 +136,9 @@ internal class ContactScale
     internal virtual double DeepSpeed(double depth, double seconds) =>
         Math.Min(depth / seconds, (Pull * seconds) + PartSpeed(depth, seconds));
 
-    /// <summary>The same without what shallow overlap is pushed out at: two that part as fast as this need no push. Zero for shallow overlap.</summary>
+    /// <summary>
+    /// The same without what shallow overlap is pushed out at: two that part as fast as this need no push. Zero for shallow overlap.
+    /// </summary>
     internal double PartSpeed(double depth, double seconds)
     {
         double excess = depth - Length;

@@ -120,8 +120,8 @@ internal sealed class ContactStep
     }
 
     /// <summary>
-    /// Slows two down that are deep in each other and part faster than they are to: by no more than twice the pull would, and the
-    /// speed to be pushed out at falls. So what leaves keeps none of it, and what flies through is hardly held back.
+    /// Slows two down that are deep in each other and part faster than they are pushed apart, by no more than that speed falls in a step:
+    /// twice what the pull gives in it. So what leaves keeps little of it, and what flies through is hardly held back.
     /// </summary>
     private void Brake(in SolverContact c, double most)
     {

@@ -69,13 +69,15 @@ internal sealed class CaptureRule(
     private double PullOn(int body, SimTime time) => members.PullOn(graph.Slots[body], time, graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
 
     /// <summary>
-    /// Whether a contact is of a body that touches nothing else, and has not lasted: one that bounces alone. Its bounces are followed down to
+    /// Whether a contact is of a body that touches nothing else, and has not lasted: one that bounces alone. Its bounces are followed
+    /// down to
     /// the restitution threshold, whatever acts on it.
     /// </summary>
     private bool IsAlone(in ContactPoint c)
     {
         int piece = timelines.Last(graph.Slots[c.First]);
-        return c.Second == ContactPoint.Static && graph.ContactCount == 1 && !paths.IsMember(piece) && timelines.Segment(piece).Supports.Count == 0;
+        return c.Second == ContactPoint.Static && graph.ContactCount == 1
+            && !paths.IsMember(piece) && timelines.Segment(piece).Supports.Count == 0;
     }
 
     /// <summary>

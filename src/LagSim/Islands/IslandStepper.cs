@@ -18,7 +18,8 @@ namespace LagSim.Islands;
 /// </remarks>
 internal sealed class IslandStepper(
     BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
-    RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, IslandStatics statics, StepMarks marks, SolverWork work)
+    RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, IslandStatics statics, StepMarks marks,
+    SolverWork work)
 {
     private readonly Forces forces = forces;
     private readonly Paths paths = new(timelines);

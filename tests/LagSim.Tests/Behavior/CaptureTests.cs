@@ -6,7 +6,8 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Behavior;
 
 /// <summary>
-/// The third case of rule 7 (docs/CONTACT.md): a ball that strikes something static stays there where its rebound would rise by no more than
+/// The third case of rule 7 (docs/CONTACT.md): a ball that strikes something static stays there where its rebound would rise by no more
+/// than
 /// a height, and all bounces to come would be over within a step. The height is the tolerance for what touches several, and the restitution
 /// threshold for what bounces alone. A rebound a little faster is a bounce.
 /// </summary>
@@ -28,7 +29,8 @@ public sealed class CaptureTests
     }
 
     /// <summary>
-    /// A ball that strikes two at once: on each of them the pull presses with the root of a half. Alone, with that threshold, it would bounce
+    /// A ball that strikes two at once: on each of them the pull presses with the root of a half. Alone, with that threshold, it would
+    /// bounce
     /// on from a hundredth of the speed.
     /// </summary>
     [Theory]
@@ -44,7 +46,8 @@ public sealed class CaptureTests
     }
 
     /// <summary>
-    /// A ball under a force bounces as one under gravity does, down to the restitution threshold, on a plane as on a sphere, and then rests.
+    /// A ball under a force bounces as one under gravity does, down to the restitution threshold, on a plane as on a sphere, and then
+    /// rests.
     /// The control: with a threshold as large as the tolerance it stops where it would rise by that.
     /// </summary>
     [Theory]
@@ -78,7 +81,8 @@ public sealed class CaptureTests
     }
 
     /// <summary>
-    /// Where gravity is weak a ball that falls on a member bounces as high as it does anywhere: the first case asks what presses, and not what
+    /// Where gravity is weak a ball that falls on a member bounces as high as it does anywhere: the first case asks what presses, and not
+    /// what
     /// a hand might. The control is a fall from so low that the rebound is within the tolerance.
     /// </summary>
     [Theory]

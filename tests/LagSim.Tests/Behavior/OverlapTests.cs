@@ -39,7 +39,9 @@ public sealed class OverlapTests
         Assert.InRange(speed, 0, 2 * Math.Sqrt(2 * pull * tolerance));
     }
 
-    /// <summary>The control: as slowly as shallow overlap is pushed out it takes far longer, and where slow is still it stays inside.</summary>
+    /// <summary>
+    /// The control: as slowly as shallow overlap is pushed out it takes far longer, and where slow is still it stays inside.
+    /// </summary>
     [Theory]
     [InlineData(0, 1e-3, false)]
     [InlineData(9.81, 1e-2, false)]

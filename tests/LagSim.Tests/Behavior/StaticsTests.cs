@@ -7,7 +7,8 @@ using static LagSim.Tests.TestWorlds;
 namespace LagSim.Tests.Behavior;
 
 /// <summary>
-/// Rule 10 (docs/CONTACT.md): a body sleeps where statics holds it, and not where it is only slow. What a weak pull sets going goes, and what
+/// Rule 10 (docs/CONTACT.md): a body sleeps where statics holds it, and not where it is only slow. What a weak pull sets going goes, and
+/// what
 /// is held costs nothing.
 /// </summary>
 public sealed class StaticsTests

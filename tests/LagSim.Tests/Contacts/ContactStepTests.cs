@@ -35,7 +35,8 @@ public sealed class ContactStepTests
     }
 
     /// <summary>
-    /// Rule 6: two that are deep in each other and part faster than they are pushed apart are slowed down by what the pull gives in two steps
+    /// Rule 6: two that are deep in each other and part faster than they are pushed apart are slowed down by what the pull gives in two
+    /// steps
     /// at most, and not further than that. The control: shallow overlap is not held back.
     /// </summary>
     [Theory]
@@ -47,14 +48,16 @@ public sealed class ContactStepTests
         ContactStep step = new(Floor(0.2), new ContactScale(Tolerance, Down, default));
         double seconds = step.Scale.Step.ToSeconds(), speed = PushSpeed(depth, seconds);
         step.AddBody(new BodySpec(0.1, 1, 0.2), new Vector3D(0, 5, 0), Vector3D.Zero, Vector3D.Zero, Vector3D.Zero, isHeld: false);
-        step.AddBody(new BodySpec(0.1, 3, 0.2), new Vector3D(0.2 - depth, 5, 0), new Vector3D(speed + faster, 0, 0), Vector3D.Zero, Vector3D.Zero, isHeld: false);
+        Vector3D place = new(0.2 - depth, 5, 0), velocity = new(speed + faster, 0, 0);
+        step.AddBody(new BodySpec(0.1, 3, 0.2), place, velocity, Vector3D.Zero, Vector3D.Zero, isHeld: false);
         Solve(step);
         double slowed = depth > Tolerance ? Math.Min(faster, 2 * 9.81 * seconds) : 0;
         Assert.Equal(speed + faster - slowed, step.Problem.Bodies[1].Velocity.X - step.Problem.Bodies[0].Velocity.X, 1e-9);
         Assert.Equal(3 * (speed + faster), step.Problem.Bodies[0].Velocity.X + (3 * step.Problem.Bodies[1].Velocity.X), 1e-9);
     }
 
-    private static double PushSpeed(double depth, double seconds) => (9.81 * seconds) + Math.Sqrt(2 * 9.81 * Math.Max(0, depth - Tolerance));
+    private static double PushSpeed(double depth, double seconds) =>
+        (9.81 * seconds) + Math.Sqrt(2 * 9.81 * Math.Max(0, depth - Tolerance));
 
     /// <summary>Rule 6: bodies that nothing drives are pushed apart as fast as the pull would, though they bring no energy.</summary>
     [Fact]
