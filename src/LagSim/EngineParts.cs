@@ -73,6 +73,9 @@ internal class EngineParts
         BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new(bodies, timelines, view, graph, rewinds, members);
 
+    internal virtual IslandStatics IslandStatics(BodyTable bodies, in Forces forces, ContactGraph graph, ContactStep step) =>
+        new(bodies, forces, graph, step);
+
     internal virtual SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>
         new(bodies, timelines, graph, partners, members);

@@ -221,8 +221,8 @@ internal sealed class CollisionPredictor(
     }
 
     /// <summary>
-    /// Whether two bodies are in each other by more than the contact tolerance and do not part: one was put there, and a contact step has
-    /// to push them out. Without islands there are no steps, and nothing pushes against a hand.
+    /// Whether two bodies are in each other by more than the contact tolerance and part no faster than they would be pushed apart: one was
+    /// put there, and a contact step has to push them out. Without islands there are no steps, and nothing pushes against a hand.
     /// </summary>
     private bool IsSunkIn(int first, int second, double reach, SimTime opened)
     {
@@ -234,8 +234,14 @@ internal sealed class CollisionPredictor(
         ContactTime now = ContactTime.At(opened);
         Vector3D apart = paths.PositionAt(first, now) - paths.PositionAt(second, now);
         double nearest = reach - scale.Length;
-        return nearest > 0 && apart.LengthSquared < nearest * nearest
-            && Vector3D.Dot(apart, paths.VelocityAt(first, now) - paths.VelocityAt(second, now)) <= 0;
+        if (!(nearest > 0 && apart.LengthSquared < nearest * nearest))
+        {
+            return false;
+        }
+
+        double length = apart.Length;
+        double parting = Vector3D.Dot(apart, paths.VelocityAt(first, now) - paths.VelocityAt(second, now));
+        return parting <= length * scale.PartSpeed(reach - length, scale.Step.ToSeconds());
     }
 
     /// <summary>The image of a path in a periodic box that is nearest to a point when the path is at <paramref name="at"/>.</summary>

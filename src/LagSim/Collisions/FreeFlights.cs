@@ -40,7 +40,7 @@ internal sealed class FreeFlights : INewestSegmentObserver
     /// <param name="near">The largest distance, in metres, at which two bodies do not count as apart.</param>
     /// <param name="box">The periodic box; empty if there is none.</param>
     /// <param name="expected">The number of bodies that there is room for at first.</param>
-    /// <param name="sunk">The largest overlap of two bodies, in metres, that needs no closer test while they do not close.</param>
+    /// <param name="sunk">The largest overlap of two bodies, in metres, that needs no closer test while they part.</param>
     internal FreeFlights(in Vector3D gravity, double near, in PeriodicBox box, int expected = 0, double sunk = double.PositiveInfinity)
     {
         flights = new Flight[expected];
@@ -293,7 +293,8 @@ internal sealed class FreeFlights : INewestSegmentObserver
                 // reverse.
                 double opening = Math.Abs(u) + Math.Abs(v) + Math.Abs(w);
                 double query = (opening * ((Parting * reach) + (reach - (radii[slot] + radii[other] + near)))) + (Slack * reach * ((2 * speed) + opening));
-                if (!((isOpened || b.From == from) && along > query))
+                double nearest = Math.Max(0, radii[slot] + radii[other] - sunk); // what is deeper may have to be pushed out though it parts
+                if (!((isOpened || b.From == from) && along > query) || distance < nearest * nearest * (1 + 2e-6))
                 {
                     into[count++] = new Approach(other, 0);
                 }

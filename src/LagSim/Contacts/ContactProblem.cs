@@ -219,6 +219,18 @@ internal sealed class ContactProblem
     private int[] listFrom = Array.Empty<int>();
     private int[] listed = Array.Empty<int>();
 
+    /// <summary>Whether one of its contacts has friction.</summary>
+    internal bool Rubs()
+    {
+        bool rubs = false;
+        for (int i = 0; i < ContactCount && !rubs; i++)
+        {
+            rubs = Contacts[i].Friction > 0;
+        }
+
+        return rubs;
+    }
+
     /// <summary>Whether one of its bodies is held, since a hand gives and takes energy.</summary>
     internal bool HasHand()
     {

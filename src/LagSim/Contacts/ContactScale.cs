@@ -43,6 +43,7 @@ internal class ContactScale
     internal static readonly SimDuration StillFor = SimDuration.FromTicks(SimDuration.TicksPerSecond / 2);
 
     private readonly SimTime start;
+    private readonly double weight; // the size of gravity, in m/s²
 
     /// <summary>The scale of a scene.</summary>
     /// <param name="tolerance">The contact tolerance, in metres.</param>
@@ -52,6 +53,7 @@ internal class ContactScale
     {
         this.start = start;
         Length = tolerance;
+        weight = gravity.Length;
         Pull = Math.Max(gravity.Length, MinPull);
         double seconds = Math.Sqrt(2 * tolerance / Pull);
         long ticks = LongestTicks;
@@ -101,11 +103,18 @@ internal class ContactScale
     /// </summary>
     internal SimDuration Step { get; }
 
-    /// <summary>The speed, in m/s, from which a body rises by the tolerance.</summary>
+    /// <summary>The speed, in m/s, from which a body rises by the tolerance against what a hand presses with.</summary>
     internal double CaptureSpeed { get; }
 
-    /// <summary>The same where forces pull a body harder than gravity does, in m/s².</summary>
-    internal double CaptureSpeedAt(double pull) => pull > Pull ? Math.Sqrt(2 * Length * pull) : CaptureSpeed;
+    /// <summary>
+    /// The speed, in m/s, from which a body rises by the tolerance where forces pull it so hard, in m/s², if gravity does not pull harder.
+    /// Where neither pulls only a hand can press, as hard as is assumed of one.
+    /// </summary>
+    internal double CaptureSpeedAt(double pull)
+    {
+        double press = Math.Max(pull, weight);
+        return press > 0 ? Math.Sqrt(2 * Length * press) : CaptureSpeed;
+    }
 
     /// <summary>
     /// The time, in seconds, of a fall by the tolerance where forces pull a body harder than gravity does; infinite otherwise.
@@ -128,6 +137,32 @@ internal class ContactScale
 
     /// <summary>A body slower than this, in m/s, does not move by the tolerance while it waits to sleep.</summary>
     internal double StillSpeed { get; }
+
+    /// <summary>
+    /// What pulls a body from rest by less than this, in m/s², once contacts have balanced the forces, counts as nothing: it would not move
+    /// it by the tolerance within 16 s.
+    /// </summary>
+    internal double LeastPull => 2 * Length / (16 * 16);
+
+    /// <summary>The speed, in m/s, that sweeps may leave at a contact of an island that hardly moves, however slow it is.</summary>
+    internal double FinestSweepSpeed => 0.05 * StillSpeed;
+
+    /// <summary>
+    /// How fast, in m/s, two are pushed apart in a step that are deeper in each other than the tolerance. It is the speed of a fall under
+    /// the pull by what is deeper, so it ends in the time of that fall and slows down by the pull until then; and besides what shallow
+    /// overlap is pushed out at. Never by more than there is.
+    /// </summary>
+    internal virtual double DeepSpeed(double depth, double seconds) =>
+        Math.Min(depth / seconds, (Pull * seconds) + PartSpeed(depth, seconds));
+
+    /// <summary>
+    /// The same without what shallow overlap is pushed out at: two that part as fast as this need no push. Zero for shallow overlap.
+    /// </summary>
+    internal double PartSpeed(double depth, double seconds)
+    {
+        double excess = depth - Length;
+        return excess > 0 ? Math.Min(excess / seconds, Math.Sqrt(2 * Pull * excess)) : 0;
+    }
 
     /// <summary>
     /// Contacts that hold, and that an impact within a step leaves to close by less than this part of the tolerance, are not struck before

@@ -28,6 +28,7 @@ internal sealed class ContactStep
     private EnergyLimit? limit;
     private readonly StepContacts contacts;
     private readonly DeepestContacts deepest;
+    private bool hasDeep; // whether something is deeper in something than the tolerance, and to be pushed out as such
     private Motion[] free = Array.Empty<Motion>(); // by body
 
     internal ContactStep(Scene scene, ContactScale scale, SolverRules? rules = null)
@@ -48,6 +49,12 @@ internal sealed class ContactStep
 
     /// <summary>How many sweeps the last took, and steps of <see cref="NormalRefinement"/>, which cost as much.</summary>
     internal int Sweeps { get; private set; }
+
+    /// <summary>
+    /// Whether the last solution is one: its sweeps settled, or its normals were solved instead and nothing rubs in it. Else friction and
+    /// rolling resistance are as far as the sweeps got.
+    /// </summary>
+    internal bool HasSettled { get; private set; }
 
     /// <summary>Begins again, with no body.</summary>
     internal void Clear()
@@ -97,10 +104,21 @@ internal sealed class ContactStep
             deepest.LeaveOut();
         }
 
+        hasDeep = false;
+        bool isFree = !Problem.HasHand(); // what is deep beside a hand is pushed out as such when the hand lets go
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
+            bool isDeep = -c.Gap > Scale.Length && isFree;
             c.Target = c.Gap >= 0 ? -c.Gap / seconds : Math.Min(-c.Gap / seconds, Scale.Pull * seconds);
+            if (isDeep)
+            {
+                c.Target = Scale.DeepSpeed(-c.Gap, seconds);
+                Brake(c, 2 * Scale.Pull * seconds);
+                Deepen(c.First, c.Target);
+                Deepen(c.Second, c.Target);
+                hasDeep = true;
+            }
         }
 
         if (Rules.LimitsHands)
@@ -110,6 +128,41 @@ internal sealed class ContactStep
 
         Sweeps = 0;
         Sweep(tolerance);
+    }
+
+    /// <summary>
+    /// Slows two down that are deep in each other and part faster than they are pushed apart, by no more than that speed falls in a step:
+    /// twice what the pull gives in it. So what leaves keeps little of it, and what flies through is hardly held back.
+    /// </summary>
+    private void Brake(in SolverContact c, double most)
+    {
+        double excess = ContactSolver.Opening(Problem, c) - c.Target;
+        if (excess > 0)
+        {
+            Vector3D push = c.Normal * (-Math.Min(excess, most) * c.NormalMass);
+            Brake(c.First, push);
+            if (c.Second != ContactPoint.Static)
+            {
+                Brake(c.Second, -push);
+            }
+        }
+    }
+
+    /// <summary>Notes that a deep contact pushes a body out so fast.</summary>
+    private void Deepen(int body, double speed)
+    {
+        if (body != ContactPoint.Static)
+        {
+            free[body].PushedOut = Math.Max(free[body].PushedOut, speed);
+        }
+    }
+
+    private void Brake(int body, in Vector3D push)
+    {
+        Vector3D change = push * Problem.Bodies[body].InverseMass;
+        Problem.Bodies[body].Velocity += change;
+        free[body].Velocity += change;
+        free[body].Braked += change;
     }
 
     /// <summary>
@@ -134,7 +187,7 @@ internal sealed class ContactStep
             came += body.InverseMass > 0 ? ContactProblem.EnergyOf(body, free[b].Velocity, free[b].Spin) : 0;
         }
 
-        most = hasHand ? most + came : Math.Max(most, came);
+        most = (hasHand ? most + came : Math.Max(most, came)) + (hasDeep ? DeepEnergy() : 0);
         if (!Rules.LimitsEnergy || (hasHand && !Rules.BoundsHands) || !Problem.Gains(most))
         {
             return;
@@ -151,6 +204,18 @@ internal sealed class ContactStep
         }
 
         limit.GoTowards(Problem, most);
+    }
+
+    /// <summary>The kinetic energy of all, in J, if each were as fast as its deepest contact pushes it out.</summary>
+    private double DeepEnergy()
+    {
+        double sum = 0;
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            sum += 0.5 * free[b].PushedOut * free[b].PushedOut / Problem.Bodies[b].InverseMass;
+        }
+
+        return sum;
     }
 
     /// <summary>
@@ -172,7 +237,7 @@ internal sealed class ContactStep
     /// <summary>Has a body come with another velocity, forces included: then the step is to be solved again.</summary>
     internal void Regain(int body, in Vector3D velocity, in Vector3D spin)
     {
-        free[body].Velocity = velocity;
+        free[body].Velocity = velocity + free[body].Braked;
         free[body].Spin = spin;
     }
 
@@ -181,6 +246,50 @@ internal sealed class ContactStep
     {
         BeginAnew();
         Sweep(tolerance);
+    }
+
+    /// <summary>Has a body come from rest, with what forces give it in a step, until it is taken from rest.</summary>
+    internal void PutToRest(int body, in Vector3D gain)
+    {
+        ref Motion came = ref free[body];
+        (came.BeforeRest, came.SpinBeforeRest) = (came.Velocity, came.Spin);
+        (came.Velocity, came.Spin) = (gain, Vector3D.Zero);
+    }
+
+    /// <summary>Has all bodies come as before they were put to rest.</summary>
+    internal void TakeFromRest()
+    {
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            (free[b].Velocity, free[b].Spin) = (free[b].BeforeRest, free[b].SpinBeforeRest);
+        }
+
+        BeginAnew();
+    }
+
+    /// <summary>Solves a step of bodies that were put to rest: what holds is closed, and nothing is pushed out.</summary>
+    internal void SolveAtRest(double seconds, double tolerance)
+    {
+        for (int i = 0; i < Problem.ContactCount; i++)
+        {
+            ref SolverContact c = ref Problem.Contacts[i];
+            c.Target = c.Held ? 0 : Math.Min(0, -c.Gap / seconds);
+        }
+
+        Sweeps = 0;
+        SolveAgain(tolerance);
+    }
+
+    /// <summary>Whether something is deeper in something than the tolerance.</summary>
+    internal bool IsDeep()
+    {
+        bool isDeep = false;
+        for (int i = 0; i < Problem.ContactCount && !isDeep; i++)
+        {
+            isDeep = -Problem.Contacts[i].Gap > Scale.Length;
+        }
+
+        return isDeep;
     }
 
     private void BeginAnew()
@@ -209,11 +318,13 @@ internal sealed class ContactStep
         }
 
         int sweeps = ContactSolver.Solve(Problem, tolerance, MaxSweeps);
+        HasSettled = sweeps < MaxSweeps;
         Sweeps += sweeps;
         if (Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
             Sweeps += SolveNormals(tolerance);
+            HasSettled = !Problem.Rubs();
         }
     }
 
@@ -226,6 +337,10 @@ internal sealed class ContactStep
     /// <summary>A velocity and a spin without contacts.</summary>
     private struct Motion
     {
+        internal Vector3D Braked; // part of the velocity
+        internal Vector3D BeforeRest; // the velocity that it came with, as long as it is put to rest, and the spin
+        internal Vector3D SpinBeforeRest;
+        internal double PushedOut; // in m/s: by its deepest contact, if that is deeper than the tolerance
         internal Vector3D Velocity;
         internal Vector3D Spin;
     }

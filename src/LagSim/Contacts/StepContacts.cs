@@ -37,7 +37,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
             Friction = spec.Friction,
             Lever = Math.Min(spec.RollingResistance, spec.Friction) * spec.Radius,
             Restitution = spec.Restitution,
-            Pull = pull,
+            Pull = problem.Bodies[body].InverseMass > 0 ? pull : scale.Pull, // a hand presses as hard as is assumed of it
             Filter = filter,
         };
     }
@@ -265,7 +265,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
         }
 
         Array.Sort(places, byPlace, 0, count);
-        fastest = speed + scale.CaptureSpeedAt(pull);
+        fastest = speed + Math.Max(scale.CaptureSpeed, scale.CaptureSpeedAt(pull));
         widest = (2 * largest) + scale.SpeculativeMargin + (2 * fastest * scale.Step.ToSeconds());
     }
 

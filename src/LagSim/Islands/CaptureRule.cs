@@ -62,11 +62,23 @@ internal sealed class CaptureRule(
         Vector3D velocity = graph.Velocities[c.First] - (isPair ? graph.Velocities[c.Second] : Vector3D.Zero);
         Vector3D acceleration = graph.Accelerations[c.First] - (isPair ? graph.Accelerations[c.Second] : Vector3D.Zero);
         double pressing = -Vector3D.Dot(c.Normal, acceleration) - CollisionPredictor.FallingAway(c.Normal, velocity, graph.ReachOf(c));
-        double rises = restitution < 1 ? scale.Length : scene.RestitutionThreshold;
+        double rises = restitution < 1 && !IsAlone(c) ? scale.Length : scene.RestitutionThreshold;
         return pressing > 0 && rebound * rebound <= 2 * pressing * rises && (restitution >= 1 || 2 * rebound <= pressing * (1 - restitution) * scale.Step.ToSeconds());
     }
 
     private double PullOn(int body, SimTime time) => members.PullOn(graph.Slots[body], time, graph.Positions[body], graph.Velocities[body], graph.Spins[body]);
+
+    /// <summary>
+    /// Whether a contact is of a body that touches nothing else, and has not lasted: one that bounces alone. Its bounces are followed
+    /// down to
+    /// the restitution threshold, whatever acts on it.
+    /// </summary>
+    private bool IsAlone(in ContactPoint c)
+    {
+        int piece = timelines.Last(graph.Slots[c.First]);
+        return c.Second == ContactPoint.Static && graph.ContactCount == 1
+            && !paths.IsMember(piece) && timelines.Segment(piece).Supports.Count == 0;
+    }
 
     /// <summary>
     /// Whether the bounces of a contact are followed down to the scene's restitution threshold, and a closed form carries its body then:

@@ -10,7 +10,7 @@ namespace LagSim.Islands;
 /// <summary>Falling asleep: when an island may, and the segments of its rest. <see cref="SleepWaker"/> wakes it.</summary>
 internal sealed class IslandSleep(BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step)
 {
-    /// <summary>Whether no body of the island has moved for as long as it takes to fall asleep.</summary>
+    /// <summary>Whether no body of the island has been faster than the still speed for as long as it takes to fall asleep.</summary>
     internal bool MayFallAsleep(SimTime tick)
     {
         bool rests = true;

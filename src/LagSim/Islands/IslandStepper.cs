@@ -18,7 +18,8 @@ namespace LagSim.Islands;
 /// </remarks>
 internal sealed class IslandStepper(
     BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
-    RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, StepMarks marks, SolverWork work)
+    RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, IslandStatics statics, StepMarks marks,
+    SolverWork work)
 {
     private readonly Forces forces = forces;
     private readonly Paths paths = new(timelines);
@@ -45,7 +46,7 @@ internal sealed class IslandStepper(
         SimTime time = canonical.Time;
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
-        if (mayRest && sleep.MayFallAsleep(canonical.Time))
+        if (mayRest && sleep.MayFallAsleep(canonical.Time) && statics.Holds(canonical.Time, length.ToSeconds()))
         {
             sleep.FallAsleep(canonical);
         }
@@ -313,6 +314,6 @@ internal sealed class IslandStepper(
             mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(graph.Slots[i]));
         }
 
-        return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, 0.05 * step.Scale.StillSpeed));
+        return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, step.Scale.FinestSweepSpeed));
     }
 }

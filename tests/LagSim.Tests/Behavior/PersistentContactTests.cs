@@ -22,7 +22,7 @@ public sealed class PersistentContactTests
         // It falls by 0.1 m, bounces until the last, and then takes half a second of steps until it sleeps, and two for those begun.
         Scene scene = Dome(0, e);
         double d = scene.ContactTolerance;
-        double most = Tolerance.BouncesUntilLast(0.1, e, d) + (0.5 * Tolerance.StepsASecond(d)) + 2;
+        double most = Tolerance.BouncesUntilLast(0.1, e, scene.RestitutionThreshold) + (0.5 * Tolerance.StepsASecond(d)) + 2;
         Simulation simulation = Run(scene, 10);
         Assert.InRange(simulation.EventsProcessed, 1, most);
         BodyState state = Read(simulation, First, 10);

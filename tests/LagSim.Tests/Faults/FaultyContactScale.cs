@@ -4,7 +4,10 @@ using LagSim.Time;
 
 namespace LagSim.Tests.Faults;
 
-/// <summary>A scale by which impacts end at those that they strike, or strike what closes however slowly.</summary>
+/// <summary>
+/// A scale by which impacts end at those that they strike, or strike what closes however slowly; or by which deep overlap is pushed out no
+/// faster than shallow.
+/// </summary>
 internal sealed class FaultyContactScale(Scene scene) : ContactScale(scene.ContactTolerance, scene.Gravity, SimTime.Zero)
 {
     /// <summary>An impact does not go on from those that it strikes.</summary>
@@ -12,6 +15,11 @@ internal sealed class FaultyContactScale(Scene scene) : ContactScale(scene.Conta
 
     /// <summary>Contacts are struck that close as slowly as impacts leave them.</summary>
     internal bool StrikesWhatIsSlow { get; init; }
+
+    /// <summary>What is deep is pushed out as slowly as what is not.</summary>
+    internal bool PushesSlowly { get; init; }
+
+    internal override double DeepSpeed(double depth, double seconds) => PushesSlowly ? Pull * seconds : base.DeepSpeed(depth, seconds);
 
     internal override double ReachSpeed => CutsImpactsShort ? double.MaxValue : base.ReachSpeed;
 

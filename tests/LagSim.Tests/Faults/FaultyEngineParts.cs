@@ -36,6 +36,9 @@ internal sealed class FaultyEngineParts : EngineParts
     /// <summary>Takes no contact for one that lasts.</summary>
     internal bool IgnoresIslands { get; init; }
 
+    /// <summary>Takes what is slow for still.</summary>
+    internal bool SleepsWhereSlow { get; init; }
+
     /// <summary>Bounces as often as it closes.</summary>
     internal bool NeverCollapses { get; init; }
 
@@ -119,6 +122,9 @@ internal sealed class FaultyEngineParts : EngineParts
     internal override SleepWaker SleepWaker(
         BodyTable bodies, TimelineStore timelines, SegmentLookup view, ContactGraph graph, RewindRequests rewinds, MemberFactory members) =>
         new FaultySleepWaker(bodies, timelines, (FaultySegmentLookup)view, graph, rewinds, members, this);
+
+    internal override IslandStatics IslandStatics(BodyTable bodies, in Forces forces, ContactGraph graph, ContactStep step) =>
+        SleepsWhereSlow ? new FaultyIslandStatics(bodies, forces, graph, step) : base.IslandStatics(bodies, forces, graph, step);
 
     internal override SegmentLinker SegmentLinker(
         BodyTable bodies, TimelineStore timelines, ContactGraph graph, Partners partners, MemberFactory members) =>

@@ -1,0 +1,115 @@
+using System;
+using LagSim.Events;
+using LagSim.Scenes;
+using LagSim.Tests.Faults;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Behavior;
+
+/// <summary>
+/// Rules 6 and 10 (docs/CONTACT.md): what is put into another is out of it, but for the contact tolerance, in the time of a fall by its
+/// depth, at any gravity and tolerance; it leaves slowly, and nothing sleeps inside another.
+/// </summary>
+public sealed class OverlapTests
+{
+    private const double Radius = 0.5, Depth = 0.5, Put = 0.5;
+
+    [Theory]
+    [InlineData(0, 1e-3)]
+    [InlineData(0, 1e-2)]
+    [InlineData(0.003, 1e-4)]
+    [InlineData(1.62, 1e-2)]
+    [InlineData(9.81, 1e-9)]
+    [InlineData(9.81, 1e-2)]
+    [InlineData(9.81, 0.1)]
+    [InlineData(100, 1e-3)]
+    public void BodyPutIntoAnother_IsOutInTheTimeOfAFall(double gravity, double tolerance)
+    {
+        Simulation world = WithOverlap(gravity, tolerance);
+        double pull = Math.Max(1, gravity);
+        double until = Put + Math.Sqrt(2 * Depth / pull) + (2.0 / 64);
+        world.AdvanceTo(At(until));
+        Assert.InRange(DepthAt(world, until), double.NegativeInfinity, tolerance);
+
+        // What leaves is about as fast as what rises by the tolerance, so that nothing is thrown.
+        double later = until + 0.3;
+        world.AdvanceTo(At(later));
+        double speed = (Read(world, First, later).Velocity - Read(world, Second, later).Velocity).Length;
+        Assert.InRange(speed, 0, 2 * Math.Sqrt(2 * pull * tolerance));
+    }
+
+    /// <summary>
+    /// The control: as slowly as shallow overlap is pushed out it takes far longer, and where slow is still it stays inside.
+    /// </summary>
+    [Theory]
+    [InlineData(0, 1e-3, false)]
+    [InlineData(9.81, 1e-2, false)]
+    [InlineData(0, 1e-2, true)]
+    [InlineData(9.81, 0.1, true)]
+    public void BodyPutIntoAnother_PushedOutSlowly_IsSeenInside(double gravity, double tolerance, bool sleeps)
+    {
+        Simulation world = WithOverlap(gravity, tolerance, sleeps, isSlow: true);
+        double until = sleeps ? 1000 : Put + Math.Sqrt(2 * Depth / Math.Max(1, gravity)) + (2.0 / 64);
+        world.AdvanceTo(At(until));
+        Assert.True(DepthAt(world, until) > 0.3);
+        Assert.Equal(sleeps, Read(world, First, until).Motion == MotionLaw.Resting);
+    }
+
+    /// <summary>What moves along with the other, or parts too slowly, or flies in, is out as soon; what flies on does so.</summary>
+    [Theory]
+    [InlineData(3, 3, 1)]
+    [InlineData(0, 1e-3, 1)]
+    [InlineData(0, -5, 1.5)]
+    [InlineData(0, 5, 0.2)]
+    public void MovingBodiesPutIntoEachOther_Part(double first, double second, double within)
+    {
+        Scene scene = new SceneBuilder("moving").WithGravity(V(0)).WithContactTolerance(1e-3)
+            .AddBody("a", new BodySpec(Radius, 1, 0.5), V(0), V(first)).Build();
+        Simulation world = new(scene, KeepAll);
+        double before = 0.5 * ((first * first) + (second * second));
+        world.Submit(PlayerAction.Spawn(new BodySpec(Radius, 1, 0.5), V(Depth), V(second)).Stamp(At(0), 0, 1));
+        world.AdvanceTo(At(within + 1));
+        Assert.InRange(DepthAt(world, within), double.NegativeInfinity, 1e-3);
+        BodyState a = Read(world, First, within + 1), b = Read(world, world.BodyAt(1), within + 1);
+        Near(V(first + second), a.Velocity + b.Velocity, 1e-9);
+        Assert.InRange(0.5 * (a.Velocity.LengthSquared + b.Velocity.LengthSquared), 0, before + 0.01);
+        Assert.True(second != 5 || b.Velocity.X > 4.6, "what flies on is hardly held back");
+    }
+
+    /// <summary>Twelve bodies at nearly one place are apart soon, and none is thrown higher than they were deep.</summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(9.81)]
+    public void ManyBodiesAtOnePlace_Part(double gravity)
+    {
+        SceneBuilder builder = new SceneBuilder("many").WithGravity(V(0, -gravity)).WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, -Radius);
+        Simulation world = new(builder.AddBody("first", new BodySpec(Radius, 1, 0.5), V(0)).Build(), KeepAll);
+        Random random = new(1);
+        for (int n = 1; n < 12; n++)
+        {
+            Vector3D place = V(0.3 * random.NextDouble(), 0.3 * random.NextDouble(), 0.3 * random.NextDouble());
+            world.Submit(PlayerAction.Spawn(new BodySpec(Radius, 1, 0.5), place).Stamp(At(0), 0, (uint)n));
+        }
+
+        world.AdvanceTo(At(3));
+        Assert.True(MinGap(world, At(3)) >= -1e-3);
+        double pull = Math.Max(1, gravity);
+        Assert.All(Bodies(world), body => Assert.InRange(Read(world, body, 3).Velocity.Length, 0, Math.Sqrt(2 * pull * 2 * Radius)));
+        Assert.All(Bodies(world), body => Assert.InRange(Read(world, body, 3).Position.Y, -Radius, gravity > 0 ? 4 * Radius : 6 * Radius));
+    }
+
+    private static Simulation WithOverlap(double gravity, double tolerance, bool sleeps = false, bool isSlow = false)
+    {
+        SceneBuilder builder = new SceneBuilder("overlap").WithGravity(V(0, -gravity)).WithContactTolerance(tolerance);
+        builder = gravity > 0 ? builder.AddPlane("floor", Vector3D.Up, 0) : builder;
+        Scene scene = builder.AddBody("a", new BodySpec(Radius, 1, 0.5), V(0, Radius)).Build();
+        FaultyEngineParts parts = new() { SleepsWhereSlow = sleeps, Scale = isSlow ? new FaultyContactScale(scene) { PushesSlowly = true } : null };
+        Simulation world = new(scene, KeepAll.WithParts(parts));
+        world.Submit(PlayerAction.Spawn(new BodySpec(Radius, 1, 0.5), V((2 * Radius) - Depth, Radius)).Stamp(At(Put), 0, 1));
+        return world;
+    }
+
+    private static double DepthAt(Simulation world, double time) =>
+        (2 * Radius) - (Read(world, world.BodyAt(0), time).Position - Read(world, world.BodyAt(1), time).Position).Length;
+}
