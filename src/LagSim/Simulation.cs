@@ -165,7 +165,7 @@ public sealed class Simulation
     /// <param name="events">The number of events that may happen; on return, what is left of it. The events of one instant all happen, so
     /// it may end below zero. At or below zero nothing happens. Predicting a body's next event again counts as an event.</param>
     /// <returns>Whether it got there; if not, <see cref="SimulatedTo"/> is how far it got, and the next call continues from there. A world
-    /// that an endless instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes
+    /// that an instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes
     /// that is no later.</returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>.</exception>
