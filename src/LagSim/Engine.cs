@@ -110,7 +110,8 @@ internal sealed class Engine
         // The handlers of events.
         CollapseRule collapse = parts.CollapseRule(scene, Bodies, Timelines, graph, strikes);
         CaptureRule capture = new(scene, Timelines, graph, Step.Scale, members, trajectories.Friction, hasIslands);
-        FreeImpactResponse resolver = new(scene, Bodies, Timelines, graph, capture, collapse);
+        FreeImpactResponse resolver = new(scene, Bodies, Timelines, graph, Step.Scale, capture, collapse);
+        ClosedInstants closed = new(Progress, graph);
         ImpactNotifier notifier = new(Bodies, Timelines, graph);
         HandBlows blows = new(Bodies, Timelines, graph, capture, Step.Rules);
         ImpactSegments segments = new(Timelines, graph, trajectories, blows);
@@ -120,11 +121,11 @@ internal sealed class Engine
         ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
             scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph);
         IslandImpactProblem problem = new(Step, work);
-        IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments);
+        IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments, closed);
         IslandImpact island = new(
             scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, trajectories.Friction, notifier,
             memberSegments, blows);
-        ImpactHandler impacts = new(scene, Bodies, graph, partners, Isolated, builder, resolver, island, notifier, segments, linker);
+        ImpactHandler impacts = new(graph, partners, Isolated, builder, resolver, island, notifier, segments, linker, closed);
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
         ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));
         FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);

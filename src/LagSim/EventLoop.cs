@@ -13,7 +13,7 @@ namespace LagSim;
 /// <summary>The event loop: takes the least event that is due, or call of rules, has it processed, and moves on how far the world is simulated.</summary>
 /// <remarks>
 /// An instant happens as a whole, unless an end is asked for. In a session's world an advance may stop within one that takes long, and one
-/// that has no end blocks the world until an event removes the cause.
+/// in which rules fail blocks the world until an event removes the cause.
 /// </remarks>
 internal sealed class EventLoop(
     Progress progress, TimelineStore timelines, Agenda agenda, RollbackState rollback, Rewinder rewinder,
@@ -24,7 +24,7 @@ internal sealed class EventLoop(
     private SimTime? partDone; // the instant that has happened only in part
 
     /// <summary>
-    /// Whether an advance may stop within an instant, and whether one with more impacts than can be followed blocks the world until an
+    /// Whether an advance may stop within an instant, and whether one in which rules fail blocks the world until an
     /// event comes that lies no later; otherwise an instant happens as a whole, and such a one ends the simulation.
     /// </summary>
     internal bool WaitsForLateEvents { get; set; }
@@ -51,13 +51,13 @@ internal sealed class EventLoop(
     internal void ThrowIfCancelled() => cancellation.ThrowIfCancellationRequested();
 
     /// <summary>
-    /// Throws if an endless instant blocks the world up to a time. The world can continue once an event comes that removes the cause.
+    /// Throws if an instant blocks the world up to a time. The world can continue once an event comes that removes the cause.
     /// </summary>
     internal void ThrowIfBlockedAt(SimTime time)
     {
-        if (Blocked is InstantException endless && endless.At <= time)
+        if (Blocked is InstantException failed && failed.At <= time)
         {
-            throw endless.AsEnd();
+            throw failed.AsEnd();
         }
     }
 
@@ -80,11 +80,11 @@ internal sealed class EventLoop(
         {
             stop = Run(until, time, ref events, ref reached);
         }
-        catch (InstantException endless) when (MayWaitBefore(endless.At))
+        catch (InstantException failed) when (MayWaitBefore(failed.At))
         {
-            Blocked = endless;
-            RewindInstant(endless.At);
-            until = endless.At - SimDuration.OneTick;
+            Blocked = failed;
+            RewindInstant(failed.At);
+            until = failed.At - SimDuration.OneTick;
         }
         catch (SimulationException failure) when (failure is not TimelinesFullException)
         {

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim;
 
 /// <summary>
-/// An instant cannot be simulated: it has more impacts than can be followed, or the game's rules failed in it. Everything before it stays
+/// An instant cannot be simulated: the game's rules failed in it. Everything before it stays
 /// valid, and a late event may remove the cause. This exception does not leave the simulation.
 /// </summary>
 internal sealed class InstantException : Exception

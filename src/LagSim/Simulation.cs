@@ -107,6 +107,18 @@ public sealed class Simulation
     /// <summary>The number of impacts among them. Bodies that touch at one tick and round take part in one impact.</summary>
     public long ImpactsProcessed => Engine.Progress.ImpactsProcessed;
 
+    /// <summary>
+    /// The number of impacts among them by which an instant was closed that had gone on for 1024 rounds, as where elastic balls are packed
+    /// without room: what touches was solved together, so that it closed no more. In most worlds none ever is.
+    /// </summary>
+    public long ImpactsClosed => Engine.Progress.ImpactsClosed;
+
+    /// <summary>
+    /// The kinetic energy that was lost in <see cref="ImpactsClosed"/>, in J, 0 or more apart from rounding: what bodies had that nothing
+    /// lets move, and what their restitution takes. Impacts that were simulated again count again.
+    /// </summary>
+    public double EnergyLostInClosing => Engine.Progress.EnergyLostInClosing;
+
     /// <summary>The number of times that timelines were cut for a late or a retracted event.</summary>
     public long Rollbacks => Engine.Rollback.Count;
 
@@ -154,7 +166,7 @@ public sealed class Simulation
     /// <param name="events">The number of events that may happen; on return, what is left of it. The events of one instant all happen, so
     /// it may end below zero. At or below zero nothing happens. Predicting a body's next event again counts as an event.</param>
     /// <returns>Whether it got there; if not, <see cref="SimulatedTo"/> is how far it got, and the next call continues from there. A world
-    /// that an endless instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes
+    /// that an instant blocks (<see cref="Hosting.LiveWorld.BlockedAt"/>) gets no further, whatever is left, until an event comes
     /// that is no later.</returns>
     /// <remarks>Advancing in pieces changes no bit of what happens. Cost: per event, not per time.</remarks>
     /// <exception cref="ArgumentOutOfRangeException">The time is before <see cref="SimulatedTo"/>, or more than 84 days after the

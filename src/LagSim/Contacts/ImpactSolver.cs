@@ -15,7 +15,7 @@ namespace LagSim.Contacts;
 internal sealed class ImpactSolver
 {
     /// <summary>By what share of what is exchanged the energy may be off by rounding.</summary>
-    private const double Rounding = 1e-9;
+    internal const double Rounding = 1e-9;
 
     private NormalImpulses? normals; // made when an impact has several contacts
     private double[] demand = Array.Empty<double>(); // by contact: target - u before
@@ -69,7 +69,7 @@ internal sealed class ImpactSolver
     internal static double Inverse(double mass) => IsHand(mass) ? 0 : 1 / mass;
 
     // By mass fractions instead of impulses: a few ulp at any mass ratio, and an elastic bounce off a plane is exactly a mirror.
-    private static void Single(ref ContactPoint c, Span<double> masses, Span<Vector3D> velocities)
+    internal static void Single(ref ContactPoint c, Span<double> masses, Span<Vector3D> velocities)
     {
         double change = c.Target - Opening(c, velocities);
         if (!(change > 0))

@@ -171,7 +171,7 @@ public sealed class LiveWorld
     }
 
     /// <summary>
-    /// Whether a step may end within an instant, and whether an instant with more impacts than can be followed blocks the world until an
+    /// Whether a step may end within an instant, and whether an instant in which the game's rules fail blocks the world until an
     /// event comes that lies no later than it; default no: then an instant happens as a whole, and such a one ends the simulation.
     /// </summary>
     /// <remarks>

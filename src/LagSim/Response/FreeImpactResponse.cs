@@ -1,35 +1,47 @@
 using System;
 using LagSim.Contacts;
+using LagSim.Events;
 using LagSim.Islands;
 using LagSim.Motion;
 using LagSim.Scenes;
-using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim.Response;
 
 /// <summary>Solves an impact that ends where it is struck: rebounds, friction, and the end of a collapse.</summary>
 internal sealed class FreeImpactResponse(
-    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, CaptureRule capture, CollapseRule collapse)
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactScale scale, CaptureRule capture, CollapseRule collapse)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly ImpactSolver solver = new();
     private readonly ImpactFriction friction = new();
+    private readonly PoissonImpact poisson = new();
+    private bool givesBack; // whether the impact of the graph is of a closed instant, and is solved already
     private double[] coefficients = Array.Empty<double>();
 
     /// <summary>Sets the rebound of each contact of the graph, and whether it persists from here on.</summary>
-    internal void SetTargets(bool collapses, SimTime time)
+    internal void SetTargets(bool collapses, in EventKey key)
     {
         for (int i = 0; i < graph.ContactCount; i++)
         {
             ref ContactPoint c = ref graph.Contacts[i];
             c.Normal = graph.NormalOf(c);
             double closing = Math.Max(0, -ImpactSolver.Opening(c, graph.Velocities));
-            double restitution = graph.RestitutionOf(c);
-            bool isLast = collapses && collapse.WasStruck(c, time);
-            double rebound = isLast ? 0 : restitution * closing;
-            c.Lasts = capture.IsLast(c, restitution, rebound, time) || (isLast && graph.HasMember(c));
-            c.Target = c.Lasts ? 0 : rebound;
+            c.Target = collapses && collapse.WasStruck(c, key.Time) ? 0 : graph.RestitutionOf(c) * closing;
+        }
+
+        givesBack = collapses && CollapseRule.GivesBack(key) && !graph.HasHand();
+        if (givesBack)
+        {
+            GiveBack();
+        }
+
+        for (int i = 0; i < graph.ContactCount; i++)
+        {
+            ref ContactPoint c = ref graph.Contacts[i];
+            c.Lasts = capture.IsLast(c, graph.RestitutionOf(c), c.Target, key.Time)
+                || (collapses && c.Target <= scale.SweepSpeed && graph.HasMember(c) && collapse.WasStruck(c, key.Time));
+            c.Target = c.Lasts ? 0 : c.Target;
         }
     }
 
@@ -38,7 +50,15 @@ internal sealed class FreeImpactResponse(
     {
         int struck = graph.ContactCount;
         AddSupports();
-        solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
+        if (givesBack)
+        {
+            poisson.Apply(graph.Contacts, graph.Masses, graph.Velocities);
+        }
+        else
+        {
+            solver.Solve(graph.Contacts, graph.Masses, graph.Velocities);
+        }
+
         if (!collapses)
         {
             SolveFriction(); // a collapse is only to end
@@ -126,5 +146,23 @@ internal sealed class FreeImpactResponse(
                 }
             }
         }
+    }
+
+    /// <summary>
+    /// What a closed instant gives back (<see cref="PoissonImpact"/>). What carries a body is pressed with the others, and gives nothing.
+    /// </summary>
+    private void GiveBack()
+    {
+        int struck = graph.ContactCount;
+        AddSupports();
+        int count = graph.ContactCount;
+        Span<double> restitutions = count <= 64 ? stackalloc double[count] : new double[count];
+        for (int i = 0; i < count; i++)
+        {
+            restitutions[i] = i < struck ? graph.RestitutionOf(graph.Contacts[i]) : 0;
+        }
+
+        poisson.Solve(graph.Contacts, restitutions, graph.Masses, graph.Velocities);
+        graph.KeepContacts(struck);
     }
 }

@@ -30,9 +30,9 @@ internal class ImpactGraphBuilder(
     internal virtual bool TryBuild(int slot, in EventKey key, out double residual, out bool collapses)
     {
         residual = double.MaxValue;
-        bool mayCollapse = collapse.HasLosses && CollapseRule.MayBeStruckAgain(key);
+        bool mayCollapse = (collapse.HasLosses && CollapseRule.MayBeStruckAgain(key)) || CollapseRule.IsLong(key);
         Follow(slot, key, mayCollapse);
-        collapses = mayCollapse && rewinds.AreNone && collapse.Collapses(key.Time);
+        collapses = mayCollapse && rewinds.AreNone && collapse.Collapses(key);
         if (mayCollapse && rewinds.AreNone && !collapses)
         {
             Follow(slot, key, withStruckBefore: false);

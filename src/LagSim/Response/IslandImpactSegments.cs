@@ -14,7 +14,7 @@ namespace LagSim.Response;
 /// </summary>
 internal sealed class IslandImpactSegments(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, IslandImpactProblem impact, MemberFactory members,
-    TrajectoryFactory trajectories, FreeImpactResponse resolver, ImpactSegments alone)
+    TrajectoryFactory trajectories, FreeImpactResponse resolver, ImpactSegments alone, ClosedInstants closed)
 {
     private readonly Paths paths = new(timelines);
 
@@ -23,6 +23,7 @@ internal sealed class IslandImpactSegments(
     /// <param name="residual">Seconds from the tick to the impact.</param>
     internal void Open(in EventKey key, double residual)
     {
+        closed.Before();
         SimTime end = SimTime.MaxValue; // of the step in which the island is
         for (int i = 0; i < graph.BodyCount; i++)
         {
@@ -33,6 +34,7 @@ internal sealed class IslandImpactSegments(
         }
 
         resolver.LimitSpeeds();
+        closed.After();
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int before = timelines.Last(graph.Slots[i]);

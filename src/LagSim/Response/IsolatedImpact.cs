@@ -37,7 +37,7 @@ internal class IsolatedImpact(
 
         double residual = scheduler.Contact(slot).Residual;
         Fill(slot, key.Time, residual);
-        resolver.SetTargets(collapses: false, key.Time);
+        resolver.SetTargets(collapses: false, key);
         if (graph.Contacts[0].Lasts)
         {
             return false;

@@ -24,6 +24,12 @@ internal sealed class Progress(SimTime start, SimDuration history, SimTime from)
     /// <summary>How many impacts were among them.</summary>
     internal long ImpactsProcessed { get; set; }
 
+    /// <summary>How many of those closed an instant that would have had no end.</summary>
+    internal long ImpactsClosed { get; set; }
+
+    /// <summary>The energy that was lost in those, in J.</summary>
+    internal double EnergyLostInClosing { get; set; }
+
     /// <summary>Moves the edge of the history on, if it is not there yet.</summary>
     internal void ForgetBefore(SimTime time) => HistoryEdge = SimTime.Max(HistoryEdge, time);
 

@@ -153,8 +153,13 @@ public sealed class PersistentContactTests
     }
 
     [Fact]
-    public void HeavyDroppedOnLight_OfSixtyDecadesAndNoLoss_StopsWithASentence() =>
-        Assert.Contains("no end", Assert.Throws<SimulationException>(() => Run(Dropped(1), 1.5)).Message, StringComparison.Ordinal);
+    public void HeavyDroppedOnLight_OfSixtyDecadesAndNoLoss_BouncesAsHighAsItFell()
+    {
+        Simulation simulation = Run(Dropped(1), 1.5);
+        Assert.True(simulation.ImpactsClosed > 0);
+        Assert.InRange(Energy(simulation, At(1.5)), Energy(simulation, At(0)) * (1 - 1e-9), Energy(simulation, At(0)) * (1 + 1e-9));
+        Assert.True(MinGap(simulation, At(1.5)) > -2 * Fine);
+    }
 
     private static Scene Dropped(double e) => new SceneBuilder("dropped").WithContactTolerance(Fine).AddPlane("floor", Vector3D.Up, V(0), e)
         .AddBody("below", Ball(e: e), V(0, 0.5)).AddBody("light", Ball(mass: 1e-30, e: e), V(0, 1.5))
@@ -213,6 +218,8 @@ public sealed class PersistentContactTests
     [Theory]
     [InlineData(0.5, 9.81)]
     [InlineData(0, 0)]
+    [InlineData(1, 9.81)]
+    [InlineData(1, 0)]
     public void BetweenTwoPlanes_WithNoRoom_TheBallKeepsOnlyItsMotionAlong(double e, double g)
     {
         Simulation simulation = Run(NoRoom(e, g), 5);
@@ -221,12 +228,6 @@ public sealed class PersistentContactTests
         Near(V(2), state.Velocity, 1e-6);
         Assert.InRange(simulation.EventsProcessed, 1, 10_000);
     }
-
-    [Theory]
-    [InlineData(0)]
-    [InlineData(9.81)]
-    public void BetweenTwoPlanes_WithNoRoomAndNoLoss_StopsWithASentence(double g) =>
-        Assert.Contains("no end", Assert.Throws<SimulationException>(() => Run(NoRoom(1, g), 5)).Message, StringComparison.Ordinal);
 
     private static Scene NoRoom(double e, double g) => new SceneBuilder("press").WithGravity(V(0, -g)).AddPlane("floor", Vector3D.Up, V(0), e)
         .AddPlane("ceiling", V(0, -1), V(0, 1), e).AddBody("ball", Ball(), V(0, 0.5), V(2, 1)).Build();

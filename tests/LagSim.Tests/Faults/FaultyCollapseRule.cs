@@ -1,5 +1,6 @@
 using LagSim.Collisions;
 using LagSim.Contacts;
+using LagSim.Events;
 using LagSim.Response;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -12,7 +13,7 @@ internal sealed class FaultyCollapseRule(
     Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes, FaultyEngineParts faults)
     : CollapseRule(scene, bodies, timelines, graph, strikes)
 {
-    internal override bool Collapses(SimTime time) => !faults.NeverCollapses && base.Collapses(time);
+    internal override bool Collapses(in EventKey key) => !faults.NeverCollapses && base.Collapses(key);
 
     private protected override bool TakesIn(int strikeCount) =>
         faults.Has(HealingFault.CollapsesWithWhoTouches) || base.TakesIn(strikeCount);

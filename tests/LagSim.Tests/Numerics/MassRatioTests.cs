@@ -100,71 +100,14 @@ public sealed class MassRatioTests
     [InlineData(1e12, 0.9)]
     [InlineData(1e13, 0.5)]
     [InlineData(1e30, 0.9)]
+    [InlineData(1e14, 1)]
+    [InlineData(1e30, 1)]
     public void LightBallJammedAgainstAWall_ByAHeavyOne_EndsWithoutPassing(double ratio, double e)
     {
         Simulation simulation = Run(Squeeze(ratio, e), 3);
         Assert.InRange(simulation.EventsProcessed, 2, 10_000);
         Assert.True(MinGap(simulation, At(3)) >= -1e-9);
         Assert.True(Energy(simulation, At(3)) <= Energy(simulation, At(0)) * (1 + 1e-14));
-    }
-
-    /// <summary>By the square root of the mass ratio, 3e15 impacts, and nothing is lost in any: it stops, with a sentence.</summary>
-    [Fact]
-    public void LightBallJammedAgainstAWall_WithoutALoss_StopsWithASentence()
-    {
-        string message = Assert.Throws<SimulationException>(() => Run(Squeeze(1e30, 1), 3)).Message;
-        Assert.Contains("'light'", message, StringComparison.Ordinal);
-        Assert.Contains("no end", message, StringComparison.Ordinal);
-        Assert.Contains("a restitution below 1", message, StringComparison.Ordinal);
-    }
-
-    /// <summary>
-    /// Eight balls packed in a box of their size, thrown to one side, come to the sentence, which takes as many rounds as an instant may
-    /// have; those that lose a little end.
-    /// </summary>
-    [Theory]
-    [InlineData(1)]
-    [InlineData(0.9)]
-    public void BallsPackedInABox_WithoutALoss_StopWithASentence(double restitution)
-    {
-        SceneBuilder builder = new SceneBuilder("box").WithGravity(Floating)
-            .AddPlane("floor", V(0, 1), -0.2).AddPlane("lid", V(0, -1), -0.2)
-            .AddPlane("west", V(1), -0.2).AddPlane("east", V(-1), -0.2)
-            .AddPlane("back", V(0, 0, 1), -0.2).AddPlane("front", V(0, 0, -1), -0.2);
-        for (int n = 0; n < 8; n++)
-        {
-            Vector3D place = V(0.1 - (n % 2 * 0.2), 0.1 - (n / 2 % 2 * 0.2), 0.1 - (n / 4 * 0.2));
-            builder.AddBody($"ball {n}", new BodySpec(0.1, 1, restitution), place, V(3, -2, 1));
-        }
-
-        Exception? failure = Record.Exception(() => Run(builder.Build(), 0.1));
-        Assert.Equal(restitution == 1, failure is SimulationException && failure.Message.Contains("no end", StringComparison.Ordinal));
-    }
-
-    /// <summary>A world that waits stands before that instant, and goes on once a late event takes the light ball away; to the bits of one that knew it before.</summary>
-    [Fact]
-    public void LightBallJammedAgainstAWall_RemovedLate_LetsAWorldThatWaitsGoOn()
-    {
-        ExternalEvent gone = ExternalEvent.Remove(At(0.3), 1, 1, First);
-        Simulation inTime = new(Squeeze(1e30, 1));
-        inTime.Submit(gone);
-        inTime.AdvanceTo(At(3));
-        Simulation waits = new(Squeeze(1e30, 1)) { WaitsForLateEvents = true };
-        long events = long.MaxValue;
-        Assert.False(waits.TryAdvanceTo(At(3), ref events));
-        long before = waits.EventsProcessed;
-        Assert.False(waits.TryAdvanceTo(At(3), ref events));
-        Assert.Equal((before, waits.Engine.Loop.Blocked!.At - SimDuration.OneTick), (waits.EventsProcessed, waits.SimulatedTo)); // it does nothing meanwhile
-        Assert.InRange(waits.SimulatedTo.ToSeconds(), 0.49, 0.51);
-        Assert.Equal(SubmitResult.Queued, waits.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)))); // of no help
-        Assert.NotNull(waits.Engine.Loop.Blocked);
-        waits.Submit(gone);
-        inTime.Submit(ExternalEvent.SetVelocity(At(2), 1, 2, Second, V(0)));
-        inTime.AdvanceTo(At(3));
-        Assert.True(waits.TryAdvanceTo(At(3), ref events));
-        Assert.Null(waits.Engine.Loop.Blocked);
-        Assert.Equal(inTime.StateHash(At(3)), waits.StateHash(At(3)));
-        Assert.Equal(inTime.EventHash(At(3)), waits.EventHash(At(3)));
     }
 
     private static Scene Squeeze(double ratio, double e) => new SceneBuilder("squeeze").WithGravity(Floating).AddPlane("wall", V(1), V(0), e)

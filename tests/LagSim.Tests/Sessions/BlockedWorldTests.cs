@@ -2,24 +2,25 @@ using System;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
+using LagSim.Tests.Rules;
 using LagSim.Time;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;
 
 /// <summary>
-/// A host whose world stands at an instant with more impacts than can be followed waits for an event, and is not busy meanwhile.
+/// A host whose world stands at an instant in which the rules fail waits for an event, and is not busy meanwhile.
 /// </summary>
 public sealed class BlockedWorldTests
 {
     [Fact]
     public void Step_OfAHostWhoseWorldStands_WaitsUntilItEndsWithASentence()
     {
-        // A light ball between a wall and a heavy one that comes, without a loss.
-        BodySpec light = new(0.5, 1, 1), heavy = new(0.5, 1e30, 1);
+        // A ball that comes to a wall at 3 s, and rules that cannot bear it.
+        GivenRules rules = new() { Hears = (_, _, _) => true, Contact = (_, _) => throw new InvalidOperationException("No such wall.") };
         Vector3D right = new(1, 0, 0);
-        Scene scene = new SceneBuilder("squeeze").WithGravity(Vector3D.Zero).AddPlane("wall", right, 0.0)
-            .AddBody("light", light, right * 0.5).AddBody("heavy", heavy, right * 4, -right).Build();
+        Scene scene = new SceneBuilder("wall").WithGravity(Vector3D.Zero).AddPlane("wall", right, 0.0)
+            .AddBody("ball", new BodySpec(0.5, 1, 1), right * 3.5, -right).WithRules(rules).Build();
         VirtualClock clock = new(SimTime.FromSeconds(10));
         VirtualNetwork network = new(clock, 1, LinkProfiles.Lan);
         HostOptions options = new()
@@ -42,6 +43,6 @@ public sealed class BlockedWorldTests
 
         Assert.InRange(whileBlocked, 10, 1000); // a commit is due while it stands, and cannot come
         Assert.Equal(SessionState.Ended, host.State);
-        Assert.Contains("have no end", host.EndReason, StringComparison.Ordinal);
+        Assert.Contains("No such wall", host.EndReason, StringComparison.Ordinal);
     }
 }
