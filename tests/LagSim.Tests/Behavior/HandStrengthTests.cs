@@ -79,7 +79,7 @@ public sealed class HandStrengthTests
         Simulation all = Squeezed(SolverRules.Usual);
         all.AdvanceTo(At(0.5));
         int busy = 0;
-        for (double t = 0.2; t < 0.45; t += 0.013)
+        for (double t = 0.2; t < 0.45; t += 0.007)
         {
             Simulation original = Squeezed(SolverRules.Usual);
             original.AdvanceTo(At(t));
