@@ -94,7 +94,12 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
 
         return new RuleRead
         {
-            Kind = RuleReadKind.Room, Spec = spec, Centre = centre, Body = leftOut ?? default, LeavesOut = leftOut is not null, HasRoom = hasRoom,
+            Kind = RuleReadKind.Room,
+            Spec = spec,
+            Centre = centre,
+            Body = leftOut ?? default,
+            LeavesOut = leftOut is not null,
+            HasRoom = hasRoom,
         };
     }
 
