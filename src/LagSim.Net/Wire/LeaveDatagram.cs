@@ -48,7 +48,13 @@ internal readonly struct LeaveDatagram
         writer.WriteUInt64(SessionId);
         writer.WriteByte(Peer);
         writer.WriteByte((byte)Reason);
-        writer.WriteBytes(Encoding.UTF8.GetBytes(Sentence));
+        if (Reason == LeaveReason.HostFailed)
+        {
+            byte[] utf8 = Encoding.UTF8.GetBytes(Sentence);
+            writer.WriteUInt16((ushort)utf8.Length);
+            writer.WriteBytes(utf8);
+        }
+
         return writer.Position;
     }
 
@@ -63,9 +69,9 @@ internal readonly struct LeaveDatagram
         reader.Require(leave.IsWellFormed);
         if (leave.Reason == LeaveReason.HostFailed)
         {
-            string text = "";
-            reader.Require(reader.Remaining <= WireFormat.MaxLeaveBytes - WireFormat.LeaveBytes
-                && WireText.TryDecode(reader.ReadBytes(reader.Remaining), out text));
+            int length = reader.ReadUInt16();
+            reader.Require(length <= WireFormat.MaxSentenceBytes);
+            reader.Require(WireText.TryDecode(reader.ReadBytes(length), out string text));
             leave = new LeaveDatagram(leave.SessionId, leave.Peer, leave.Reason, text);
             reader.Require(string.Equals(leave.Sentence, text, StringComparison.Ordinal));
         }
@@ -87,7 +93,7 @@ internal readonly struct LeaveDatagram
                 : char.IsSurrogate(sentence[at]) ? "?"
                 : sentence.Substring(at, 1);
             bytes += Encoding.UTF8.GetByteCount(one);
-            if (bytes > WireFormat.MaxLeaveBytes - WireFormat.LeaveBytes)
+            if (bytes > WireFormat.MaxSentenceBytes)
             {
                 break;
             }

@@ -79,7 +79,10 @@ internal static class WireFormat
     public const int LeaveBytes = 14;
 
     /// <summary>The length of a <see cref="LeaveDatagram"/> with the longest sentence.</summary>
-    public const int MaxLeaveBytes = 1014;
+    public const int MaxLeaveBytes = LeaveBytes + sizeof(ushort) + MaxSentenceBytes;
+
+    /// <summary>The longest sentence of a <see cref="LeaveDatagram"/>, in bytes of UTF-8.</summary>
+    public const int MaxSentenceBytes = 1000;
 
     /// <summary>The length of a <see cref="SnapshotRequestDatagram"/>.</summary>
     public const int SnapshotRequestBytes = 29;

@@ -95,17 +95,16 @@ internal sealed class SessionRun
         return failure is not null && result.WorldsAgree ? throw failure : result;
     }
 
-    /// <summary>What the first world that could not be simulated any further ended with; null if none ended so.</summary>
+    /// <summary>Which world could not be simulated any further, from where on, and why; of several the host's. Null if none ended so.</summary>
     private SessionTestException? EndOfAWorld()
     {
-        Member? first = Members.Where(member => member.FailedAt is not null).OrderBy(member => member.FailedAt).FirstOrDefault();
-        if (first is null)
+        if (Members.FirstOrDefault(member => member.Session.Failure is not null) is not Member first)
         {
             return null;
         }
 
         string who = first.Link is null ? "the host" : $"over '{first.Link.Name}'";
-        string when = FormattableString.Invariant($"{(first.FailedAt!.Value - Host.World!.Simulation.Start).ToSeconds():0.###} s");
+        string when = FormattableString.Invariant($"{(first.Session.World!.Simulation.SimulatedTo - Host.World!.Simulation.Start).ToSeconds():0.###} s");
         string what = $"The world of player {first.Player.Number}, {who}, ended at {when}. {first.Session.EndReason}";
         return new SessionTestException(what, first.Session.Failure!);
     }
@@ -341,7 +340,6 @@ internal sealed class SessionRun
             Session = session;
             Player = player;
             Trace = new SessionTrace(session, log);
-            session.Ended += () => FailedAt = session.Failure is null ? null : session.SharedTime.Now;
         }
 
         internal LinkProfile? Link { get; }
@@ -352,9 +350,6 @@ internal sealed class SessionRun
 
         /// <summary>The recorded states and worlds.</summary>
         internal SessionTrace Trace { get; }
-
-        /// <summary>When its world could not be simulated any further, in shared time; null if it did not end so.</summary>
-        internal SimTime? FailedAt { get; private set; }
 
         internal long Frames { get; private set; }
 

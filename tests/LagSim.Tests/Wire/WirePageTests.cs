@@ -80,7 +80,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 3 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 34 + 6 + 5 + 4 + 10 + 3, rows);
+        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 4 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 34 + 6 + 5 + 4 + 10 + 3, rows);
     }
 
     [Fact]
@@ -230,7 +230,8 @@ public sealed class WirePageTests
         foreach (LeaveDatagram d in Sample(WireGen.Leave, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason), ("sentence", Encoding.UTF8.GetBytes(d.Sentence))));
+                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason), ("sentence", d.Reason == LeaveReason.HostFailed
+                    ? [.. LayoutPage.Bytes("u16", Encoding.UTF8.GetByteCount(d.Sentence)), .. Encoding.UTF8.GetBytes(d.Sentence)] : Array.Empty<byte>())));
         }
 
         foreach ((ulong nonce, byte[] cookie) in Sample(from n in WireGen.Bits64 from c in Gen.ArrayOf(WireGen.Byte, 16) select (n, c), each))
