@@ -88,10 +88,10 @@ public abstract record SessionOptions
 
     /// <summary>
     /// The greatest force in N that a player's hand may have, above 0, up to <see cref="double.PositiveInfinity"/>; or 0, the default, for that
-    /// of a hand that asks for none: 1000 N for each kg that it holds (<see cref="Motion.HandStrength"/>). A host refuses a grab of a
+    /// of a hand that asks for none: 1000 N, and 1000 N more for each kg that it holds (<see cref="Motion.HandStrength"/>). A host refuses a grab of a
     /// stronger hand as <see cref="Verdict.Invalid"/>, by its own option; a client's own <see cref="Session.Do"/> goes by the client's.
     /// </summary>
-    /// <remarks>Below 1000 N for each kg that is held, players have to say in <see cref="Events.PlayerAction.Grab"/> that they ask for less.</remarks>
+    /// <remarks>Below what a hand has by default, players have to say in <see cref="Events.PlayerAction.Grab"/> that they ask for less.</remarks>
     public double MaxHandForce { get; init; }
 
     /// <summary>

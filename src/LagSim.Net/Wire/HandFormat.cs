@@ -15,6 +15,9 @@ internal static class HandFormat
     /// <summary>What a hand has that is not the default, as bits.</summary>
     internal static int Has(in Hold hold) => (SaysStrength(hold) ? StrengthFlag : 0) | (IsBusy(hold) ? BusyFlag : 0);
 
+    /// <summary>How long that is, in bytes.</summary>
+    internal static int Length(in Hold hold) => (SaysStrength(hold) ? 2 * sizeof(double) : 0) + (IsBusy(hold) ? sizeof(long) : 0);
+
     /// <summary>Writes what a hand has.</summary>
     internal static void Write(ref WireWriter writer, in Hold hold)
     {

@@ -98,7 +98,7 @@ internal static class SnapshotFormat
             {
                 MotionLaw.RungeKutta4 or MotionLaw.ClosedForm => DenseBytes,
                 MotionLaw.DormandPrince54 => DenseBytes + sizeof(long),
-                MotionLaw.Held => HoldBytes,
+                MotionLaw.Held => HoldBytes + HandFormat.Length(body.Hold),
                 _ => 0,
             };
             length += MinBodyBytes + (body.SupportCount * sizeof(uint)) + more + (Turns(body) ? SpinBytes : 0) + (HasOtherFilter(body) ? EventFormat.FilterBytes : 0)

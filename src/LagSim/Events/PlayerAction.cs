@@ -102,8 +102,8 @@ public readonly struct PlayerAction
     /// </summary>
     /// <param name="body">The body.</param>
     /// <param name="offset">From its centre to the hand's point, in metres; default none.</param>
-    /// <param name="maxForce">The greatest force in N with which it pushes what it meets, above 0 and up to 1e30. By default 1000 N for each kg
-    /// of the body (<see cref="Motion.HandStrength"/>). What would take more force, it goes through. A host may refuse a grab that asks for
+    /// <param name="maxForce">The greatest force in N with which it pushes what it meets, above 0 and up to 1e30. By default 1000 N, and 1000 N
+    /// more for each kg of the body (<see cref="Motion.HandStrength"/>). What would take more force, it goes through. A host may refuse a grab that asks for
     /// more than it allows.</param>
     /// <param name="maxPower">Its greatest power in W, above 0 and up to 1e30. By default what its greatest force gives at 50 m/s.</param>
     public static PlayerAction Grab(BodyId body, Vector3D offset = default, double maxForce = 0, double maxPower = 0) =>

@@ -5,9 +5,9 @@ namespace LagSim.Motion;
 
 /// <summary>How hard a hand pushes what it meets: its greatest force and power, and what follows from them in a step and in a blow.</summary>
 /// <remarks>
-/// <para>A hand that says nothing of it is as strong as it has to be to do to any body what it does to the one that it holds: to make it as
-/// fast as a fast hand is, within <see cref="HandPath.Settles"/>. So by default its force is 1000 N and its power 50 kW for each kg that it
-/// holds.</para>
+/// <para>A hand that says nothing of it is as strong as it has to be to make itself, which is some 1 kg, and what it holds as fast as a fast hand
+/// within <see cref="HandPath.Settles"/>. So by default its force is 1000 N, and 1000 N more for each kg that it holds, and its power is its
+/// force times 50 m/s.</para>
 /// <para>In a contact step of h it gives at most h times its force, in all its contacts together; where it moves so fast that this would be
 /// more than its power, at most h times its power divided by its speed. In impacts it gives as much in any time t as in t and a blow, which is
 /// <see cref="HandPath.Settles"/> long, and what it cannot give it goes through.</para>
@@ -20,8 +20,14 @@ public static class HandStrength
     /// </summary>
     public const double FastSpeed = 50;
 
-    /// <summary>The greatest force in N of a hand that says none, on a body of this mass in kg: 1000 N/kg.</summary>
-    public static double DefaultForce(double mass) => mass * (FastSpeed / HandPath.Settles.ToSeconds());
+    /// <summary>The acceleration with which a hand at rest is that fast within <see cref="HandPath.Settles"/>, in m/s².</summary>
+    private const double Acceleration = FastSpeed / 0.05;
+
+    /// <summary>The mass of a hand itself, in kg.</summary>
+    private const double OwnMass = 1;
+
+    /// <summary>The greatest force in N of a hand that says none and holds a body of this mass in kg: 1000 N, and 1000 N/kg.</summary>
+    public static double DefaultForce(double mass) => (OwnMass + mass) * Acceleration;
 
     /// <summary>The greatest power in W of a hand with this greatest force in N that says none: what the force gives at the speed of a fast hand.</summary>
     public static double DefaultPower(double force) => force * FastSpeed;

@@ -192,7 +192,7 @@ public sealed class HandStrengthTests
         {
             ExternalEvent next = n == 0 ? ExternalEvent.Grab(At(0.01), 1, 1, Second, maxForce: 100, maxPower: 20)
                 : ExternalEvent.HoldKeyframe(At(0.04 * n), 1, n + 1, Second, V(from + (0.04 * n * 4)), V(4));
-            if (next.Time > At(after))
+            if (next.Time >= At(after))
             {
                 simulation.Submit(next);
             }

@@ -87,7 +87,8 @@ public sealed class HeldTests
     {
         // From 0.15 s on the path is x = 3 (s - s^2 / 0.6) exactly; the balls touch where that is 0.25.
         Scene scene = new SceneBuilder("strike").WithGravity(Floating).AddBody("held", Ball(0.5, 1e-3, e), V(0)).AddBody("free", Ball(0.5, 1e3, e), V(1.25)).Build();
-        ExternalEvent[] events = [ExternalEvent.Grab(At(0.1), 1, 1, First), ExternalEvent.HoldKeyframe(At(0.1), 1, 2, First, V(0), V(3))];
+        ExternalEvent[] events =
+            [ExternalEvent.Grab(At(0.1), 1, 1, First, maxForce: 1e6), ExternalEvent.HoldKeyframe(At(0.1), 1, 2, First, V(0), V(3))]; // a ton
         Simulation simulation = Run(scene, 1, events);
         TimelineEntry impact = Assert.Single(Impacts(simulation, Second));
         double s = 0.3 - Math.Sqrt(0.09 - (0.25 * 0.6 / 3));

@@ -73,7 +73,7 @@ public sealed class WedgeTests
         // The ball has come to stand after 0.7 s and sleeps half a second later, so before the hand sets out.
         const double from = 1.5, until = 4.5;
         Scene scene = Notch(withHand: true);
-        List<ExternalEvent> events = [ExternalEvent.Grab(At(0.01), 1, 1, BodyId.OfScene(1))];
+        List<ExternalEvent> events = [ExternalEvent.Grab(At(0.01), 1, 1, BodyId.OfScene(1), maxForce: 1e5)]; // for 100 kg that it speeds up
         for (uint n = 0; n < 45; n++)
         {
             double up = speed * Math.Max(0, (0.1 * n) - from); // from below

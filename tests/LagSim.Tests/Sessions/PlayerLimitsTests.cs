@@ -122,8 +122,8 @@ public sealed class PlayerLimitsTests
         SessionGroup usual = Group(), weak = Group(force: 150, power: 3_000);
         Assert.Equal("1:Accepted 2:Accepted 3:Invalid 4:Accepted 5:Invalid 6:Accepted 7:Invalid", Verdicts(usual)); // what it has by default, on 2 kg
         Assert.Equal("1:Invalid 2:Accepted 3:Invalid 4:Accepted 5:Invalid 6:Invalid 7:Accepted", Verdicts(weak));
-        SceneException strong = Assert.Throws<SceneException>(() => usual.Do(1, PlayerAction.Grab(Second, maxForce: 2_001)));
-        Assert.Equal("The Grab takes body 'ball 1' (0.0.1) with a greatest force of 2001 N; in this session a player's hand has 2000 N there at most.", strong.Message);
+        SceneException strong = Assert.Throws<SceneException>(() => usual.Do(1, PlayerAction.Grab(Second, maxForce: 3_001)));
+        Assert.Equal("The Grab takes body 'ball 1' (0.0.1) with a greatest force of 3001 N; in this session a player's hand has 3000 N there at most.", strong.Message);
         Assert.Throws<SceneException>(() => usual.Do(1, PlayerAction.Grab(Second, maxForce: -1)));
 
         static string Verdicts(SessionGroup group)
@@ -134,9 +134,9 @@ public sealed class PlayerLimitsTests
                 1,
                 ExternalEvent.Grab(now, hands.Peer, 1, Second),
                 ExternalEvent.Grab(now, hands.Peer, 2, Second, maxForce: 150, maxPower: 3_000),
-                ExternalEvent.Grab(now, hands.Peer, 3, Second, maxForce: 2_001, maxPower: 10),
+                ExternalEvent.Grab(now, hands.Peer, 3, Second, maxForce: 3_001, maxPower: 10),
                 ExternalEvent.Grab(now, hands.Peer, 4, Second, maxForce: 10),
-                ExternalEvent.Grab(now, hands.Peer, 5, Second, maxForce: 150, maxPower: 100_001),
+                ExternalEvent.Grab(now, hands.Peer, 5, Second, maxForce: 150, maxPower: 150_001),
                 ExternalEvent.Grab(now, hands.Peer, 6, new BodyId(hands.Peer, 8, 0)), // what it spawns later, of any mass
                 ExternalEvent.Grab(now, hands.Peer, 7, new BodyId(hands.Peer, 8, 0), maxForce: 1, maxPower: 1));
             group.Run(0.1);
