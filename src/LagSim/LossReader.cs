@@ -16,6 +16,11 @@ internal sealed class LossReader(BodyTable bodies, TimelineStore timelines, Forc
         foreach (int slot in bodies)
         {
             int last = timelines.Last(slot);
+            while (last != TimelineStore.None && timelines.IsNote(last))
+            {
+                last = timelines.Previous(last); // others have looked for it since
+            }
+
             if (last != TimelineStore.None && timelines.Key(last).Kind == EventKind.Lost && timelines.Key(last).Body == bodies.Id(slot))
             {
                 lost.Add(Of(slot, last));

@@ -75,11 +75,17 @@ public static class ExternalEventCheck
 
         Limits.InRange(external.MaxForce, 0, Limits.MaxStrength, whose, "greatest force", "N (0: the default)");
         Limits.InRange(external.MaxPower, 0, Limits.MaxStrength, whose, "greatest power", "W (0: the default)");
+        bool isOfScene = external.Body.Peer == 0 && external.Body.Sequence == 0;
+        if (isOfScene && external.Kind is (EventKind.SetVelocity or EventKind.Teleport or EventKind.Release))
+        {
+            Limits.CheckDrag(external.Velocity, scene.BodyArray[external.Body.Index].Spec, whose, scene.ForceArray);
+        }
+
         if (external.Kind == EventKind.Spawn)
         {
             CheckSpawn(external, scene, whose);
         }
-        else if (external.Kind == EventKind.Teleport && external.Body.Peer == 0 && external.Body.Sequence == 0)
+        else if (external.Kind == EventKind.Teleport && isOfScene)
         {
             Limits.CheckPlaceInBox(external.Position, scene.Box, whose);
             Limits.CheckCentres(external.Position, scene.BodyArray[external.Body.Index].Spec, whose, scene.ForceArray);
@@ -127,6 +133,7 @@ public static class ExternalEventCheck
                     + " its smallest body unless smallest_radius_m (SceneBuilder.WithSmallestRadius) says less.");
         }
 
+        Limits.CheckDrag(external.Velocity, external.Spec, whose, scene.ForceArray);
         Limits.CheckSpin(external.Spin, external.Spec, scene.SmallestRadius, whose, scene.ForceArray);
         Limits.CheckPlaceInBox(external.Position, scene.Box, whose);
         Limits.CheckCentres(external.Position, external.Spec, whose, scene.ForceArray);

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Motion;
@@ -11,8 +12,8 @@ internal static class StepSize
     /// <summary>The longest: 1 s.</summary>
     internal static readonly SimDuration Longest = SimDuration.FromTicks(SimDuration.TicksPerSecond);
 
-    /// <summary>The shortest step: 16 ticks, 1.5e-11 s. A path that needs shorter ones is at a singularity.</summary>
-    internal static readonly SimDuration Shortest = SimDuration.FromTicks(16);
+    /// <summary>The shortest step.</summary>
+    internal static readonly SimDuration Shortest = Limits.ShortestStep;
 
     /// <summary>A step made so many times as long, within the limits.</summary>
     internal static SimDuration Scaled(SimDuration step, double factor)

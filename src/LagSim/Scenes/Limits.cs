@@ -25,6 +25,9 @@ internal static class Limits
     /// </summary>
     internal const double MaxRate = 1e6;
 
+    /// <summary>The shortest step of any law: 16 ticks, 1.5e-11 s. A path that needs shorter ones is at a singularity.</summary>
+    internal static readonly SimDuration ShortestStep = SimDuration.FromTicks(16);
+
     /// <summary>The largest coefficient of friction, which leaves friction to the other side of a contact.</summary>
     internal const double MaxFriction = 100;
 
@@ -207,6 +210,24 @@ internal static class Limits
     /// end at once what an impact begins.
     /// </summary>
     internal static double MaxReboundSpeed(double smallestRadius) => 1.5 * MaxGivenSpeed(smallestRadius);
+
+    /// <summary>
+    /// A speed that is given to a body is not so high that its drag takes most of it within the shortest step: no law would follow that.
+    /// </summary>
+    internal static void CheckDrag<T>(in Vector3D velocity, in BodySpec spec, T whose, Force[] forces)
+    {
+        foreach (Force force in spec.Forces.Among(forces))
+        {
+            double rate = force.Kind == ForceKind.QuadraticDrag ? force.RateAt(spec.Mass, Vector3D.Zero, velocity, Vector3D.Zero) : 0;
+            double most = 1 / ShortestStep.ToSeconds();
+            if (!(rate <= most))
+            {
+                throw new SceneException(
+                    $"The velocity of {whose} is {velocity} m/s, at which force '{force.Name}' acts on its {Text(spec.Mass)} kg at a rate of {Above(rate, most)} 1/s; at most"
+                    + $" {Short(most)} 1/s can be followed.");
+            }
+        }
+    }
 
     /// <summary>A box holds at least the smallest body that the scene promises.</summary>
     internal static void CheckBox<T>(in PeriodicBox box, double smallestRadius, T whose)

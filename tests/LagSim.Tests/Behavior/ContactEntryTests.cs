@@ -52,6 +52,21 @@ public sealed class ContactEntryTests
         }
     }
 
+    /// <summary>A speed at which no step follows a body's drag is refused at the door.</summary>
+    [Fact]
+    public void Push_BeyondWhatAnyStepFollows_IsRefused()
+    {
+        Scene scene = new SceneBuilder("pitch").AddForce(Force.QuadraticDrag("air", 0.16), out ForceSet air).AddPlane("floor", Vector3D.Up, Vector3D.Zero)
+            .AddBody("ball", new BodySpec(0.11, 0.002, 0.8, forces: air), V(0, 0.11)).Build();
+        Simulation world = Run(scene, 1);
+        string refusal = Assert.Throws<SceneException>(() => world.Submit(ExternalEvent.SetVelocity(At(1), 1, 1, First, V(1e9)))).Message;
+        Assert.Contains("'air'", refusal, StringComparison.Ordinal);
+        Assert.Throws<SceneException>(() => world.Submit(ExternalEvent.Spawn(At(1), 1, 1, scene.Bodies[0].Spec, V(1, 1), V(1e9))));
+        world.Submit(ExternalEvent.SetVelocity(At(1), 1, 1, First, V(1e8))); // the control
+        world.AdvanceTo(At(1.1));
+        Assert.Empty(world.LostBodies());
+    }
+
     /// <summary>Two balls that a throw presses past each other part with no more energy than it gave.</summary>
     [Fact]
     public void Throw_IntoTheBallOnTop_PartsWithoutGain()
