@@ -3,7 +3,6 @@ using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Response;
 using LagSim.Scenes;
-using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim.Tests.Faults;

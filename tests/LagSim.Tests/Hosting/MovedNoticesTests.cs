@@ -3,13 +3,11 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Hosting;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
 using LagSim.Tests.Faults;
 using LagSim.Tests.Rules;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

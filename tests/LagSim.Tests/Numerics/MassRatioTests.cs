@@ -1,8 +1,6 @@
 using System;
 using System.Linq;
-using LagSim.Events;
 using LagSim.Scenes;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,9 +1,7 @@
 using System;
 using System.Linq;
 using LagSim.Events;
-using LagSim.Hosting;
 using LagSim.Net.Sessions;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Testing;
 using LagSim.Testing.Links;
