@@ -1,7 +1,6 @@
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Islands;
-using LagSim.Timelines;
 
 namespace LagSim.Response;
 
