@@ -1,3 +1,4 @@
+using System;
 using LagSim.Time;
 
 namespace LagSim.Net.Wire;
@@ -38,12 +39,20 @@ internal static class HandFormat
     {
         bool saysStrength = (has & StrengthFlag) != 0;
         bool isBusy = (has & BusyFlag) != 0;
-        double maxForce = saysStrength ? reader.ReadDouble() : 0;
-        double maxPower = saysStrength ? reader.ReadDouble() : 0;
+        double maxForce = saysStrength ? ReadStrength(ref reader) : 0;
+        double maxPower = saysStrength ? ReadStrength(ref reader) : 0;
         SimTime busy = isBusy ? SimTime.FromTicks(reader.ReadInt64()) : default;
-        reader.Require(maxForce >= 0 && maxPower >= 0);
         reader.Require((!saysStrength || maxForce != 0 || maxPower != 0) && isBusy == (busy != default)); // exactly one encoding
         return new Hold(hold.Peer, hold.Offset, hold.KeyframeTime, maxForce, maxPower, busy);
+    }
+
+    /// <summary>Reads a force or a power: finite, not below zero and not -0.0, which would be a second encoding of none.</summary>
+    private static double ReadStrength(ref WireReader reader)
+    {
+        long bits = reader.ReadInt64();
+        double value = BitConverter.Int64BitsToDouble(bits);
+        reader.Require(bits >= 0 && value <= double.MaxValue);
+        return value;
     }
 
     private static bool SaysStrength(in Hold hold) => hold.MaxForce != 0 || hold.MaxPower != 0;

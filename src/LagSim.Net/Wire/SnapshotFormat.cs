@@ -179,14 +179,14 @@ internal static class SnapshotFormat
             EventFormat.WriteFilter(ref writer, body.Filter);
         }
 
-        if (body.Players != PeerSet.Everyone)
-        {
-            writer.WriteUInt32(body.Players.Mask);
-        }
-
         if (body.Law == MotionLaw.Held)
         {
             HandFormat.Write(ref writer, body.Hold);
+        }
+
+        if (body.Players != PeerSet.Everyone)
+        {
+            writer.WriteUInt32(body.Players.Mask);
         }
 
         if (IsMember(body.Law, body.SupportCount))
@@ -357,9 +357,9 @@ internal static class SnapshotFormat
         Vector3D spinRate = turns ? ReadExactly(ref reader) : default;
         CollisionFilter filter = hasOtherFilter ? EventFormat.ReadFilter(ref reader) : spec.Filter;
         reader.Require(hasOtherFilter == (filter != spec.Filter));
+        hold = held ? HandFormat.Read(ref reader, hold, has) : hold;
         PeerSet players = (has & PlayersFlag) != 0 ? EventFormat.ReadPeers(ref reader) : default;
         reader.Require((has & PlayersFlag) != 0 == (players != PeerSet.Everyone));
-        hold = held ? HandFormat.Read(ref reader, hold, has) : hold;
         reader.Require(!turns || spin != Vector3D.Zero || spinRate != Vector3D.Zero); // exactly one encoding
         SimTime centre = default;
         SimTime stillSince = default;

@@ -180,7 +180,8 @@ public sealed class WirePageTests
         {
             BodySnapshot b = snapshot.Bodies[0];
             BodySnapshot held = new(
-                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7), 8, 9, At(10)));
+                b.Id, b.Spec, b.Opened, MotionLaw.Held, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, [7], V(1, 2, 3), hold: new Hold(3, V(4, 5, 6), At(7), 8, 9, At(10)),
+                filter: new CollisionFilter(5, 9), players: PeerSet.Of(2));
             snapshot = new WorldSnapshot(snapshot.Start, snapshot.Time, snapshot.EventHash, [held]);
         }
 
