@@ -14,9 +14,8 @@ namespace LagSim.Net.Sessions;
 
 /// <summary>Runs a session on its own thread, in real time. It wakes for datagrams, for actions, and when something is due.</summary>
 /// <remarks>
-/// Members are safe on any thread, with two exceptions: only the drawing thread may call <see cref="Latest"/>, and neither that nor
-/// <see cref="WaitUntilRunning"/> may be called on the session's own thread. An exception thrown by a handler of a session's event is
-/// reported by <see cref="Session.HandlerFailed"/>, and ends nothing.
+/// Members are safe on any thread, but only the drawing thread may call <see cref="Latest"/>, and the session's own may call neither that
+/// nor <see cref="WaitUntilRunning"/>. What a handler of an event throws comes to <see cref="Session.HandlerFailed"/>, and ends nothing.
 /// </remarks>
 /// <example>
 /// A host in one program and a client in another; each draws a frame and kicks the ball:
@@ -70,11 +69,8 @@ public sealed class PeerThread : IDisposable
         port.Arrived += thread.Wake;
     }
 
-    /// <summary>
-    /// Raised on the session's thread for each action of <see cref="Do"/> that was refused, with the action and the exception; before the
-    /// returned task completes, and whether or not it is awaited. The host's verdict on a client's event comes later, by
-    /// <see cref="Session.Logged"/>.
-    /// </summary>
+    /// <summary>Raised on the session's thread for each action of <see cref="Do"/> that was refused, with the action and the exception; before
+    /// the returned task completes, awaited or not. The host's verdict on a client's event comes by <see cref="Session.Logged"/>.</summary>
     /// <remarks>Not for what the end of the thread left unanswered. Without a handler it goes to <see cref="System.Diagnostics.Trace"/>, and
     /// the first that nobody awaits either is said on standard error, a second later.</remarks>
     public event Action<PlayerAction, Exception>? Refused

@@ -22,8 +22,9 @@ internal sealed class IslandStepper(
     SolverWork work)
 {
     private readonly Forces forces = forces;
-    private readonly Paths paths = new(timelines);
     private bool[] isLost = Array.Empty<bool>(); // by body of the graph: no step follows the forces on it
+
+    private Paths Paths => new(timelines);
 
     /// <summary>How many contact steps were taken.</summary>
     internal long StepsTaken { get; private set; }
@@ -91,7 +92,7 @@ internal sealed class IslandStepper(
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int piece = timelines.Last(graph.Slots[i]);
-            if (!paths.IsMember(piece))
+            if (!Paths.IsMember(piece))
             {
                 continue; // held
             }
@@ -122,7 +123,7 @@ internal sealed class IslandStepper(
             {
                 SimTime end = timelines.Segment(piece).End;
                 BodyId id = bodies.Id(graph.Slots[i]);
-                EventKey own = new(end, paths.RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
+                EventKey own = new(end, Paths.RoundAfter(piece, end), EventKind.StepEnd, id, id, 0, 0);
                 least = any && EventKey.Compare(least, own) <= 0 ? least : own;
                 any = true;
             }
@@ -181,12 +182,12 @@ internal sealed class IslandStepper(
             int slot = graph.Slots[i];
             int piece = timelines.Last(slot);
             ref readonly BodySpec spec = ref bodies.Spec(slot);
-            bool isHeld = paths.IsHeld(piece);
+            bool isHeld = Paths.IsHeld(piece);
             Vector3D velocity = graph.Velocities[i];
             Vector3D gain = Vector3D.Zero;
             if (isHeld)
             {
-                velocity = (paths.PositionAt(piece, tick + length) - graph.Positions[i]) / seconds;
+                velocity = (Paths.PositionAt(piece, tick + length) - graph.Positions[i]) / seconds;
             }
             else
             {
@@ -285,7 +286,7 @@ internal sealed class IslandStepper(
         {
             ref SolverContact c = ref step.Problem.Contacts[i];
             int piece = timelines.Last(graph.Slots[c.First]);
-            if (!paths.IsMember(piece))
+            if (!Paths.IsMember(piece))
             {
                 continue;
             }

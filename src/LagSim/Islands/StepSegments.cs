@@ -24,7 +24,7 @@ internal sealed class StepSegments(
     /// <param name="key">The step.</param>
     /// <param name="length">How long it is.</param>
     /// <param name="isLost">By body: whether no step follows the forces on it.</param>
-    internal void OpenStep(in EventKey key, SimDuration length, ReadOnlySpan<bool> isLost)
+    internal void OpenStep(in EventKey key, SimDuration length, Span<bool> isLost)
     {
         step.Problem.List();
         FindHoldingPairs();
@@ -136,7 +136,7 @@ internal sealed class StepSegments(
     /// <param name="isLost">By body: whether it is lost.</param>
     /// <param name="tick">When.</param>
     /// <param name="length">How long a step is.</param>
-    private double PartOfPushes(int first, ReadOnlySpan<bool> isLost, SimTime tick, SimDuration length)
+    private double PartOfPushes(int first, Span<bool> isLost, SimTime tick, SimDuration length)
     {
         double room = 0;
         double along = 0;

@@ -151,8 +151,8 @@ public sealed class EndlessWorkTests
     public void Fall_OfAnOrdinaryBall_HasNoEnd()
     {
         Scene scene = new SceneBuilder("void").AddBody("ball", Ball(), V(0)).Build();
-        Simulation simulation = Run(scene, 8e6); // as far as time goes
-        Near(-9.81 * 8e6, Read(simulation, First, 8e6).Velocity.Y, 1e-6);
+        Simulation simulation = Run(scene, 7e6); // nearly as far as a world lasts
+        Near(-9.81 * 7e6, Read(simulation, First, 7e6).Velocity.Y, 1e-6);
         Assert.Equal(SimTime.MaxValue, simulation.Horizon);
     }
 
@@ -160,8 +160,8 @@ public sealed class EndlessWorkTests
     public void Read_AtTheEndOfTime_FromAStartLongBefore_DoesNotOverflow()
     {
         Simulation simulation = new(Drop(1, 0), new SimulationOptions(SimTime.FromTicks(-(3L << 61)), SimDuration.FromSeconds(1)));
-        simulation.AdvanceTo(SimTime.MaxValue);
-        Assert.True(simulation.TryRead(First, SimTime.MaxValue, out BodyState state));
+        simulation.AdvanceTo(Limits.LatestTime);
+        Assert.True(simulation.TryRead(First, Limits.LatestTime, out BodyState state));
         Assert.Equal(MotionLaw.Resting, state.Motion);
         Simulation falls = new(new SceneBuilder("void").AddBody("ball", Ball(), V(0), V(1)).Build(), new SimulationOptions(SimTime.FromTicks(-(3L << 61)), SimDuration.MaxValue));
         Assert.True(falls.TryRead(First, falls.Horizon, out state));

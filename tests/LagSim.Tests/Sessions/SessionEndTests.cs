@@ -78,9 +78,11 @@ public sealed class SessionEndTests
     [Fact]
     public void World_ThatCannotGoOn_IsAFailure()
     {
-        // A fall that becomes faster than anything may be.
-        LagSim.Scenes.Scene endless = new LagSim.Scenes.SceneBuilder("endless").WithGravity(V(0, -1e6)).AddBody("dust", Ball(1e-9), V(0, 1)).Build();
-        SessionGroup group = new(endless, 1, LinkProfiles.PureDelay(5));
+        // A program's own acceleration that has no number any more.
+        LagSim.Scenes.Scene broken = new LagSim.Scenes.SceneBuilder("broken")
+            .AddForce(LagSim.Scenes.Force.Supplied(new FunctionForce((t, _, _) => V(t > 0.5 ? double.NaN : 0))), out LagSim.Scenes.ForceSet own)
+            .AddBody("dust", new LagSim.Scenes.BodySpec(0.1, 1, 1, forces: own), V(0, 1)).Build();
+        SessionGroup group = new(broken, 1, LinkProfiles.PureDelay(5));
         Assert.True(group.RunUntil(() => group.Host.State == SessionState.Ended));
         Assert.Equal(SessionEnd.Failed, group.Host.EndedBy);
     }
