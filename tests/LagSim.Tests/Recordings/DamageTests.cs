@@ -224,7 +224,7 @@ public sealed class DamageTests
 
         // The control: what is really there takes room.
         BodySnapshot body = World(Log).Snapshot(Start + Seconds(1)).Bodies[0];
-        byte[] real = Small(joined: new JoinedState(1, new WorldSnapshot(Start, Start + Seconds(1), 0, Enumerable.Repeat(body, 6000).ToArray())));
+        byte[] real = Small(joined: new JoinedState(1, new WorldSnapshot(Start, Start + Seconds(1), 0, Enumerable.Repeat(body, 5000).ToArray())));
         Assert.InRange(Allocated(real), 1_000_000, 10_000_000);
     }
 

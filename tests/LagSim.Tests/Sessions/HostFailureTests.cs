@@ -88,7 +88,12 @@ public sealed class HostFailureTests
         Assert.IsType<TimeoutException>(Assert.IsAssignableFrom<SimulationException>(failure.InnerException).InnerException);
     }
 
-    private static Scene Scene() => new SceneBuilder("failing").AddPlane("floor", Vector3D.Up, V(0)).AddBody("one", Ball(0.5), V(0, 3)).AddBody("two", Ball(0.5), V(3, 3)).WithRules(rules).Build();
+    private static Scene Scene() => With(rules);
 
-    private static SessionGroup Open() => new SessionGroup(Scene(), 3, LinkProfiles.PureDelay(20), 5, peer => peer == 0 ? new HostOptions() : new ClientOptions { Rules = [new GivenRules { Command = (_, _, _) => { } }] }).Connect();
+    private static Scene With(GivenRules rules) => new SceneBuilder("failing").AddPlane("floor", Vector3D.Up, V(0)).AddBody("one", Ball(0.5), V(0, 3)).AddBody("two", Ball(0.5), V(3, 3))
+        .WithRules(rules).Build();
+
+    /// <summary>Rules that fail in the host's world alone.</summary>
+    private static SessionGroup Open() => new SessionGroup(
+        Scene(), 3, LinkProfiles.PureDelay(20), 5, scenes: peer => peer == 0 ? Scene() : With(new GivenRules { Command = (_, _, _) => { } })).Connect();
 }

@@ -44,7 +44,7 @@ internal static class SnapshotBits
 
     private static bool Same(BodySnapshot a, BodySnapshot b) =>
         a.Id == b.Id && a.Spec.Equals(b.Spec) && a.Filter == b.Filter && a.Players == b.Players && a.Opened.Equals(b.Opened) && a.Law == b.Law && a.Epoch == b.Epoch && a.End == b.End
-        && a.NextStep == b.NextStep && a.Hold.Peer == b.Hold.Peer && a.Hold.KeyframeTime == b.Hold.KeyframeTime && a.SupportCount == b.SupportCount
+        && a.NextStep == b.NextStep && a.Hold == b.Hold && a.SupportCount == b.SupportCount
         && Enumerable.Range(0, a.SupportCount).All(n => a.Support(n) == b.Support(n))
         && a.Centre == b.Centre && a.StillSince == b.StillSince && a.Contacts.Length == b.Contacts.Length
         && a.Inside.SequenceEqual(b.Inside) && a.Crossings.SequenceEqual(b.Crossings)
