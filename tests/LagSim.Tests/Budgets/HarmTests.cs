@@ -10,10 +10,11 @@ namespace LagSim.Tests.Budgets;
 /// <summary>Drawn attacks, and that the check finds what they do without a budget; and what honest players cost.</summary>
 public sealed class HarmTests
 {
+    /// <summary>From seed 32 on are five kinds; a heap that is shot and a storm have their player sent away.</summary>
     [Fact]
     public void Run_AFewDrawnAttacks_WorldsStayInRealTime()
     {
-        IReadOnlyList<HarmOutcome> outcomes = Play(new HarmOptions { Attacks = 8, Seed = 1 });
+        IReadOnlyList<HarmOutcome> outcomes = Play(new HarmOptions { Attacks = 8, Seed = 32 });
         Assert.All(outcomes, o => Assert.True(o.IsGood, $"{o.Case}: {string.Join(" ", o.Failures)} {o.Sentence}"));
         Assert.Contains(outcomes, o => o.IsExpelled && o.Sentence.Contains("of its bodies are removed", StringComparison.Ordinal));
         Assert.All(outcomes, o => Assert.True(o.HonestPart < 0.5, $"{o.Case}: {o.HonestPart}"));

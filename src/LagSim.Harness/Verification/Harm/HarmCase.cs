@@ -22,11 +22,17 @@ public sealed class HarmCase
     private const double MaxSpeed = 999;
     private const double KeyframeSeconds = 0.1;
 
+    /// <summary>A mass in kg whose hand, at 1000 N for each kg, does not yield to anything else in the room.</summary>
+    private const double AnvilMass = 1e8;
+
+    private const string Anvil = "anvil";
+
     private static readonly double[] Restitutions = [0, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99, 1, 1];
 
     private readonly SeededRandom random;
     private readonly List<HarmAction> actions = [];
     private readonly double radius;
+    private readonly bool isStrong;
     private int spawns;
 
     /// <summary>Draws the attack of a seed.</summary>
@@ -40,6 +46,7 @@ public sealed class HarmCase
         Friction = random.Pick(0, 0, 0.1, 0.3, 1);
         Width = random.NextDouble(1, 3);
         radius = random.Pick(0.1, 0.2, 0.25);
+        isStrong = Kind is HarmKind.Gap or HarmKind.Row or HarmKind.ShakenHeap && new SeededRandom(seed).Fork(0x4A13).IsLucky(70);
         Scene = random.IsLucky(25) ? BuiltIn() : Room();
         switch (Kind)
         {
@@ -113,10 +120,18 @@ public sealed class HarmCase
             builder.AddBody($"ball {n}", new BodySpec(radius, mass, e, friction: Friction), new Vector3D((n - 1) * 2.1 * radius, radius + 0.5 + (n * 0.1), 0));
         }
 
+        if (isStrong)
+        {
+            builder.AddBody(Anvil, new BodySpec(radius, AnvilMass, 1, friction: Friction), new Vector3D(0, radius, 2.5 * radius));
+        }
+
         return builder.Build();
     }
 
     private int Kindred() => random.IsLucky(70) ? 0 : random.NextInt(Scene.Bodies.Count);
+
+    /// <summary>What a hand holds: where the attacker wants it strong, the heaviest body there is, because a hand has as much force as that needs.</summary>
+    private int Held(int otherwise) => isStrong && Scene.Bodies[^1].Name == Anvil ? Scene.Bodies.Count - 1 : otherwise;
 
     private double RadiusOf(int body) => Scene.Bodies[body].Spec.Radius;
 
@@ -152,7 +167,7 @@ public sealed class HarmCase
             Vector3D low = Place(n, r);
             Vector3D high = low + new Vector3D(0, (2 * r) + gap, 0);
             double at = random.NextDouble(0, 0.5);
-            int held = Spawn(at, like, high), fast = Spawn(at, like, low);
+            int held = Spawn(at, Held(like), high), fast = Spawn(at, like, low);
             Hold(at, held, high);
             Push(at + 0.05, fast, new Vector3D(0, Fast(), 0));
             Push(at + random.NextDouble(0.1, 2), fast, new Vector3D(0, Fast(), 0));
@@ -169,8 +184,9 @@ public sealed class HarmCase
         for (int n = 0; n < count; n++)
         {
             Vector3D place = isUp ? new Vector3D(Width / 2, r + gap + (n * ((2 * r) + gap)), Width / 2) : new Vector3D(-Width + r + gap + (n * ((2 * r) + gap)), r + 1, Width / 2);
-            int ball = Spawn(at, like, place);
-            if (n == 0 || n == count - 1)
+            bool isHeld = n == 0 || n == count - 1;
+            int ball = Spawn(at, isHeld ? Held(like) : like, place);
+            if (isHeld)
             {
                 Hold(at, ball, place);
             }
@@ -193,7 +209,7 @@ public sealed class HarmCase
             int like = Kindred();
             double r = RadiusOf(like), pitch = (2 * r) + spread;
             Vector3D place = new(-Width + r + 0.001 + (pitch * (n % wide)), r + 0.6 + (pitch * (n / (wide * wide))) + (random.NextDouble() * 0.001), -Width + r + 0.001 + (pitch * (n / wide % wide)));
-            last = Spawn(at + (n * 0.002), like, place);
+            last = Spawn(at + (n * 0.002), isShaken && n == count - 1 ? Held(like) : like, place);
             if (speed > 0)
             {
                 Push(at + 0.2, last, new Vector3D(0, -speed, 0));
