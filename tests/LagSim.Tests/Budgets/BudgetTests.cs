@@ -21,7 +21,7 @@ public sealed class BudgetTests
     /// <summary>A machine that is a hundred times as slow.</summary>
     private const double Slow = MicrosecondsASecond / 100;
 
-    /// <summary>A mass in kg whose hand, at 1000 N for each kg, keeps its place against 1 kg that meets it a million times a second at 999 m/s.</summary>
+    /// <summary>A mass in kg whose hand, at 1000 N for each kg, keeps its place against a million blows a second of 1 kg at 999 m/s.</summary>
     private const double Heavy = 1e8;
 
     [Theory]

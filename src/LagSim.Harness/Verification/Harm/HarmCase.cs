@@ -130,7 +130,7 @@ public sealed class HarmCase
 
     private int Kindred() => random.IsLucky(70) ? 0 : random.NextInt(Scene.Bodies.Count);
 
-    /// <summary>What a hand holds: where the attacker wants it strong, the heaviest body there is, because a hand has as much force as that needs.</summary>
+    /// <summary>What a hand holds: where it is to be strong, the heaviest body, because a hand has as much force as that needs.</summary>
     private int Held(int otherwise) => isStrong && Scene.Bodies[^1].Name == Anvil ? Scene.Bodies.Count - 1 : otherwise;
 
     private double RadiusOf(int body) => Scene.Bodies[body].Spec.Radius;
