@@ -290,14 +290,17 @@ public sealed class InvariantTests
     [InlineData(HealingFault.ForgetsNearMisses)]
     internal void Check_HealingInAWayKnownToBeWrong_IsSeenToFail(HealingFault fault)
     {
+        // Where filters let bodies through each other, a pending contact more often outlasts its partner's newest segment.
+        bool filters = fault == HealingFault.GivesUpByBody;
         int seed = 0;
-        while (seed < 1000 && !Differs(seed, new FaultyEngineParts { Healing = fault }, HealingMode.CausalCone))
+        while (seed < 1000 && !Differs(seed, new FaultyEngineParts { Healing = fault }, HealingMode.CausalCone, filters))
         {
             seed++;
         }
 
         TestContext.Current.SendDiagnosticMessage($"{fault} is seen in world {seed}.");
         Assert.True(seed < 1000, $"{fault} is not seen in 1000 worlds.");
+        Assert.False(Differs(seed, new FaultyEngineParts(), HealingMode.CausalCone, filters)); // it is the fault that is seen
     }
 
     /// <summary>Who sleeps on what a late event takes away wakes, and falls as on time. The control leaves it asleep; the random worlds are over before anybody sleeps.</summary>
@@ -403,9 +406,9 @@ public sealed class InvariantTests
     private static int Differences(EngineParts parts, HealingMode mode = HealingMode.CausalCone) =>
         Enumerable.Range(0, 80).Count(seed => Differs(seed, parts, mode));
 
-    private static bool Differs(int seed, EngineParts parts, HealingMode mode)
+    private static bool Differs(int seed, EngineParts parts, HealingMode mode, bool filters = false)
     {
-        RandomWorld world = new(seed, hands: seed % 2 == 0);
+        RandomWorld world = new(seed, hands: seed % 2 == 0, filters: filters);
         try
         {
             return RandomWorld.Difference(world.OnTime(), world.Shuffled(seed, mode: mode, parts: parts)) is not null;

@@ -22,7 +22,7 @@ public sealed class AirHockeyPlayTests
     [MemberData(nameof(Links))]
     public void Bots_OverEveryLink_HaveOneScoreAndOneHistoryOfGoals(string link)
     {
-        Playground playground = Open($"panes=healing,healing&link={link}");
+        Playground playground = Open($"panes=healing,healing&link={link}&seed=3");
         PlayBots(playground, 30);
         AssertAgree(playground);
         List<(double Seconds, Goal Goal)>[] goals = [.. playground.Panes.Select(pane => Goals(playground, pane))];

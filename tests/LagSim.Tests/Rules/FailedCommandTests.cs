@@ -56,7 +56,7 @@ public sealed class FailedCommandTests
         Assert.True(!isRead || scene!.Hash == Scene(new Skips(there)).Hash);
     }
 
-    /// <summary>A late command has the later one succeed: it counts again, and what was told is retracted.</summary>
+    /// <summary>A late command has the later one succeed: it counts again, and what was told is in doubt, comes back as the same, and is retracted in the end.</summary>
     [Theory]
     [InlineData(RuleFault.None, true)]
     [InlineData(RuleFault.KeepsFailed, false)]
@@ -75,14 +75,23 @@ public sealed class FailedCommandTests
         Advance();
         Assert.Equal(Run(scene, 1, [allows, Good, Bad]).StateHash(At(1)), late.StateHash(At(1)));
         Assert.True(late.TryReadRules(At(1), out GivenState state) && state.Count == 2);
-        Assert.Equal(isRight ? 1 : 0, heard.All.Count(one => one.Kind == NoticeKind.Retracted && one.Notice.Code == RuleNotice.CommandFailed));
         late.Retract(allows);
         Advance();
         Assert.Equal(isRight, Run(scene, 1, [Good, Bad]).StateHash(At(1)) == late.StateHash(At(1)));
+        late.Submit(PlayerAction.Command(new GameCommand(2)).Stamp(At(0.2), 1, 2));
+        Advance();
+        late.DropHistoryBefore(At(1)); // nothing that comes now can have it fail again less than half a second away
+        Advance(1.1);
+        late.DropHistoryBefore(At(1.1));
+        Advance(1.1);
+        RuleEvent[] failed = [.. heard.All.Where(one => one.Notice.Code == RuleNotice.CommandFailed)];
+        NoticeKind[] course = [NoticeKind.Predicted, NoticeKind.InDoubt, NoticeKind.Moved, NoticeKind.InDoubt, NoticeKind.Retracted];
+        Assert.Equal(isRight ? course : [], failed.Select(one => one.Kind));
+        Assert.True(failed.All(one => one.Id == failed[0].Id && one.Time == Bad.Time));
 
-        void Advance()
+        void Advance(double to = 1)
         {
-            late.AdvanceTo(At(1));
+            late.AdvanceTo(At(to));
             heard.Notices.Tell(late);
         }
     }

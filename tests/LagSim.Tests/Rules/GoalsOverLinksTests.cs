@@ -87,7 +87,7 @@ public sealed class GoalsOverLinksTests
         Assert.Contains("given", without.EndReason, StringComparison.Ordinal); // the control: without the code nobody gets in
         group.DropLast();
         SimTime from = joined.BegunFrom!.Time;
-        for (int n = 0; n < 12; n++)
+        for (int n = 0; n < 18; n++)
         {
             group.Do(n % 3, PlayerAction.SetVelocity(BodyId.OfScene(n % 4), V(n % 2 == 0 ? 3 : -3, 3)));
             group.Run(0.4);

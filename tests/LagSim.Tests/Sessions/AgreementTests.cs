@@ -53,7 +53,7 @@ public sealed class AgreementTests
             group.Connect();
             try
             {
-                new ScriptedActions(5).DoIn(group, Count);
+                new ScriptedActions(7).DoIn(group, Count);
             }
             catch (InvalidOperationException) when (group.Sessions[1].State == SessionState.Ended)
             {
