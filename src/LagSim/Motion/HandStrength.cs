@@ -57,7 +57,8 @@ public static class HandStrength
         }
 
         double seconds = Math.Min(given / force, HandPath.Settles.ToSeconds()); // never more, but for rounding
-        return SimTime.Min((busy == default ? now : busy) + SimDuration.FromSeconds(seconds), now + HandPath.Settles);
+        SimTime until = SimTime.Min((busy == default ? now : busy) + SimDuration.FromSeconds(seconds), now + HandPath.Settles);
+        return until > now ? until : default; // an impulse of less than a tick is none
     }
 
     /// <summary>How much more than its normal impulse the whole impulse of a contact with this coefficient of friction is at most.</summary>
