@@ -29,7 +29,7 @@ public sealed class Screen : IDisposable
         }
         else if (told.Kind == NoticeKind.Moved && told.Id == shown)
         {
-            (word, until) = (WordFor(told.Notice), Math.Max(until, seconds + 0.4)); // not all anew: it has only moved
+            (word, until) = (WordFor(told.Notice), Math.Max(until, seconds + 0.4)); // the word goes on: its event has only moved
         }
         else if (told.Kind == NoticeKind.InDoubt && told.Id == shown)
         {

@@ -4,7 +4,7 @@ using LagSim.Time;
 namespace LagSim.Net.Wire;
 
 /// <summary>How the hand on a held body of a snapshot is encoded: how strong it is, and until when it is busy with what it struck.</summary>
-/// <remarks>Only what is not the default is there. Pure functions, safe on any thread, without allocation.</remarks>
+/// <remarks>Values that are the default are left out. Pure functions, safe on any thread, without allocation.</remarks>
 internal static class HandFormat
 {
     /// <summary>The largest value of what a body has, with a hand.</summary>
@@ -34,7 +34,7 @@ internal static class HandFormat
         }
     }
 
-    /// <summary>Reads what a hand has, by those bits; the reader refuses what is not well formed.</summary>
+    /// <summary>Reads the values of a hand that the bits announce; the reader refuses malformed ones.</summary>
     internal static Hold Read(ref WireReader reader, in Hold hold, byte has)
     {
         bool saysStrength = (has & StrengthFlag) != 0;

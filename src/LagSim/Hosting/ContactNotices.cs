@@ -94,7 +94,7 @@ public sealed class ContactNotices : IImpactObserver
     public int Capacity => ledger.Capacity;
 
     /// <summary>
-    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. What is not certain yet takes at most
+    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Uncertain ones take at most
     /// half of the queue; other notices that find no room are left out too, each with a gap in <see cref="ContactNotice.Number"/>.
     /// <see cref="Noticed"/> had them. From any thread.
     /// </summary>

@@ -62,7 +62,7 @@ public sealed class RuleNotices
     }
 
     /// <summary>
-    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. What is not certain yet takes at most
+    /// The number of notices that <see cref="TryRead"/> will never return, because too many waited. Uncertain ones take at most
     /// half of the queue. <see cref="Noticed"/> had them. From any thread.
     /// </summary>
     public long Lost => ledger.Lost;

@@ -13,8 +13,8 @@ internal readonly struct RuleTally
     /// brings a call that acts twice, their number doubles in a round, and <see cref="MaxRounds"/> is never reached.</summary>
     internal const int MaxActs = RuleWorld.MaxTimers * RuleWorld.MaxActs;
 
-    /// <summary>How many calls of one tick are made for contacts and crossings, all others counted too: 65,536, as many as an instant may
-    /// have rounds of impacts. What rattles without end must not end the rules that hear it.</summary>
+    /// <summary>How many calls of one tick are made for contacts and crossings, all others counted too: 65,536. An instant of
+    /// many bodies that is closed after its rounds has fewer; what rattles on must not end the rules that hear it.</summary>
     internal const int MaxCalls = 1 << 16;
 
     private readonly int calls;

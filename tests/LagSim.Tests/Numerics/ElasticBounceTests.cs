@@ -12,7 +12,7 @@ public sealed class ElasticBounceTests
 
     private static readonly double FirstImpact = Math.Sqrt(2 / TestWorlds.Gravity);
 
-    // What the engine must keep; the energy by far more than the 1e-12 that are promised, so that the wrong ways below are told apart.
+    // What the engine must keep from a height of 1 m, so that the wrong ways below are told apart; from other heights docs/EXACT.md says how much it may be.
     private const double MaxDrift = 5e-14;
     private const double MaxTimeError = 2e-9;
 
