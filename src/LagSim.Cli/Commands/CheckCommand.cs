@@ -5,6 +5,7 @@ using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Harness.Verification.Check;
+using LagSim.Harness.Verification.Worlds;
 using LagSim.Net.Strategies;
 using LagSim.Testing.Links;
 
@@ -22,6 +23,12 @@ internal static class CheckCommand
     {
         CommonOptions common = new();
         Option<int> sessions = CommonOptions.Whole("--sessions", "How many sessions; each takes the next seed", 1000, 1, 10_000_000);
+        Option<int?> worlds = new("--worlds")
+        {
+            Description = "How many single worlds to play too, without a network: late, shuffled, doubled and retracted events, and promises about their"
+                + " physics. Without --sessions no session is played.",
+            HelpName = "N",
+        };
         Option<string> peers = new("--peers")
         {
             Description = $"How many peers a session has, the host included: a number, or a range ({CheckOptions.FewestPeers} to {CheckOptions.MaxPeers}).",
@@ -43,12 +50,14 @@ internal static class CheckCommand
         Command command = new("check", "Plays random seeded sessions and compares every peer with one that never had any delay; a failing seed is shrunk to a smaller case"
             + " that can be replayed.")
         {
-            sessions, peers, profile, strategy, rules, bodies, events,
+            sessions, worlds, peers, profile, strategy, rules, bodies, events,
         };
         common.AddTo(command);
         command.SetAction(parsed =>
         {
             (int from, int to) = Peers(parsed.GetValue(peers)!);
+            int? single = Worlds(parsed.GetValue(worlds));
+            bool isOfWorldsAlone = single is not null && parsed.GetResult(sessions)?.Implicit != false;
             CheckOptions options = new()
             {
                 Sessions = parsed.GetValue(sessions),
@@ -61,17 +70,24 @@ internal static class CheckCommand
                 Bodies = Indices("--bodies", parsed.GetValue(bodies)),
                 Events = Indices("--events", parsed.GetValue(events)),
             };
-            if (options.Sessions > 1 && (options.Bodies ?? options.Events) is not null)
+            if (isOfWorldsAlone && (options.Bodies ?? options.Events) is not null)
+            {
+                throw new UsageException("--bodies and --events are of a session: leave out --worlds.");
+            }
+
+            if (options.Sessions > 1 && !isOfWorldsAlone && (options.Bodies ?? options.Events) is not null)
             {
                 throw new UsageException($"--bodies and --events are of one session alone: give its --seed, and --sessions 1 instead of {options.Sessions}.");
             }
 
-            return Run(console, change?.Invoke(options) ?? options, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
+            WorldOptions? ofWorlds = single is int number ? new WorldOptions { Worlds = number, Seed = options.Seed } : null;
+            return Run(
+                console, change?.Invoke(options) ?? options, isOfWorldsAlone, ofWorlds, parsed.GetValue(common.Out), parsed.GetValue(common.Json));
         });
         return command;
     }
 
-    private static int Run(ToolConsole console, CheckOptions options, string? folder, bool json)
+    private static int Run(ToolConsole console, CheckOptions options, bool isOfWorldsAlone, WorldOptions? ofWorlds, string? folder, bool json)
     {
         if (folder is not null)
         {
@@ -81,13 +97,18 @@ internal static class CheckCommand
         CheckReport report;
         try
         {
-            report = console.WithProgress("check", options.Sessions, progress => InvariantCheck.Run(options, done => progress(done), console.Stop));
+            report = isOfWorldsAlone
+                ? new CheckReport([], [], 0, 0)
+                : console.WithProgress("check", options.Sessions, progress => InvariantCheck.Run(options, done => progress(done), console.Stop));
         }
         catch (ArgumentException mistake)
         {
             throw new UsageException(Sentence.Of(mistake)); // numbers that the session does not have
         }
 
+        WorldReport? worlds = ofWorlds is null || console.Stop.IsCancellationRequested
+            ? null
+            : console.WithProgress("worlds", ofWorlds.Worlds, progress => WorldCheck.Run(ofWorlds, done => progress(done), console.Stop));
         if (folder is not null)
         {
             CheckFiles.Write(folder, options, report);
@@ -95,14 +116,19 @@ internal static class CheckCommand
 
         if (json)
         {
-            CheckJson.Write(console.Output, options, report);
+            CheckJson.Write(console.Output, options, report, worlds);
         }
         else
         {
-            CheckText.Write(console.Output, options, report, folder);
+            if (!isOfWorldsAlone)
+            {
+                CheckText.Write(console.Output, options, report, folder);
+            }
+
+            WorldText.Write(console.Output, ofWorlds, worlds);
         }
 
-        return report.Failures.Count > 0 ? ExitCode.CheckFailed
+        return report.Failures.Count > 0 || worlds?.Failures.Count > 0 ? ExitCode.CheckFailed
             : console.Stop.IsCancellationRequested ? ExitCode.Interrupted
             : ExitCode.Done;
     }
@@ -116,6 +142,10 @@ internal static class CheckCommand
             : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MaxPeers}, or a range of"
                 + " them such as 2-8.");
     }
+
+    private static int? Worlds(int? number) => number is null or >= 1 and <= 10_000_000
+        ? number
+        : throw new UsageException(FormattableString.Invariant($"--worlds is '{number}'; it must be a whole number from 1 to 10000000."));
 
     private static LinkProfile? Profile(string name) =>
         name == All ? null : LinkProfiles.TryGet(name, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);

@@ -4,6 +4,7 @@ using System.Linq;
 using System.Text.Json;
 using LagSim.Events;
 using LagSim.Harness.Verification.Check;
+using LagSim.Harness.Verification.Worlds;
 using LagSim.Testing;
 
 namespace LagSim.Cli.Output;
@@ -11,7 +12,7 @@ namespace LagSim.Cli.Output;
 /// <summary>A check as a JSON document.</summary>
 internal static class CheckJson
 {
-    internal static void Write(TextWriter output, CheckOptions options, CheckReport report) =>
+    internal static void Write(TextWriter output, CheckOptions options, CheckReport report, WorldReport? worlds = null) =>
         JsonDocumentWriter.Write(output, "check", options.Seed, null, null, null, json =>
         {
             json.WriteNumber("sessions", report.Outcomes.Count);
@@ -67,6 +68,7 @@ internal static class CheckJson
             }
 
             json.WriteEndArray();
+            WorldJson.Write(json, worlds);
         });
 
     private static void Write(Utf8JsonWriter json, CheckFailure failure)

@@ -157,6 +157,9 @@ internal sealed class ContactStep
         }
     }
 
+    /// <summary>By how much a body was slowed down because it parts too fast from what it is deep in, in m/s.</summary>
+    internal Vector3D Braked(int body) => free[body].Braked;
+
     private void Brake(int body, in Vector3D push)
     {
         Vector3D change = push * Problem.Bodies[body].InverseMass;

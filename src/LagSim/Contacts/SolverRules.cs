@@ -16,6 +16,9 @@ internal class SolverRules
     /// <summary>Whether overlap is pushed out, and what is struck rebounds, only as far as that makes no energy.</summary>
     internal virtual bool LimitsEnergy => true;
 
+    /// <summary>Whether what two give each other acts on both, also where one of them leaves.</summary>
+    internal virtual bool KeepsMomentum => true;
+
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
     internal virtual bool RefinesNormals => true;
 

@@ -49,7 +49,7 @@ internal sealed class StepSegments(
             else if (!IsHeldTogether(i, out int planeCount))
             {
                 kept = double.IsNaN(kept) ? PartOfPushes(i, isLost, key.Time, length) : kept;
-                Vector3D velocity = LeavingVelocity(i, before, key.Time, out Vector3D push) + (push * kept);
+                Vector3D velocity = LeavingVelocity(i, before, isLost, key.Time, out Vector3D push) + (push * kept);
                 trajectories.Flights.Open(slot, key, graph.Positions[i], velocity, spin: graph.Spins[i]);
             }
             else if (planeCount > 0)
@@ -149,7 +149,7 @@ internal sealed class StepSegments(
                 continue;
             }
 
-            Vector3D velocity = LeavingVelocity(i, before, tick, out Vector3D push);
+            Vector3D velocity = LeavingVelocity(i, before, isLost, tick, out Vector3D push);
             double fall = Math.Max(step.Scale.Pull, graph.Accelerations[i].Length) * length.ToSeconds();
             room += graph.Masses[i] * fall * fall;
             along += graph.Masses[i] * Vector3D.Dot(velocity, push);
@@ -165,25 +165,39 @@ internal sealed class StepSegments(
     /// <summary>The velocity at the tick of a body that leaves, without its push.</summary>
     /// <param name="body">The body.</param>
     /// <param name="piece">Its last segment.</param>
+    /// <param name="isLost">By body: whether it is lost.</param>
     /// <param name="tick">When.</param>
     /// <param name="half">What the contacts of the last step gave in its second half, because until now they have held it, in m/s.</param>
-    private Vector3D LeavingVelocity(int body, int piece, SimTime tick, out Vector3D half)
+    private Vector3D LeavingVelocity(int body, int piece, Span<bool> isLost, SimTime tick, out Vector3D half)
     {
         half = Vector3D.Zero;
+        Vector3D velocity = graph.Velocities[body] + (step.Rules.KeepsMomentum ? step.Braked(body) : Vector3D.Zero);
         if (timelines.Segment(piece).Law != MotionLaw.Constrained)
         {
-            return graph.Velocities[body];
+            return velocity;
         }
 
         double since = tick.SecondsSince(timelines.Carried.CentreOf(piece));
         Vector3D push = Vector3D.Zero;
         for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            push += timelines.Carried.At(at).Push;
+            ref readonly PersistentContact contact = ref timelines.Carried.At(at);
+            bool acts = contact.Surface != PersistentContact.NoSurface || IsPushedBack(contact.Partner, isLost);
+            push += acts || !step.Rules.KeepsMomentum ? contact.Push : Vector3D.Zero;
         }
 
         half = push * (0.5 / graph.Masses[body]);
-        return graph.Velocities[body] + (graph.Accelerations[body] * since);
+        return velocity + (graph.Accelerations[body] * since);
+    }
+
+    /// <summary>
+    /// Whether a body that leaves may keep the push of another: the other is held, or leaves as well, with the same push the other way. One
+    /// that stays gets nothing back, and the push would be momentum made of nothing.
+    /// </summary>
+    private bool IsPushedBack(BodyId partner, Span<bool> isLost)
+    {
+        int other = graph.IndexOf(bodies.SlotOf(partner));
+        return other >= 0 && (double.IsPositiveInfinity(graph.Masses[other]) || (!isLost[other] && !IsHeldTogether(other, out _)));
     }
 
     /// <summary>

@@ -53,7 +53,7 @@ internal static class Layers
             "LagSim.Harness/Experiments/Metrics", "LagSim.Harness/Experiments/Hands", AccuracyWords,
         ],
         [
-            "LagSim.Harness/Verification/Hard", "LagSim.Harness/Verification/Stalls",
+            "LagSim.Harness/Verification/Hard", "LagSim.Harness/Verification/Stalls", "LagSim.Harness/Verification/Worlds",
             "LagSim.Harness/Experiments/Peers", "LagSim.Harness/Experiments/Sweep", "LagSim.Harness/Experiments/Accuracy/Engines",
         ],
         ["LagSim.Harness/Experiments/Accuracy/Engines/Packages"],

@@ -145,8 +145,22 @@ public sealed class CheckCommandTests
     }
 
     [Fact]
+    public void Check_WorldsAlone_PlaysNoSessionAndSaysWhatTheContractNames()
+    {
+        JsonElement json = JsonDocument.Parse(Tool.Run("check", "--worlds", "14", "--seed", "1400", "--json").Done().Output).RootElement;
+        Assert.Equal((0, 14), (json.GetProperty("sessions").GetInt32(), json.GetProperty("worlds").GetInt32()));
+        Assert.Equal((0, 0, 0), (json.GetProperty("worlds_ended").GetInt32(), json.GetProperty("worlds_differing").GetInt32(), json.GetProperty("broken_promises").GetInt32()));
+        Assert.Equal((14, 0), (json.GetProperty("world_kinds").GetArrayLength(), json.GetProperty("failing_worlds").GetArrayLength()));
+        string text = Tool.Run("check", "--worlds", "2", "--sessions", "1", "--seed", "1400").Done().Output;
+        Assert.Contains("1 of 1 session played", text, StringComparison.Ordinal);
+        Assert.Contains("2 of 2 worlds played from seed 1400", text, StringComparison.Ordinal);
+    }
+
+    [Fact]
     public void Check_WrongArguments_NamesThem()
     {
+        Tool.Refuses(2, ["check", "--worlds", "0"], "--worlds is '0'");
+        Tool.Refuses(2, ["check", "--worlds", "1", "--bodies", "1"], "leave out --worlds");
         Tool.Refuses(2, ["check", "--peers", "1-3"], "--peers is '1-3'", "2 to 8");
         Tool.Refuses(2, ["check", "--peers", "x"], "--peers is 'x'");
         Tool.Refuses(2, ["check", "--sessions", "0"], "--sessions is '0'");

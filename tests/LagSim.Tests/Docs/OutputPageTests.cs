@@ -17,6 +17,7 @@ public sealed class OutputPageTests
     [InlineData("scenes")]
     [InlineData("explain pair")]
     [InlineData("check --sessions 1")]
+    [InlineData("check --worlds 14")]
     [InlineData("compare --scene pair --profile lan --strategy healing")]
     [InlineData("hold --time virtual --delay-ms 25 --hold-s 1")]
     [InlineData("hard drop --scale small")]

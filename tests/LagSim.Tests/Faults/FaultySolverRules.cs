@@ -14,6 +14,9 @@ internal sealed class FaultySolverRules : SolverRules
     /// <summary>Overlap is pushed out, and what is struck rebounds, whatever energy that makes.</summary>
     internal bool GainsEnergy { get; init; }
 
+    /// <summary>What leaves keeps pushes that the other does not feel, and does not feel what slows the other down.</summary>
+    internal bool LosesMomentum { get; init; }
+
     /// <summary>What sweeps do not settle stays unsettled.</summary>
     internal bool SweepsAlone { get; init; }
 
@@ -25,6 +28,8 @@ internal sealed class FaultySolverRules : SolverRules
     internal override bool BoundsHands => !HasUnboundedHands;
 
     internal override bool LimitsEnergy => !GainsEnergy;
+
+    internal override bool KeepsMomentum => !LosesMomentum;
 
     internal override bool RefinesNormals => !SweepsAlone;
 

@@ -57,6 +57,7 @@ internal sealed class CheckCase
     private const ulong SensorStream = 15;
     private const ulong RuleStream = 8;
     private const ulong FilterStream = 29;
+    private const ulong MeetingStream = 272;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MaxAttempts = 20;
@@ -104,6 +105,7 @@ internal sealed class CheckCase
             CheckHands.AddTo(actions, room, players.Count, random.Fork(FirstHands + attempt));
             filters.AddTo(actions, room, players.Count, attempt);
             rules.AddTo(actions, room, players.Count, attempt);
+            CheckMeetings.AddTo(actions, room, players.Count, random.Fork(MeetingStream), attempt);
             if (attempt == MaxAttempts || IsWithin(room.MaxEvents ?? budget, cancellation))
             {
                 break;

@@ -16,6 +16,7 @@ public readonly record struct SceneFeatures
     private const int Large = 5;
     private const int Often = 10;
     private const double Touching = 1e-6; // metres
+    private static readonly SimDuration AtOnce = SimDuration.FromMilliseconds(100);
 
     /// <summary>The features, by the names that scripts use, in order.</summary>
     public static IReadOnlyList<(string Name, Func<SceneFeatures, bool> IsMet)> All { get; } =
@@ -25,7 +26,7 @@ public readonly record struct SceneFeatures
         ("periodic_box", met => met.PeriodicBox), ("closed_orbit", met => met.ClosedOrbit), ("other_pull", met => met.OtherPull), ("wind", met => met.Wind),
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
         ("filter_changed", met => met.FilterChanged),
-        ("crossings", met => met.Crossings), ("rules_called", met => met.RulesCalled),
+        ("crossings", met => met.Crossings), ("rules_called", met => met.RulesCalled), ("two_in_contact", met => met.TwoInContact),
     ];
 
     /// <summary>Five or more touching bodies moved as an island.</summary>
@@ -72,6 +73,9 @@ public readonly record struct SceneFeatures
 
     /// <summary>Rules were called ten times or more.</summary>
     public bool RulesCalled { get; init; }
+
+    /// <summary>Two players acted within a tenth of a second on one body that was awake, in contact steps.</summary>
+    public bool TwoInContact { get; init; }
 
     /// <summary>Bodies entered and left sensors, ten times or more.</summary>
     public bool Crossings { get; init; }
@@ -149,7 +153,24 @@ public readonly record struct SceneFeatures
             }
         }
 
-        return met;
+        return met with { TwoInContact = HasTwoInContact(alone, accepted) };
+    }
+
+    private static bool HasTwoInContact(Simulation alone, IReadOnlyList<ExternalEvent> accepted)
+    {
+        Dictionary<BodyId, ExternalEvent> lasts = [];
+        foreach (ExternalEvent act in accepted.OrderBy(e => e.Key).Where(e => e.Kind is EventKind.SetVelocity or EventKind.Impulse))
+        {
+            bool isSoon = lasts.TryGetValue(act.Body, out ExternalEvent last) && last.Peer != act.Peer && last.Time < act.Time && act.Time - last.Time <= AtOnce;
+            if (isSoon && alone.TryRead(act.Body, SimTime.Max(act.Time - SimDuration.OneTick, alone.Start), out BodyState state) && state.Motion == MotionLaw.Constrained)
+            {
+                return true;
+            }
+
+            lasts[act.Body] = act;
+        }
+
+        return false;
     }
 
     private static bool IsOn(in StaticSphere sphere, in BodyState state, in BodySpec spec) =>
