@@ -14,16 +14,16 @@ namespace LagSim;
 /// </remarks>
 internal static class SnapshotCheck
 {
-    /// <summary>Furthest from the origin that an instant may lie: that of a start and the longest run.</summary>
-    private const long MaxTicks = 3L << 61;
+    /// <summary>Furthest from the origin that a world may begin.</summary>
+    private const long MaxStart = 3L << 61;
 
     internal static void Throw(WorldSnapshot snapshot, Scene scene)
     {
-        if (snapshot.Start.Ticks < -MaxTicks || snapshot.Time.Ticks > MaxTicks || snapshot.Time <= snapshot.Start)
+        if (snapshot.Start.Ticks is < -MaxStart or > MaxStart || snapshot.Time > Limits.LatestTime || snapshot.Time <= snapshot.Start)
         {
             throw new SceneException(
-                $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; neither may be further than 72"
-                + " days from the origin, and the first comes after the second.");
+                $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; a world begins within 72 days"
+                + $" of the origin, and lasts until {Limits.LatestTime.ToShortString()} at most, and the first comes after the second.");
         }
 
         StateLayout.Check(snapshot.RuleStateArray, scene.Rules, (snapshot.Time - snapshot.Start).Ticks);

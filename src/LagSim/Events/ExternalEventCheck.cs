@@ -128,8 +128,10 @@ public static class ExternalEventCheck
         Limits.CheckSpec(external.Spec, whose, scene.Gravity, scene.ForceArray);
         if (external.Spec.Radius < scene.SmallestRadius)
         {
-            throw new SceneException(
-                $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m,"
+            throw new SceneException(scene.Bodies.Count == 0 && scene.SmallestRadius == Limits.MaxRadius
+                ? $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; a scene without bodies of its own takes none until"
+                    + " smallest_radius_m (SceneBuilder.WithSmallestRadius) says how small they may be."
+                : $"The radius of {whose} is {Limits.Text(external.Spec.Radius)} m; the scene promises none below {Limits.Text(scene.SmallestRadius)} m,"
                     + " its smallest body unless smallest_radius_m (SceneBuilder.WithSmallestRadius) says less.");
         }
 

@@ -45,6 +45,7 @@ internal sealed class IslandStepper(
         canonical = StepKey();
         graph.Evaluate(canonical.Time, 0);
         SimTime time = canonical.Time;
+        UndoWhatDidNotAct(time);
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && sleep.MayFallAsleep(canonical.Time) && statics.Holds(canonical.Time, length.ToSeconds()))
@@ -133,6 +134,24 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
+    /// Takes back what forces gave members whose step is cut short before its middle: a velocity is that of the middle. Forces that follow
+    /// from it would else act backwards on the velocities that this step gives, and a drag drive what it should brake.
+    /// </summary>
+    private void UndoWhatDidNotAct(SimTime tick)
+    {
+        for (int i = 0; i < graph.BodyCount; i++)
+        {
+            int slot = graph.Slots[i];
+            int piece = timelines.Last(slot);
+            if (timelines.Segment(piece).Law == MotionLaw.Constrained && segments.ForcesActedUntil(piece, tick) < timelines.Carried.CentreOf(piece))
+            {
+                double notActed = timelines.Carried.CentreOf(piece).SecondsSince(tick);
+                graph.Velocities[i] -= forces.On(bodies.Id(slot)).At(bodies.Spec(slot), tick, 0, graph.Positions[i], graph.Velocities[i], graph.Spins[i]) * notActed;
+            }
+        }
+    }
+
+    /// <summary>
     /// The longest step of these bodies, in seconds, by where they come from. A body whose forces no step follows takes part without them
     /// once more, and is lost.
     /// </summary>
@@ -191,7 +210,7 @@ internal sealed class IslandStepper(
             }
             else
             {
-                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.Carried.CentreOf(piece));
+                double since = middle.SecondsSince(segments.ForcesActedUntil(piece, tick));
                 graph.Accelerations[i] = isLost[i] ? Vector3D.Zero
                     : forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
                 gain = graph.Accelerations[i] * since;
@@ -244,7 +263,7 @@ internal sealed class IslandStepper(
                 }
 
                 int piece = timelines.Last(graph.Slots[i]);
-                double since = middle.SecondsSince(timelines.Segment(piece).Law == MotionLaw.Resting ? tick : timelines.Carried.CentreOf(piece));
+                double since = middle.SecondsSince(segments.ForcesActedUntil(piece, tick));
                 Vector3D mean = (graph.Velocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
                 Vector3D spin = (graph.Spins[i] + step.Problem.Bodies[i].Spin) * 0.5;
                 Vector3D acceleration = forces.On(bodies.Id(graph.Slots[i])).At(spec, tick, 0, graph.Positions[i], mean, spin);

@@ -65,6 +65,15 @@ internal sealed class StepSegments(
         }
     }
 
+    /// <summary>
+    /// Until when the velocity with which a body comes to a step contains what forces give: the middle of its step, or the tick where that
+    /// comes before.
+    /// </summary>
+    internal SimTime ForcesActedUntil(int piece, SimTime tick) =>
+        timelines.Segment(piece).Law == MotionLaw.Resting ? tick
+            : step.Rules.CutsForces ? SimTime.Min(timelines.Carried.CentreOf(piece), tick)
+            : timelines.Carried.CentreOf(piece);
+
     private void OpenMember(int body, in EventKey key, SimTime end, SimTime centre, SimTime still)
     {
         int slot = graph.Slots[body];
@@ -177,7 +186,7 @@ internal sealed class StepSegments(
             return velocity;
         }
 
-        double since = tick.SecondsSince(timelines.Carried.CentreOf(piece));
+        double since = tick.SecondsSince(ForcesActedUntil(piece, tick));
         Vector3D push = Vector3D.Zero;
         for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {

@@ -92,7 +92,8 @@ public sealed class SceneBuilder
         Math.Max(MinContactTolerance, Math.Min(MaxDefaultContactTolerance, smallestRadius / 100));
 
     /// <summary>Promises that no body smaller than this, in metres, 1e-9 to 1e9, is in the scene or is spawned; what is smaller is refused,
-    /// by <see cref="Build"/> or when it is to be spawned. Default: the smallest body of the scene. It bounds the speed that may be given:
+    /// by <see cref="Build"/> or when it is to be spawned. Default: the smallest body of the scene; a scene without bodies takes none until this
+    /// says how small they may be. It bounds the speed that may be given:
     /// a tenth of it in a tick, 1.1e11 m/s times that radius in metres.</summary>
     public SceneBuilder WithSmallestRadius(double metres)
     {

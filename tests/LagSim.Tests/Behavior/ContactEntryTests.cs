@@ -75,6 +75,37 @@ public sealed class ContactEntryTests
         Assert.InRange(EnergyAfter(new FaultyEngineParts { Rules = new FaultySolverRules { GainsEnergy = true } }), 0.5 * 510 * 510 * 0.3, double.MaxValue); // the control
     }
 
+    /// <summary>
+    /// A throw into a ball cuts the step of that ball short, before its middle; the drag that follows from what it is given brakes it.
+    /// </summary>
+    [Fact]
+    public void Throw_IntoABallWithDrag_DrivesNothing()
+    {
+        Vector3D thrown = V(-0.134, -0.236, -0.385);
+        Assert.InRange(EnergyOfStackAfter(thrown, null), 0, 0.5 * thrown.LengthSquared);
+        Assert.InRange(EnergyOfStackAfter(thrown, new FaultyEngineParts { Rules = new FaultySolverRules { ActsBackwards = true } }), thrown.LengthSquared, double.MaxValue); // the control
+    }
+
+    /// <summary>In J a kg.</summary>
+    private static double EnergyOfStackAfter(Vector3D thrown, FaultyEngineParts? parts)
+    {
+        Scene scene = new SceneBuilder("stack").WithContactTolerance(1.57e-3).AddForce(Force.QuadraticDrag("air", 29), out ForceSet air).AddPlane("floor", Vector3D.Up, V(0), friction: 0.825)
+            .AddBody("below", new BodySpec(0.1, 1.2e-3, 0.886, forces: air, friction: 0.825), V(0, 0.1))
+            .AddBody("above", new BodySpec(0.1, 1.2e-3, 0.886, forces: air, friction: 0.825), V(0, 0.3)).Build();
+        SimulationOptions options = new(history: SimDuration.MaxValue);
+        Simulation world = new(scene, parts is null ? options : options.WithParts(parts));
+        world.Submit(ExternalEvent.SetVelocity(At(0.11424490862282255), 1, 1, Second, thrown));
+        double most = 0;
+        for (int n = 1; n <= 10; n++)
+        {
+            double time = 0.11424490862282255 + (n * 1e-6);
+            world.AdvanceTo(At(time));
+            most = Math.Max(most, 0.5 * (Read(world, First, time).Velocity.LengthSquared + Read(world, Second, time).Velocity.LengthSquared));
+        }
+
+        return most;
+    }
+
     private static double EnergyAfter(FaultyEngineParts? parts)
     {
         Scene scene = new SceneBuilder("stack").WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, V(0)).AddBody("below", new BodySpec(0.1, 1, 0), V(0, 0.1))

@@ -40,6 +40,20 @@ public sealed class LatestTimeTests
         Assert.Throws<ArgumentOutOfRangeException>(() => world.AdvanceTo(Latest + SimDuration.OneTick));
     }
 
+    /// <summary>A snapshot of any instant of a world can be continued, and one of a tick later cannot.</summary>
+    [Fact]
+    public void Snapshot_OfTheLastSecond_GoesOnToTheLatest()
+    {
+        Simulation world = new(World(), new SimulationOptions(Start));
+        world.AdvanceTo(Latest);
+        WorldSnapshot snapshot = world.Snapshot(Latest - SimDuration.FromSeconds(1));
+        Simulation continued = new(World(), snapshot, new SimulationOptions());
+        continued.AdvanceTo(Latest);
+        Assert.Equal(StateHash.Of(world, Latest), StateHash.Of(continued, Latest));
+        WorldSnapshot beyond = new(Start, Latest + SimDuration.OneTick, 0, snapshot.BodyArray);
+        Assert.Contains("until 7340032s", Assert.Throws<SceneException>(() => new Simulation(World(), beyond, new SimulationOptions())).Message);
+    }
+
     private static Scene World(bool inFlight = false)
     {
         SceneBuilder builder = new SceneBuilder("long").AddBody("a", new BodySpec(0.2, 1, 0.5), new Vector3D(0, 1, 0));

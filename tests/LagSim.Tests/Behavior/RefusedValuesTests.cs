@@ -200,4 +200,15 @@ public sealed class RefusedValuesTests
         Assert.Equal("name", Assert.Throws<ArgumentNullException>(() => scene.ForceNamed(null!)).ParamName);
         Assert.Throws<ArgumentException>(() => scene.BodyNamed("cube"));
     }
+
+    /// <summary>An empty scene whose players bring all bodies has to say how small they may be.</summary>
+    [Fact]
+    public void Spawn_IntoASceneWithoutBodies_NeedsASmallestRadius()
+    {
+        ExternalEvent spawn = PlayerAction.Spawn(Ball(), V(0, 2)).Stamp(At(1), 1, 1);
+        SceneBuilder empty = new SceneBuilder("empty").AddPlane("floor", Vector3D.Up, 0.0);
+        SceneException refused = Assert.Throws<SceneException>(() => new Simulation(empty.Build(), KeepAll).Submit(spawn));
+        Assert.Contains("a scene without bodies of its own takes none until smallest_radius_m (SceneBuilder.WithSmallestRadius) says", refused.Message, StringComparison.Ordinal);
+        Assert.Equal(SubmitResult.Queued, new Simulation(empty.WithSmallestRadius(0.1).Build(), KeepAll).Submit(spawn));
+    }
 }

@@ -17,6 +17,9 @@ internal sealed class FaultySolverRules : SolverRules
     /// <summary>What leaves keeps pushes that the other does not feel, and does not feel what slows the other down.</summary>
     internal bool LosesMomentum { get; init; }
 
+    /// <summary>Forces act backwards on what is cut short in its step.</summary>
+    internal bool ActsBackwards { get; init; }
+
     /// <summary>What sweeps do not settle stays unsettled.</summary>
     internal bool SweepsAlone { get; init; }
 
@@ -30,6 +33,8 @@ internal sealed class FaultySolverRules : SolverRules
     internal override bool LimitsEnergy => !GainsEnergy;
 
     internal override bool KeepsMomentum => !LosesMomentum;
+
+    internal override bool CutsForces => !ActsBackwards;
 
     internal override bool RefinesNormals => !SweepsAlone;
 

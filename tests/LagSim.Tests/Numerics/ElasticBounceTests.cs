@@ -35,6 +35,29 @@ public sealed class ElasticBounceTests
         Assert.True(Math.Abs(TestWorlds.Energy(simulation, last) - before) / TestWorlds.Gravity < MaxDrift);
     }
 
+    /// <summary>
+    /// From any height the energy drifts by less than half a rounding of it, 2^-54, a bounce: the least that computing it at each bounce
+    /// could do.
+    /// </summary>
+    [Fact]
+    public void Bounces_FromDrawnHeights_DriftByLessThanARoundingEach()
+    {
+        Random random = new(20_001);
+        double worst = 0;
+        for (int n = 0; n < 8; n++)
+        {
+            double height = Math.Pow(10, (2 * random.NextDouble()) - 1);
+            Simulation simulation = new(TestWorlds.Drop(height, 1));
+            double before = TestWorlds.Energy(simulation, SimTime.FromTicks(0));
+            SimTime last = TestWorlds.At(((2 * Bounces) - 0.5) * FirstImpact * Math.Sqrt(height));
+            simulation.AdvanceTo(last);
+            Assert.InRange(simulation.EventsProcessed, Bounces - 1, Bounces + 1);
+            worst = Math.Max(worst, Math.Abs(TestWorlds.Energy(simulation, last) - before) / (TestWorlds.Gravity * height));
+        }
+
+        Assert.InRange(worst, MaxDrift, Bounces / Math.Pow(2, 54)); // a single height would not have shown that there is more than from 1 m
+    }
+
     [Theory]
     [InlineData(false)]
     [InlineData(true)]

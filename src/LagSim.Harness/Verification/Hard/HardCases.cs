@@ -40,6 +40,7 @@ public static class HardCases
         new JamCase(),
         new ColumnCase(),
         new IslandEnergyCase(),
+        new ContactEntryCase(),
         new HardSphereGasCase(),
         new HaffCase(),
         new CollapseCase(),
