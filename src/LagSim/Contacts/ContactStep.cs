@@ -209,16 +209,34 @@ internal sealed class ContactStep
         limit.GoTowards(Problem, most);
     }
 
-    /// <summary>The kinetic energy of all, in J, if each were as fast as its deepest contact pushes it out.</summary>
+    /// <summary>
+    /// What pushing out may add to the kinetic energy, in J: that of all bodies that are deep at the speeds at which their deepest contacts
+    /// push them out, less what they have already, seen from their centre of mass. So what flies along together parts too, and what parts
+    /// as fast as that gains no more.
+    /// </summary>
     private double DeepEnergy()
     {
-        double sum = 0;
+        Vector3D common = Vector3D.Zero;
+        double mass = 0;
         for (int b = 0; b < Problem.BodyCount; b++)
         {
-            sum += 0.5 * free[b].PushedOut * free[b].PushedOut / Problem.Bodies[b].InverseMass;
+            if (free[b].PushedOut > 0 && Problem.Bodies[b].InverseMass > 0)
+            {
+                mass += 1 / Problem.Bodies[b].InverseMass;
+                common += (free[b].Velocity - common) * (1 / (Problem.Bodies[b].InverseMass * mass));
+            }
         }
 
-        return sum;
+        double missing = 0;
+        for (int b = 0; b < Problem.BodyCount; b++)
+        {
+            if (free[b].PushedOut > 0 && Problem.Bodies[b].InverseMass > 0)
+            {
+                missing += 0.5 * ((free[b].PushedOut * free[b].PushedOut) - (free[b].Velocity - common).LengthSquared) / Problem.Bodies[b].InverseMass;
+            }
+        }
+
+        return Math.Max(0, missing);
     }
 
     /// <summary>

@@ -27,6 +27,7 @@ internal sealed record HarmAction(double AtSeconds, EventKind Kind, int Spawn, i
             EventKind.Teleport => PlayerAction.Teleport(body, Place, Velocity),
             EventKind.Grab => PlayerAction.Grab(body, default),
             EventKind.HoldKeyframe => PlayerAction.HoldKeyframe(body, Place, Velocity),
+            EventKind.SetFilter => PlayerAction.SetFilter(body, CollisionFilter.None),
             _ => PlayerAction.Remove(body),
         };
     }

@@ -21,6 +21,7 @@ public sealed class HarmCase
     private const int MaxBodies = 64;
     private const double MaxSpeed = 999;
     private const double KeyframeSeconds = 0.1;
+    private const double PercentOfActs = 30;
 
     /// <summary>A mass in kg whose hand, at 1000 N for each kg, does not yield to anything else in the room.</summary>
     private const double AnvilMass = 1e8;
@@ -47,9 +48,19 @@ public sealed class HarmCase
         Width = random.NextDouble(1, 3);
         radius = random.Pick(0.1, 0.2, 0.25);
         isStrong = Kind is HarmKind.Gap or HarmKind.Row or HarmKind.ShakenHeap && new SeededRandom(seed).Fork(0x4A13).IsLucky(70);
-        Scene = random.IsLucky(25) ? BuiltIn() : Room();
+        SeededRandom acts = new SeededRandom(seed).Fork(0x4A14); // a stream of its own, so that all other attacks stay the same
+        Kind = acts.IsLucky(PercentOfActs) ? acts.Pick(HarmKind.Acts, HarmKind.Acts, HarmKind.Crowd, HarmKind.Fit) : Kind;
+        Scene = Kind switch
+        {
+            HarmKind.Acts => HarmActs.DrawActs(acts, actions),
+            HarmKind.Crowd => HarmActs.DrawCrowd(acts, actions),
+            HarmKind.Fit => HarmActs.DrawFit(acts, actions),
+            _ => random.IsLucky(25) ? BuiltIn() : Room(),
+        };
         switch (Kind)
         {
+            case HarmKind.Acts or HarmKind.Crowd or HarmKind.Fit:
+                break;
             case HarmKind.Gap:
                 DrawGaps();
                 break;

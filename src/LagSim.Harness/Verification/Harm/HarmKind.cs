@@ -20,4 +20,13 @@ public enum HarmKind
 
     /// <summary>The scene's own bodies are set in motion at the highest speed, again and again.</summary>
     Scene,
+
+    /// <summary>Acts of every kind, as often as the host accepts, in scenes in which single ones once ended the world.</summary>
+    Acts,
+
+    /// <summary>Balls are spawned at one point, and put there again.</summary>
+    Crowd,
+
+    /// <summary>Elastic balls that just fit between a floor and a ceiling are thrown up.</summary>
+    Fit,
 }

@@ -74,13 +74,14 @@ public sealed class HarmProcessRun : IDisposable
 
         relay = new UdpRelay(
             new IPEndPoint(IPAddress.Loopback, 0), IPEndPoint.Parse(address), LinkProfiles.PureDelay(drawn.LinkMilliseconds), drawn.Seed, new StopwatchClock());
+        HarmAction[] actions = [.. drawn.Actions.Where(action => action.Kind != EventKind.SetFilter)]; // which the tool has no word for
         uint[] sequences =
         [
-            .. drawn.Actions.Select((action, n) => (action, n)).Where(d => d.action.Kind == EventKind.Spawn).Select(d => (uint)d.n + 1),
+            .. actions.Select((action, n) => (action, n)).Where(d => d.action.Kind == EventKind.Spawn).Select(d => (uint)d.n + 1),
         ];
         StallProcess attacker = Run([
             "join", relay.LocalAddress.ToString(), "--json",
-            .. drawn.Actions.SelectMany(action => new[] { "--do", action.ToText(drawn.Scene, From, Others + 1, n => sequences[n]) })]);
+            .. actions.SelectMany(action => new[] { "--do", action.ToText(drawn.Scene, From, Others + 1, n => sequences[n]) })]);
         if (!host.AwaitEnd(PlaySeconds + StartSeconds, cancellation))
         {
             failures.Add("The host did not end in time.");
