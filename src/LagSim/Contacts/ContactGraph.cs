@@ -25,6 +25,10 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     private Vector3D[] accelerations = new Vector3D[2];
     private Vector3D[] spins = new Vector3D[2];
     private ContactPoint[] contacts = new ContactPoint[1];
+    private int[] numbers = new int[2]; // by slot; true of bodies that have that number
+    private long[] keys = new long[1]; // of contacts, as far as they are sorted
+    private int sortedCount;
+    private readonly ContactLists lists = new();
 
     /// <summary>How many bodies there are.</summary>
     internal int BodyCount { get; private set; }
@@ -56,7 +60,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     internal Span<ContactPoint> Contacts => contacts.AsSpan(0, ContactCount);
 
     /// <summary>Begins another event.</summary>
-    internal void Clear() => BodyCount = ContactCount = 0;
+    internal void Clear() => BodyCount = ContactCount = sortedCount = 0;
 
     /// <summary>Adds a body that is not in the graph, and returns its number. Its state is not known yet.</summary>
     internal int AddBody(int slot)
@@ -73,7 +77,13 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
             Array.Resize(ref spins, size);
         }
 
+        if (slot >= numbers.Length)
+        {
+            Array.Resize(ref numbers, Math.Max(bodies.Room, slot + 1));
+        }
+
         slots[BodyCount] = slot;
+        numbers[slot] = BodyCount;
         return BodyCount++;
     }
 
@@ -91,35 +101,42 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     internal void KeepBodies(int count) => BodyCount = count;
 
     /// <summary>Leaves out all contacts from a number on.</summary>
-    internal void KeepContacts(int count) => ContactCount = count;
+    internal void KeepContacts(int count)
+    {
+        ContactCount = count;
+        sortedCount = Math.Min(sortedCount, count);
+    }
+
+    /// <summary>Moves a contact to the place of one before it that is left out.</summary>
+    internal void Move(int from, int to) => (contacts[to], keys[to]) = (contacts[from], keys[from]);
 
     /// <summary>The number of a body, or -1 if it is not there.</summary>
-    internal int IndexOf(int slot) => Array.IndexOf(slots, slot, 0, BodyCount);
+    internal int IndexOf(int slot)
+    {
+        int number = (uint)slot < (uint)numbers.Length ? numbers[slot] : BodyCount;
+        return number < BodyCount && slots[number] == slot ? number : -1;
+    }
 
     /// <summary>Whether a body touches a static surface in it.</summary>
-    internal bool HasContact(int body, int surface)
-    {
-        bool has = false;
-        for (int i = 0; i < ContactCount && !has; i++)
-        {
-            has = contacts[i].First == body && contacts[i].Second == ContactPoint.Static && contacts[i].Surface == surface;
-        }
-
-        return has;
-    }
+    internal bool HasContact(int body, int surface) => Has(KeyOf(body, ContactPoint.Static, surface));
 
     /// <summary>Whether two bodies touch in it.</summary>
-    internal bool HasPair(int body, int other)
+    internal bool HasPair(int body, int other) => Has(KeyOf(Math.Min(body, other), Math.Max(body, other), -1));
+
+    private bool Has(long key)
     {
-        bool has = false;
-        for (int i = 0; i < ContactCount && !has; i++)
+        bool has = Array.BinarySearch(keys, 0, sortedCount, key) >= 0;
+        for (int i = sortedCount; i < ContactCount && !has; i++)
         {
-            ref readonly ContactPoint c = ref contacts[i];
-            has = (c.First == body && c.Second == other) || (c.First == other && c.Second == body);
+            has = KeyOf(contacts[i].First, contacts[i].Second, contacts[i].Surface) == key;
         }
 
         return has;
     }
+
+    /// <summary>What contacts are sorted by: their bodies, surfaces before other bodies, and then by surface.</summary>
+    private static long KeyOf(int first, int second, int surface) =>
+        ((long)first << 32) | (second == ContactPoint.Static ? (uint)surface : (uint)second | (1u << 31));
 
     /// <summary>Whether some body is held.</summary>
     internal bool HasHand()
@@ -147,19 +164,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
             c.Second = c.Second == ContactPoint.Static ? c.Second : slots[c.Second];
         }
 
-        for (int i = 1; i < BodyCount; i++)
-        {
-            int moving = slots[i];
-            int at = i;
-            while (at > 0 && bodies.Id(moving) < bodies.Id(slots[at - 1]))
-            {
-                slots[at] = slots[at - 1];
-                at--;
-            }
-
-            slots[at] = moving;
-        }
-
+        SortBodies();
         for (int i = 0; i < ContactCount; i++)
         {
             ref ContactPoint c = ref contacts[i];
@@ -167,19 +172,75 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
             c.Second = c.Second == ContactPoint.Static ? c.Second : IndexOf(c.Second);
         }
 
-        for (int i = 1; i < ContactCount; i++)
-        {
-            ContactPoint moving = contacts[i];
-            int at = i;
-            while (at > 0 && Compare(moving, contacts[at - 1]) < 0)
-            {
-                contacts[at] = contacts[at - 1];
-                at--;
-            }
+        SortContacts();
+    }
 
-            contacts[at] = moving;
+    private void SortBodies()
+    {
+        MakeRoomForKeys(BodyCount);
+        bool isSorted = true;
+        for (int i = 0; i < BodyCount; i++)
+        {
+            keys[i] = (long)(bodies.Id(slots[i]).Packed ^ (1UL << 63)); // the order of unsigned numbers
+            isSorted &= i == 0 || keys[i] > keys[i - 1];
+        }
+
+        if (isSorted)
+        {
+            return;
+        }
+
+        Array.Sort(keys, slots, 0, BodyCount);
+        for (int i = 0; i < BodyCount; i++)
+        {
+            numbers[slots[i]] = i;
         }
     }
+
+    private void SortContacts()
+    {
+        MakeRoomForKeys(ContactCount);
+        bool isSorted = true;
+        for (int i = 0; i < ContactCount; i++)
+        {
+            keys[i] = KeyOf(contacts[i].First, contacts[i].Second, contacts[i].Surface);
+            isSorted &= i == 0 || keys[i] > keys[i - 1];
+        }
+
+        if (!isSorted)
+        {
+            Array.Sort(keys, contacts, 0, ContactCount);
+        }
+
+        sortedCount = ContactCount;
+    }
+
+    private void MakeRoomForKeys(int count)
+    {
+        if (keys.Length < count)
+        {
+            keys = new long[2 * count];
+        }
+    }
+
+    /// <summary>Lists the contacts of each body.</summary>
+    internal void List()
+    {
+        lists.Clear(BodyCount, ContactCount);
+        for (int i = 0; i < ContactCount; i++)
+        {
+            lists.Count(contacts[i].First, contacts[i].Second);
+        }
+
+        lists.Sum();
+        for (int i = ContactCount - 1; i >= 0; i--)
+        {
+            lists.Put(i, contacts[i].First, contacts[i].Second);
+        }
+    }
+
+    /// <summary>The contacts of a body, by number, as they were listed last.</summary>
+    internal Span<int> ListOf(int body) => lists.Of(body);
 
     /// <summary>Has the states of all bodies at an instant, by the newest segments of their paths.</summary>
     internal void Evaluate(SimTime time, double residual)
@@ -279,13 +340,4 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     }
 
     private static bool IsOfThisRound(in ContactPoint c) => c.IsStruck && !c.IsFromBefore;
-
-    private int Compare(in ContactPoint a, in ContactPoint b)
-    {
-        int byFirst = bodies.Id(slots[a.First]).CompareTo(bodies.Id(slots[b.First]));
-        return byFirst != 0 ? byFirst
-            : a.Second >= 0 && b.Second >= 0 ? bodies.Id(slots[a.Second]).CompareTo(bodies.Id(slots[b.Second]))
-            : a.Second != b.Second ? a.Second.CompareTo(b.Second)
-            : a.Surface.CompareTo(b.Surface);
-    }
 }
