@@ -7,7 +7,8 @@ using LagSim.Time;
 
 namespace LagSim.Bench;
 
-/// <summary>What bodies cost that players spawn at one point, or at random places within one of their own size: the longest instant, and the first second.</summary>
+/// <summary>What bodies cost that players spawn at one point, or at random places within one of their own size: the longest instant, and
+/// the first second.</summary>
 internal static class CrowdTable
 {
     private static readonly SimTime Spawned = SimTime.FromSeconds(0.1);

@@ -4,7 +4,8 @@ namespace LagSim.Contacts;
 
 /// <summary>The contacts of each body, by number: ascending, so in canonical order if contacts are.</summary>
 /// <remarks>
-/// Filled in three passes: <see cref="Count"/> for all contacts, <see cref="Sum"/>, and <see cref="Put"/> for all from the last to the first.
+/// Filled in three passes: <see cref="Count"/> for all contacts, <see cref="Sum"/>, and <see cref="Put"/> for all from the last to the
+/// first.
 /// Cost: bodies and contacts. Allocates only when there are more than ever before.
 /// </remarks>
 internal sealed class ContactLists

@@ -150,7 +150,8 @@ internal sealed class ContactProblem
     }
 
     /// <summary>
-    /// Whether bodies lie inside one another: as many pairs are deeper in each other than so many metres as there are bodies. They are to be parted,
+    /// Whether bodies lie inside one another: as many pairs are deeper in each other than so many metres as there are bodies. They are to
+    /// be parted,
     /// not balanced, so what sweeps leave is up to the next step.
     /// </summary>
     internal bool IsCrowd(double depth)

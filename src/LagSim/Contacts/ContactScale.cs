@@ -88,7 +88,8 @@ internal class ContactScale
     internal double Length { get; }
 
     /// <summary>
-    /// How deep, in metres, two are in each other of whom one was put there: half of what is predicted from, so that rounding cannot part the
+    /// How deep, in metres, two are in each other of whom one was put there: half of what is predicted from, so that rounding cannot part
+    /// the
     /// two rules.
     /// </summary>
     internal double SunkDepth => 0.5 * Length;

@@ -6,12 +6,16 @@ namespace LagSim.Contacts;
 /// Chooses, where bodies lie inside one another, the pairs that take part in a solution: each body keeps those that are deepest.
 /// </summary>
 /// <remarks>
-/// <para>n bodies put into one place touch in n² / 2 pairs, which no solver gets through in time, and no timeline can carry. Spheres of whatever
+/// <para>n bodies put into one place touch in n² / 2 pairs, which no solver gets through in time, and no timeline can carry. Spheres of
+/// whatever
 /// sizes that lie side by side touch in no more than 7.47 pairs a body (Kuperberg and Schramm 1994, Math. Res. Lett. 1, 339-344: 14.93
 /// neighbours in the mean), so this changes no heap.</para>
-/// <para>Overlap ends all the same: as long as a body overlaps anything, its deepest contact overlaps, and is in the solution. Where bodies are
-/// equally deep, as in one point, those that are nearest in the canonical order are kept; they are a chain, which is what parts them.</para>
-/// <para>A pure function of the pairs, in whatever order they come. Cost: their number. Allocates only when there are more than ever before.</para>
+/// <para>Overlap ends all the same: as long as a body overlaps anything, its deepest contact overlaps, and is in the solution. Where
+/// bodies are
+/// equally deep, as in one point, those that are nearest in the canonical order are kept; they are a chain, which is what parts
+/// them.</para>
+/// <para>A pure function of the pairs, in whatever order they come. Cost: their number. Allocates only when there are more than ever
+/// before.</para>
 /// </remarks>
 internal sealed class DeepestContacts
 {
@@ -31,7 +35,8 @@ internal sealed class DeepestContacts
     /// <summary>Begins again, without pairs.</summary>
     internal void Clear() => count = overlapping = 0;
 
-    /// <summary>Adds a pair of bodies, by their numbers in canonical order, with the distance between them in metres, negative where they overlap.</summary>
+    /// <summary>Adds a pair of bodies, by their numbers in canonical order, with the distance between them in metres, negative where they
+    /// overlap.</summary>
     internal void Add(int first, int second, double gap)
     {
         if (count == pairs.Length)

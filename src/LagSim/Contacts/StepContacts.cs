@@ -88,7 +88,8 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts that are not deep, from which impacts take no energy,
+    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts that are not deep, from which
+    /// impacts take no energy,
     /// unless there is a hand, which gives and takes. And they are contacts past which the two move so fast that within the step the
     /// surfaces curve away by more than the tolerance: then the gap along the line between them does not show whether they touch.
     /// </summary>

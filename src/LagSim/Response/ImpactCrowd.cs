@@ -3,7 +3,8 @@ using LagSim.Contacts;
 namespace LagSim.Response;
 
 /// <summary>
-/// Leaves contacts out of an impact of bodies that lie inside one another, as out of their steps: each body keeps its deepest ones (docs/CONTACT.md, rule 4).
+/// Leaves contacts out of an impact of bodies that lie inside one another, as out of their steps: each body keeps its deepest ones
+/// (docs/CONTACT.md, rule 4).
 /// </summary>
 /// <remarks>What is with a surface or a hand stays, and so does what an impact is named by: each body's first pair of the round.</remarks>
 internal sealed class ImpactCrowd(ContactGraph graph, SolverRules rules)

@@ -66,7 +66,8 @@ public sealed class CrowdTests
     }
 
     /// <summary>
-    /// n bodies spawned at one point: what the worst event is of work, and what is carried, grows no faster than n log n. Counted, not timed.
+    /// n bodies spawned at one point: what the worst event is of work, and what is carried, grows no faster than n log n. Counted, not
+    /// timed.
     /// </summary>
     [Theory]
     [InlineData(0)]
@@ -92,7 +93,8 @@ public sealed class CrowdTests
         Assert.True((double)carriedByMany / carriedByFew > 12, $"{carriedByMany} and {carriedByFew}");
     }
 
-    /// <summary>The crowd is parted all the same: after ten seconds nothing is deeper than the tolerance, and all still are there.</summary>
+    /// <summary>The crowd is parted all the same: after ten seconds nothing is deeper than the tolerance, and all still are
+    /// there.</summary>
     [Theory]
     [InlineData(16, 0)]
     [InlineData(48, 0.2)]
@@ -106,7 +108,8 @@ public sealed class CrowdTests
         Assert.All(Bodies(world), body => Assert.True(Read(world, body, 10).Position.Y > 0.19));
     }
 
-    /// <summary>The most work of an event in the first steps, in units of about a microsecond, and how many contacts bodies carry after the first.</summary>
+    /// <summary>The most work of an event in the first steps, in units of about a microsecond, and how many contacts bodies carry after
+    /// the first.</summary>
     private static (double Work, int Carried) Spawned(int bodies, double spread, SolverRules rules)
     {
         Simulation world = World(bodies, spread, rules);
