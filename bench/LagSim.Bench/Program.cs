@@ -18,6 +18,7 @@ internal static class Program
         ["rules"] = RuleHealTable.Print,
         ["dense"] = DenseTable.Print,
         ["bunch"] = BunchTable.Print,
+        ["crowd"] = CrowdTable.Print,
         ["memory"] = MemoryTable.Print,
         ["frames"] = FrameTable.Print,
         ["arrival"] = ArrivalTable.Print,

@@ -125,7 +125,8 @@ internal sealed class Engine
         IslandImpact island = new(
             scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, trajectories.Friction, notifier,
             memberSegments, blows);
-        ImpactHandler impacts = new(graph, partners, Isolated, builder, resolver, island, notifier, segments, linker, closed);
+        ImpactCrowd crowd = new(graph, Step.Rules);
+        ImpactHandler impacts = new(graph, partners, Isolated, builder, crowd, resolver, island, notifier, segments, linker, closed);
         StepEndHandler steps = new(Timelines, graph, Stepper, trajectories, linker);
         ForwardedPath lonePath = new(scene, Bodies, Timelines, new SingleBodyWorld(scene, start, options.MaxSegments));
         FilterChange filters = new(scene, Bodies, Timelines, members, trajectories);

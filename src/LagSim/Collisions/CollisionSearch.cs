@@ -28,7 +28,7 @@ internal class CollisionSearch(
         while (count > 0)
         {
             int first = 0;
-            for (int i = 1; i < count; i++)
+            for (int i = 1; i < count && approaches[first].Seconds > 0; i++)
             {
                 first = approaches[i].Seconds < approaches[first].Seconds ? i : first;
             }

@@ -94,7 +94,7 @@ internal sealed class MemberContacts(
         int at = timelines.Carried.With(piece, bodies.Id(other));
         if (at == TimelineStore.None || timelines.Carried.With(otherPiece, bodies.Id(slot)) == TimelineStore.None)
         {
-            return false;
+            return AreCrowded(slot, piece, other, otherPiece);
         }
 
         if (timelines.Key(piece) == timelines.Key(otherPiece) && (timelines.Key(piece).Kind == EventKind.StepEnd || IsSolved(slot, piece, at)))
@@ -107,6 +107,32 @@ internal sealed class MemberContacts(
         double opening = Vector3D.Dot(normal, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity);
         return timelines.Carried.At(at).Holds && opening >= -scale.ImpactSpeed;
     }
+
+    /// <summary>
+    /// Whether two members do not carry each other only because each has as many contacts that are deeper: of a crowd, steps and impacts
+    /// take the
+    /// deepest of each body (<see cref="DeepestContacts"/>). What changes within a step waits for its end; then two whom different steps
+    /// have
+    /// moved are struck, and so come into one.
+    /// </summary>
+    private bool AreCrowded(int slot, int piece, int other, int otherPiece)
+    {
+        if (!IsCrowded(piece) || !IsCrowded(otherPiece))
+        {
+            return false;
+        }
+
+        SimTime opened = SimTime.Max(timelines.Key(piece).Time, timelines.Key(otherPiece).Time);
+        Vector3D apart = paths.PositionAt(piece, opened) - paths.PositionAt(otherPiece, opened);
+        double reach = bodies.Spec(slot).Radius + bodies.Spec(other).Radius - scale.SunkDepth;
+        return reach > 0 && apart.LengthSquared < reach * reach
+            && (timelines.Key(piece) == timelines.Key(otherPiece)
+                || (!(timelines.Key(piece).Kind == EventKind.StepEnd && timelines.Key(otherPiece).Kind == EventKind.StepEnd)
+                    && Vector3D.Dot(apart.Direction, timelines.Segment(piece).Velocity - timelines.Segment(otherPiece).Velocity) >= -scale.ImpactSpeed));
+    }
+
+    /// <summary>Whether a body is a member that carries as many contacts with others as it keeps in a crowd.</summary>
+    internal bool IsCrowded(int piece) => paths.IsMember(piece) && timelines.Carried.BodiesOf(piece) >= DeepestContacts.Kept;
 
     /// <summary>
     /// The same for a hand, which may speed up, and a member: they close neither where the later segment begins nor where the step ends, or the

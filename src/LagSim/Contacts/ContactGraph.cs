@@ -17,23 +17,23 @@ namespace LagSim.Contacts;
 internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, StaticSurfaces surfaces, PeriodicBox box)
 {
     private readonly Paths paths = new(timelines);
-    private int[] slots = new int[2]; // as many as nearly all impacts have, as of contacts
-    private double[] masses = new double[2];
+    private readonly GraphBodies numbered = new(bodies);
+    private readonly GraphContacts contacts = new();
+    private double[] masses = new double[2]; // as many as nearly all impacts have, as of the next
     private double[] radii = new double[2];
     private Vector3D[] positions = new Vector3D[2];
     private Vector3D[] velocities = new Vector3D[2];
     private Vector3D[] accelerations = new Vector3D[2];
     private Vector3D[] spins = new Vector3D[2];
-    private ContactPoint[] contacts = new ContactPoint[1];
 
     /// <summary>How many bodies there are.</summary>
-    internal int BodyCount { get; private set; }
+    internal int BodyCount => numbered.Count;
 
     /// <summary>How many contacts there are.</summary>
-    internal int ContactCount { get; private set; }
+    internal int ContactCount => contacts.Count;
 
     /// <summary>The slots of the bodies that these states belong to.</summary>
-    internal Span<int> Slots => slots.AsSpan(0, BodyCount);
+    internal Span<int> Slots => numbered.Slots;
 
     /// <summary>In kg; infinite for a held body.</summary>
     internal Span<double> Masses => masses.AsSpan(0, BodyCount);
@@ -53,18 +53,21 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     /// <summary>How the bodies turn, in rad/s; as velocities.</summary>
     internal Span<Vector3D> Spins => spins.AsSpan(0, BodyCount);
 
-    internal Span<ContactPoint> Contacts => contacts.AsSpan(0, ContactCount);
+    internal Span<ContactPoint> Contacts => contacts.All;
 
     /// <summary>Begins another event.</summary>
-    internal void Clear() => BodyCount = ContactCount = 0;
+    internal void Clear()
+    {
+        numbered.Clear();
+        contacts.Clear();
+    }
 
     /// <summary>Adds a body that is not in the graph, and returns its number. Its state is not known yet.</summary>
     internal int AddBody(int slot)
     {
-        if (BodyCount == slots.Length)
+        if (BodyCount == masses.Length)
         {
             int size = BodyCount * 2;
-            Array.Resize(ref slots, size);
             Array.Resize(ref masses, size);
             Array.Resize(ref radii, size);
             Array.Resize(ref positions, size);
@@ -73,53 +76,34 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
             Array.Resize(ref spins, size);
         }
 
-        slots[BodyCount] = slot;
-        return BodyCount++;
+        return numbered.Add(slot);
     }
 
-    internal void AddContact(in ContactPoint contact)
-    {
-        if (ContactCount == contacts.Length)
-        {
-            Array.Resize(ref contacts, Math.Max(8, ContactCount * 2));
-        }
-
-        contacts[ContactCount++] = contact;
-    }
+    internal void AddContact(in ContactPoint contact) => contacts.Add(contact);
 
     /// <summary>Leaves out all bodies from a number on.</summary>
-    internal void KeepBodies(int count) => BodyCount = count;
+    internal void KeepBodies(int count) => numbered.Keep(count);
 
     /// <summary>Leaves out all contacts from a number on.</summary>
-    internal void KeepContacts(int count) => ContactCount = count;
+    internal void KeepContacts(int count) => contacts.Keep(count);
+
+    /// <summary>Moves a contact to the place of one before it that is left out.</summary>
+    internal void Move(int from, int to) => contacts.Move(from, to);
 
     /// <summary>The number of a body, or -1 if it is not there.</summary>
-    internal int IndexOf(int slot) => Array.IndexOf(slots, slot, 0, BodyCount);
+    internal int IndexOf(int slot) => numbered.IndexOf(slot);
 
     /// <summary>Whether a body touches a static surface in it.</summary>
-    internal bool HasContact(int body, int surface)
-    {
-        bool has = false;
-        for (int i = 0; i < ContactCount && !has; i++)
-        {
-            has = contacts[i].First == body && contacts[i].Second == ContactPoint.Static && contacts[i].Surface == surface;
-        }
-
-        return has;
-    }
+    internal bool HasContact(int body, int surface) => contacts.Has(body, ContactPoint.Static, surface);
 
     /// <summary>Whether two bodies touch in it.</summary>
-    internal bool HasPair(int body, int other)
-    {
-        bool has = false;
-        for (int i = 0; i < ContactCount && !has; i++)
-        {
-            ref readonly ContactPoint c = ref contacts[i];
-            has = (c.First == body && c.Second == other) || (c.First == other && c.Second == body);
-        }
+    internal bool HasPair(int body, int other) => contacts.Has(Math.Min(body, other), Math.Max(body, other), -1);
 
-        return has;
-    }
+    /// <summary>Lists the contacts of each body.</summary>
+    internal void List() => contacts.List(BodyCount);
+
+    /// <summary>The contacts of a body, by number, as they were listed last.</summary>
+    internal Span<int> ListOf(int body) => contacts.ListOf(body);
 
     /// <summary>Whether some body is held.</summary>
     internal bool HasHand()
@@ -127,7 +111,7 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
         bool has = false;
         for (int i = 0; i < BodyCount && !has; i++)
         {
-            has = paths.IsHeld(timelines.Last(slots[i]));
+            has = paths.IsHeld(timelines.Last(Slots[i]));
         }
 
         return has;
@@ -140,45 +124,21 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     internal void Sort()
     {
         // While bodies move, contacts name them by slot.
-        for (int i = 0; i < ContactCount; i++)
+        Span<int> slots = Slots;
+        foreach (ref ContactPoint c in Contacts)
         {
-            ref ContactPoint c = ref contacts[i];
             c.First = slots[c.First];
             c.Second = c.Second == ContactPoint.Static ? c.Second : slots[c.Second];
         }
 
-        for (int i = 1; i < BodyCount; i++)
+        numbered.Sort();
+        foreach (ref ContactPoint c in Contacts)
         {
-            int moving = slots[i];
-            int at = i;
-            while (at > 0 && bodies.Id(moving) < bodies.Id(slots[at - 1]))
-            {
-                slots[at] = slots[at - 1];
-                at--;
-            }
-
-            slots[at] = moving;
-        }
-
-        for (int i = 0; i < ContactCount; i++)
-        {
-            ref ContactPoint c = ref contacts[i];
             c.First = IndexOf(c.First);
             c.Second = c.Second == ContactPoint.Static ? c.Second : IndexOf(c.Second);
         }
 
-        for (int i = 1; i < ContactCount; i++)
-        {
-            ContactPoint moving = contacts[i];
-            int at = i;
-            while (at > 0 && Compare(moving, contacts[at - 1]) < 0)
-            {
-                contacts[at] = contacts[at - 1];
-                at--;
-            }
-
-            contacts[at] = moving;
-        }
+        contacts.Sort();
     }
 
     /// <summary>Has the states of all bodies at an instant, by the newest segments of their paths.</summary>
@@ -193,12 +153,12 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     /// <summary>The same of one body, so many seconds after the tick.</summary>
     internal void Evaluate(int body, SimTime time, double residual)
     {
-        int last = timelines.Last(slots[body]);
+        int last = timelines.Last(Slots[body]);
         ref readonly MotionSegment segment = ref timelines.Segment(last);
         DenseOutput dense = timelines.Dense(last);
         double seconds = paths.SecondsInto(last, time) + residual;
-        masses[body] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies.Spec(slots[body]).Mass;
-        radii[body] = bodies.Spec(slots[body]).Radius;
+        masses[body] = segment.Law == MotionLaw.Held ? double.PositiveInfinity : bodies.Spec(Slots[body]).Mass;
+        radii[body] = bodies.Spec(Slots[body]).Radius;
         positions[body] = segment.PositionAt(seconds, dense);
         velocities[body] = segment.VelocityAt(seconds, dense);
         accelerations[body] = segment.AccelerationAt(seconds, dense);
@@ -211,13 +171,13 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
 
     /// <summary>Whether one of a contact's two bodies is a member of an island.</summary>
     internal bool HasMember(in ContactPoint c) =>
-        paths.IsMember(timelines.Last(slots[c.First])) || (c.Second != ContactPoint.Static && paths.IsMember(timelines.Last(slots[c.Second])));
+        paths.IsMember(timelines.Last(Slots[c.First])) || (c.Second != ContactPoint.Static && paths.IsMember(timelines.Last(Slots[c.Second])));
 
     /// <summary>
     /// Whether a body may come to rest or slide on what it hit: a plane, under an acceleration that is the same everywhere.
     /// </summary>
     internal bool IsSupportable(in ContactPoint c) =>
-        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies.Spec(slots[c.First]).Forces.IsEmpty;
+        c.Second == ContactPoint.Static && surfaces.IsPlane(c.Surface) && bodies.Spec(Slots[c.First]).Forces.IsEmpty;
 
     /// <summary>From the second of a contact to the first, a unit vector.</summary>
     internal Vector3D NormalOf(in ContactPoint c) => c.Second == ContactPoint.Static
@@ -235,13 +195,13 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
 
     /// <summary>The lesser of the two restitutions: a material behaves as named against anything more elastic.</summary>
     internal double RestitutionOf(in ContactPoint c) => Math.Min(
-        bodies.Spec(slots[c.First]).Restitution,
-        c.Second == ContactPoint.Static ? surfaces.Restitution(c.Surface) : bodies.Spec(slots[c.Second]).Restitution);
+        bodies.Spec(Slots[c.First]).Restitution,
+        c.Second == ContactPoint.Static ? surfaces.Restitution(c.Surface) : bodies.Spec(Slots[c.Second]).Restitution);
 
     /// <summary>The lesser of the two coefficients of friction.</summary>
     internal double FrictionOf(in ContactPoint c) => Math.Min(
-        bodies.Spec(slots[c.First]).Friction,
-        c.Second == ContactPoint.Static ? surfaces.Friction(c.Surface) : bodies.Spec(slots[c.Second]).Friction);
+        bodies.Spec(Slots[c.First]).Friction,
+        c.Second == ContactPoint.Static ? surfaces.Friction(c.Surface) : bodies.Spec(Slots[c.Second]).Friction);
 
     /// <summary>
     /// The lever of rolling resistance of a contact, in metres: the larger of its two bodies', each of which has no more resistance than
@@ -250,8 +210,8 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     internal double RollingLeverOf(in ContactPoint c)
     {
         double friction = FrictionOf(c);
-        double first = Math.Min(bodies.Spec(slots[c.First]).RollingResistance, friction) * radii[c.First];
-        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies.Spec(slots[c.Second]).RollingResistance, friction) * radii[c.Second];
+        double first = Math.Min(bodies.Spec(Slots[c.First]).RollingResistance, friction) * radii[c.First];
+        double second = c.Second == ContactPoint.Static ? 0 : Math.Min(bodies.Spec(Slots[c.Second]).RollingResistance, friction) * radii[c.Second];
         return Math.Max(first, second);
     }
 
@@ -262,30 +222,21 @@ internal sealed class ContactGraph(BodyTable bodies, TimelineStore timelines, St
     internal EventKey CanonicalKey(in EventKey popped)
     {
         int at = 0;
-        while (!IsOfThisRound(contacts[at]))
+        while (!IsOfThisRound(Contacts[at]))
         {
             at++;
         }
 
-        int least = contacts[at].First;
-        BodyId first = bodies.Id(slots[least]);
+        int least = Contacts[at].First;
+        BodyId first = bodies.Id(Slots[least]);
         BodyId second = first;
-        for (int i = at; i < ContactCount && contacts[i].First == least && second == first; i++)
+        for (int i = at; i < ContactCount && Contacts[i].First == least && second == first; i++)
         {
-            second = contacts[i].Second == ContactPoint.Static || !IsOfThisRound(contacts[i]) ? first : bodies.Id(slots[contacts[i].Second]);
+            second = Contacts[i].Second == ContactPoint.Static || !IsOfThisRound(Contacts[i]) ? first : bodies.Id(Slots[Contacts[i].Second]);
         }
 
         return new EventKey(popped.Time, popped.Round, EventKind.Impact, first, second, 0, 0);
     }
 
     private static bool IsOfThisRound(in ContactPoint c) => c.IsStruck && !c.IsFromBefore;
-
-    private int Compare(in ContactPoint a, in ContactPoint b)
-    {
-        int byFirst = bodies.Id(slots[a.First]).CompareTo(bodies.Id(slots[b.First]));
-        return byFirst != 0 ? byFirst
-            : a.Second >= 0 && b.Second >= 0 ? bodies.Id(slots[a.Second]).CompareTo(bodies.Id(slots[b.Second]))
-            : a.Second != b.Second ? a.Second.CompareTo(b.Second)
-            : a.Surface.CompareTo(b.Surface);
-    }
 }

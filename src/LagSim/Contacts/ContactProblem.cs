@@ -10,9 +10,6 @@ internal sealed class ContactProblem
     /// <summary>The moment of inertia of a solid sphere, in m r².</summary>
     internal const double SphereInertia = 1 / ImpactFriction.TurnPerImpulse;
 
-    /// <summary>The most pairs that touch, for each of many spheres that do not overlap: half of 8 + 4 sqrt(3).</summary>
-    private const double MostPairs = 7.47;
-
     internal SolverBody[] Bodies = Array.Empty<SolverBody>();
     internal SolverContact[] Contacts = Array.Empty<SolverContact>();
 
@@ -153,21 +150,20 @@ internal sealed class ContactProblem
     }
 
     /// <summary>
-    /// The share of the usual number of sweeps that this problem may take, from 0 to 1. Spheres that lie side by side, of whatever sizes, touch in at
-    /// most 7.47 pairs a body (Kuperberg and Schramm 1994, Math. Res. Lett. 1, 339-344: 14.93 neighbours in the mean). More pairs than that lie
-    /// inside one another. They are to be parted, not balanced, and n of them in one place are n² / 2: they share the sweeps that a heap of as
-    /// many bodies would have.
+    /// Whether bodies lie inside one another: as many pairs are deeper in each other than so many metres as there are bodies. They are to
+    /// be parted,
+    /// not balanced, so what sweeps leave is up to the next step.
     /// </summary>
-    internal double ShareOfSweeps()
+    internal bool IsCrowd(double depth)
     {
-        int pairs = 0;
+        int deep = 0;
         for (int i = 0; i < ContactCount; i++)
         {
-            pairs += Contacts[i].Second >= 0 ? 1 : 0;
+            ref readonly SolverContact c = ref Contacts[i];
+            deep += c.Second >= 0 && c.Gap < -depth ? 1 : 0;
         }
 
-        double most = MostPairs * BodyCount;
-        return pairs <= most ? 1 : most / pairs;
+        return deep > 0 && deep >= BodyCount;
     }
 
     /// <summary>Keeps the first contacts alone.</summary>
@@ -176,48 +172,23 @@ internal sealed class ContactProblem
     /// <summary>Lists the contacts of each body: ascending, so in canonical order if they are.</summary>
     internal void List()
     {
-        if (listFrom.Length <= BodyCount)
-        {
-            listFrom = new int[Bodies.Length + 1];
-        }
-
-        if (listed.Length < 2 * ContactCount)
-        {
-            listed = new int[2 * Contacts.Length];
-        }
-
-        Array.Clear(listFrom, 0, BodyCount + 1);
+        lists.Clear(BodyCount, ContactCount);
         for (int i = 0; i < ContactCount; i++)
         {
-            listFrom[Contacts[i].First]++;
-            if (Contacts[i].Second >= 0)
-            {
-                listFrom[Contacts[i].Second]++;
-            }
+            lists.Count(Contacts[i].First, Contacts[i].Second);
         }
 
-        int sum = 0;
-        for (int b = 0; b <= BodyCount; b++)
-        {
-            sum += listFrom[b];
-            listFrom[b] = sum; // the end of its list; filled from behind it becomes the beginning
-        }
-
+        lists.Sum();
         for (int i = ContactCount - 1; i >= 0; i--)
         {
-            listed[--listFrom[Contacts[i].First]] = i;
-            if (Contacts[i].Second >= 0)
-            {
-                listed[--listFrom[Contacts[i].Second]] = i;
-            }
+            lists.Put(i, Contacts[i].First, Contacts[i].Second);
         }
     }
 
     /// <summary>The contacts of a body, by number, as they were listed last.</summary>
-    internal Span<int> ListOf(int body) => listed.AsSpan(listFrom[body], listFrom[body + 1] - listFrom[body]);
+    internal Span<int> ListOf(int body) => lists.Of(body);
 
-    private int[] listFrom = Array.Empty<int>();
-    private int[] listed = Array.Empty<int>();
+    private readonly ContactLists lists = new();
 
     /// <summary>Whether one of its contacts has friction.</summary>
     internal bool Rubs()
@@ -315,7 +286,6 @@ internal struct SolverContact
     internal bool IsElastic; // loses no energy, and is of a step only if it held before
     internal bool Held; // whether the contact held before the step
     internal bool Holds; // and whether it holds in it
-    internal bool IsLeftOut; // of the solution of the step, among deeper ones
     internal double Impulse; // along the normal, in N s
     internal Vector3D FrictionImpulse; // of friction
     internal bool HasFrictionImpulse;

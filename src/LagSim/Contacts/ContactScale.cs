@@ -88,6 +88,13 @@ internal class ContactScale
     internal double Length { get; }
 
     /// <summary>
+    /// How deep, in metres, two are in each other of whom one was put there: half of what is predicted from, so that rounding cannot part
+    /// the
+    /// two rules.
+    /// </summary>
+    internal double SunkDepth => 0.5 * Length;
+
+    /// <summary>
     /// The speculative margin, in metres: pairs that come within it in a step are contacts of the step. Two bodies that the pull drives at
     /// each other from rest close by this much in a step. Never more than the tolerance, and less only where that would allow a step longer
     /// than the longest.

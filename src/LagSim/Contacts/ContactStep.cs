@@ -27,7 +27,6 @@ internal sealed class ContactStep
     private NormalRefinement? normals; // made when a step needs it, as the next
     private EnergyLimit? limit;
     private readonly StepContacts contacts;
-    private readonly DeepestContacts deepest;
     private bool hasDeep; // whether something is deeper in something than the tolerance, and to be pushed out as such
     private Motion[] free = Array.Empty<Motion>(); // by body
 
@@ -35,8 +34,7 @@ internal sealed class ContactStep
     {
         Scale = scale;
         Rules = rules ?? SolverRules.Usual;
-        contacts = new StepContacts(scene.Surfaces, scale, Problem);
-        deepest = new DeepestContacts(Problem);
+        contacts = new StepContacts(scene.Surfaces, scale, Problem, Rules.LimitsCrowds);
     }
 
     /// <summary>The bodies and contacts of the step, with the velocities of its middle once it is solved.</summary>
@@ -57,11 +55,7 @@ internal sealed class ContactStep
     internal bool HasSettled { get; private set; }
 
     /// <summary>Begins again, with no body.</summary>
-    internal void Clear()
-    {
-        Problem.Clear();
-        deepest.Clear();
-    }
+    internal void Clear() => Problem.Clear();
 
     /// <summary>Adds a body of the island.</summary>
     /// <param name="spec">The body's spec.</param>
@@ -99,11 +93,6 @@ internal sealed class ContactStep
     /// <summary>Solves the step from the impulses that its contacts have.</summary>
     internal void Solve(double seconds, double tolerance)
     {
-        if (Rules.LimitsCrowds)
-        {
-            deepest.LeaveOut();
-        }
-
         hasDeep = false;
         bool isFree = !Problem.HasHand(); // what is deep beside a hand is pushed out as such when the hand lets go
         for (int i = 0; i < Problem.ContactCount; i++)
@@ -241,17 +230,15 @@ internal sealed class ContactStep
 
     /// <summary>
     /// Which contacts hold in the step that was solved: those that push, and those that held before and open by less than a quarter of the
-    /// tolerance, as along what is round, where a chord leads away a little and comes back. What the solution left out
-    /// holds where it overlaps.
+    /// tolerance, as along what is round, where a chord leads away a little and comes back.
     /// </summary>
     internal void FindHolding(double seconds)
     {
-        deepest.PutBack();
         contacts.FindMeetings(seconds);
         for (int i = 0; i < Problem.ContactCount; i++)
         {
             ref SolverContact c = ref Problem.Contacts[i];
-            c.Holds = c.Impulse > 0 || (c.IsLeftOut && c.Gap <= 0) || (c.Held && !c.IsElastic && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
+            c.Holds = c.Impulse > 0 || (c.Held && !c.IsElastic && c.Gap + (ContactSolver.Opening(Problem, c) * seconds) <= 0.25 * Scale.Length);
         }
     }
 
@@ -341,7 +328,7 @@ internal sealed class ContactStep
         int sweeps = ContactSolver.Solve(Problem, tolerance, MaxSweeps);
         HasSettled = sweeps < MaxSweeps;
         Sweeps += sweeps;
-        if (Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
+        if (Rules.RefinesNormals && !Problem.IsCrowd(Scale.Length) && NormalRefinement.IsNeeded(Problem, sweeps, tolerance))
         {
             BeginAnew();
             Sweeps += SolveNormals(tolerance);

@@ -9,9 +9,6 @@ namespace LagSim.Contacts;
 /// </summary>
 internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
 {
-    /// <summary>One to and one fro, however small the share of a crowd is.</summary>
-    private const int LeastSweeps = 2;
-
     private NormalRefinement? normals; // made when an impact needs it
     private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
@@ -67,15 +64,13 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
 
     /// <summary>Solves it from the impulses so far.</summary>
     /// <param name="tolerance">In m/s: what sweeps leave.</param>
-    /// <param name="sweeps">How many at most; of bodies inside one another a share, and what that leaves is up to the next step.</param>
+    /// <param name="sweeps">How many at most.</param>
     /// <param name="knownBodies">How many bodies were in it when it was solved last.</param>
     /// <param name="knownContacts">How many contacts.</param>
     internal void Solve(double tolerance, int sweeps, int knownBodies, int knownContacts)
     {
-        double share = step.Rules.LimitsCrowds ? Problem.ShareOfSweeps() : 1;
-        int most = Math.Max(Math.Min(sweeps, LeastSweeps), (int)(sweeps * share));
-        int taken = ContactSolver.Solve(Problem, tolerance, most, knownBodies, knownContacts);
-        if (most == ContactStep.MaxSweeps && step.Rules.RefinesNormals && NormalRefinement.IsNeeded(Problem, taken, tolerance))
+        int taken = ContactSolver.Solve(Problem, tolerance, sweeps, knownBodies, knownContacts);
+        if (sweeps == ContactStep.MaxSweeps && step.Rules.RefinesNormals && !Problem.IsCrowd(step.Scale.Length) && NormalRefinement.IsNeeded(Problem, taken, tolerance))
         {
             GoBack();
             normals ??= new NormalRefinement();

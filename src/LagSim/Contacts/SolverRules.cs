@@ -25,7 +25,9 @@ internal class SolverRules
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
     internal virtual bool RefinesNormals => true;
 
-    /// <summary>Whether bodies that lie inside one another cost no more than as many that lie side by side: each keeps its deepest contacts in a
-    /// step, and in an impact they share the sweeps.</summary>
+    /// <summary>
+    /// Whether bodies that lie inside one another cost no more than as many that lie side by side: each keeps its deepest contacts, in steps
+    /// and in impacts.
+    /// </summary>
     internal virtual bool LimitsCrowds => true;
 }

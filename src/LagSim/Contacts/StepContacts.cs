@@ -5,8 +5,9 @@ namespace LagSim.Contacts;
 
 /// <summary>Finds the contacts of a contact step: pairs that touch, or might within the step, and are not left to impacts.</summary>
 /// <remarks>Order counts: contacts are found in the order of their bodies. Cost: the pairs that are near along one axis.</remarks>
-internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, ContactProblem problem)
+internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, ContactProblem problem, bool limitsCrowds)
 {
+    private readonly DeepestContacts deepest = new();
     private Member[] members = Array.Empty<Member>();
     private int[] byPlace = Array.Empty<int>();
     private double[] places = Array.Empty<double>();
@@ -47,7 +48,13 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     {
         pairCount = 0;
         nearCount = 0;
+        deepest.Clear();
         FindPairs(seconds);
+        if (limitsCrowds && deepest.IsCrowd(problem.BodyCount))
+        {
+            LeaveOut();
+        }
+
         Array.Sort(pairs, 0, pairCount);
         int next = 0;
         for (int i = 0; i < problem.BodyCount; i++)
@@ -60,8 +67,29 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
         }
     }
 
+    /// <summary>Leaves out pairs that lie among deeper ones. Those that do not overlap yet may come to touch.</summary>
+    private void LeaveOut()
+    {
+        deepest.Choose(problem.BodyCount);
+        int kept = 0;
+        for (int i = 0; i < pairCount; i++)
+        {
+            if (deepest.IsKept(i))
+            {
+                pairs[kept++] = pairs[i];
+            }
+            else if (!deepest.IsDeep(i, scale.SunkDepth))
+            {
+                Add(ref near, ref nearCount, pairs[i]);
+            }
+        }
+
+        pairCount = kept;
+    }
+
     /// <summary>
-    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts, from which impacts take no energy,
+    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts that are not deep, from which
+    /// impacts take no energy,
     /// unless there is a hand, which gives and takes. And they are contacts past which the two move so fast that within the step the
     /// surfaces curve away by more than the tolerance: then the gap along the line between them does not show whether they touch.
     /// </summary>
@@ -73,7 +101,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref problem.Contacts[i];
-            if (c.Held || !((c.IsElastic && !hasHand) || (c.Gap > 0 && CurvesAway(c, seconds))))
+            if (c.Held || !((c.IsElastic && !hasHand && c.Gap >= -scale.Length) || (c.Gap > 0 && CurvesAway(c, seconds))))
             {
                 problem.Contacts[kept++] = c;
             }
@@ -165,6 +193,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
                 if (mayTouch)
                 {
                     Add(ref pairs, ref pairCount, pair);
+                    deepest.Add((int)(pair >> 32), (int)(uint)pair, length - reach);
                 }
                 else if (length - reach <= 2 * fastest * seconds)
                 {

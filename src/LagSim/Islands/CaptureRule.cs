@@ -44,9 +44,9 @@ internal sealed class CaptureRule(
             return rebound <= scale.CaptureSpeed; // whatever its restitution: a hand gives and takes energy
         }
 
-        if (isPair && hands == 0 && graph.GapOf(c) < -0.5 * scale.Length)
+        if (isPair && hands == 0 && graph.GapOf(c) < -scale.SunkDepth)
         {
-            return true; // one was put into the other; half of what is predicted from, so that rounding cannot part the two rules
+            return true; // one was put into the other
         }
 
         if (IsCarriedByClosedForm(c))

@@ -90,7 +90,9 @@ internal class ImpactGraphBuilder(
         bool isHealing = rollback.MayBeKnownBeyond(rollback.Cursor);
         foreach (int other in broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, isHealing))
         {
-            int piece = other == slot || !timelines.IsKnown(other) ? TimelineStore.None : view.SegmentAt(other, key);
+            int known = graph.IndexOf(other);
+            bool wasTested = known >= 0 && known <= body; // from the other one
+            int piece = wasTested || !timelines.IsKnown(other) ? TimelineStore.None : view.SegmentAt(other, key);
             if (piece == TimelineStore.None || (piece == timelines.Last(other) && flights.AreApart(slot, other, key.Time, key.Time)))
             {
                 continue;
@@ -109,13 +111,9 @@ internal class ImpactGraphBuilder(
                 continue;
             }
 
-            int known = graph.IndexOf(other);
-            if (known < 0 || known > body)
-            {
-                known = known < 0 ? graph.AddBody(other) : known;
-                bool ordered = bodies.Id(slot) < bodies.Id(other);
-                graph.AddContact(new ContactPoint(ordered ? body : known, ordered ? known : body, -1, contact) { IsFromBefore = !isStruck });
-            }
+            known = known < 0 ? graph.AddBody(other) : known;
+            bool ordered = bodies.Id(slot) < bodies.Id(other);
+            graph.AddContact(new ContactPoint(ordered ? body : known, ordered ? known : body, -1, contact) { IsFromBefore = !isStruck });
         }
     }
 }

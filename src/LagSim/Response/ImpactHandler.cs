@@ -6,7 +6,7 @@ namespace LagSim.Response;
 
 /// <summary>Handles impacts: finds the bodies that take part, solves the impact and opens the segments that follow.</summary>
 internal sealed class ImpactHandler(
-    ContactGraph graph, Partners partners, IsolatedImpact isolated, ImpactGraphBuilder builder,
+    ContactGraph graph, Partners partners, IsolatedImpact isolated, ImpactGraphBuilder builder, ImpactCrowd crowd,
     FreeImpactResponse resolver, IslandImpact island, ImpactNotifier notifier, ImpactSegments segments, SegmentLinker linker, ClosedInstants closed)
 {
     /// <summary>Opens the segments after an impact; the graph then has their bodies. False if a body has to be rewound first.</summary>
@@ -22,6 +22,7 @@ internal sealed class ImpactHandler(
             return false;
         }
 
+        crowd.LeaveOut();
         resolver.SetTargets(collapses, key);
         partners.NearMisses.Clear();
         closed.IsOpen = collapses && CollapseRule.IsLong(key);

@@ -97,7 +97,7 @@ internal sealed class IslandImpact(
         {
             ref readonly ContactPoint c = ref graph.Contacts[i];
             ref SolverContact added = ref impact.Problem.AddContact(
-                c.First, c.Second, c.Surface, c.Normal, 0, graph.FrictionOf(c), graph.RollingLeverOf(c));
+                c.First, c.Second, c.Surface, c.Normal, graph.GapOf(c), graph.FrictionOf(c), graph.RollingLeverOf(c));
             added.Target = c.Target;
         }
 

@@ -35,6 +35,7 @@ internal sealed class IslandImpactSegments(
 
         resolver.LimitSpeeds();
         closed.After();
+        graph.List();
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int before = timelines.Last(graph.Slots[i]);
@@ -89,9 +90,9 @@ internal sealed class IslandImpactSegments(
     private bool HasPersistentContact(int body)
     {
         bool has = false;
-        for (int i = 0; i < graph.ContactCount && !has; i++)
+        foreach (int i in graph.ListOf(body))
         {
-            has = graph.Contacts[i].Lasts && (graph.Contacts[i].First == body || graph.Contacts[i].Second == body);
+            has |= graph.Contacts[i].Lasts;
         }
 
         return has;
@@ -103,11 +104,11 @@ internal sealed class IslandImpactSegments(
     /// </summary>
     private void AddPersistentContact(int body, int piece)
     {
-        for (int i = 0; i < graph.ContactCount; i++)
+        foreach (int i in graph.ListOf(body))
         {
             ref readonly ContactPoint c = ref graph.Contacts[i];
             bool isPair = c.Second != ContactPoint.Static;
-            if ((c.First != body && c.Second != body) || (!c.Lasts && !(c.IsStruck && graph.RestitutionOf(c) >= 1)))
+            if (!c.Lasts && !(c.IsStruck && graph.RestitutionOf(c) >= 1))
             {
                 continue;
             }

@@ -30,6 +30,9 @@ internal sealed class CarriedContacts
 
     internal int Next(int contact) => nextContact[contact];
 
+    /// <summary>How many of the contacts that a member's segment carries are with bodies.</summary>
+    internal int BodiesOf(int segment) => members[segment].Bodies;
+
     internal ref readonly PersistentContact At(int contact) => ref contacts[contact];
 
     /// <summary>The contact of a member's segment with a body, or <see cref="None"/>.</summary>
@@ -134,6 +137,7 @@ internal sealed class CarriedContacts
         }
 
         member.Last = at;
+        member.Bodies += contact.Surface == PersistentContact.NoSurface ? 1 : 0;
     }
 
     /// <summary>Whether a contact of the segment begun holds.</summary>
@@ -187,5 +191,6 @@ internal sealed class CarriedContacts
         internal int First;
         internal int Last;
         internal int Found;
+        internal int Bodies;
     }
 }

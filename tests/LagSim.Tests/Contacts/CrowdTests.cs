@@ -1,8 +1,12 @@
 using System;
 using LagSim.Contacts;
+using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
+using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
+using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Contacts;
 
@@ -18,20 +22,15 @@ public sealed class CrowdTests
     [InlineData(32, 0.1)]
     [InlineData(128, 0)]
     [InlineData(128, 0.1)]
-    public void Contacts_OfBodiesInOnePlace_AreAsManyAsOfAHeapAndThenAllHold(int bodies, double spread)
+    public void Contacts_OfBodiesInOnePlace_AreAsManyAsOfAHeapInCanonicalOrder(int bodies, double spread)
     {
         ContactStep step = Solved(bodies, spread, SolverRules.Usual);
         Assert.InRange(step.Problem.ContactCount, bodies - 1, Most * bodies);
-        double seconds = step.Scale.Step.ToSeconds();
-        step.LimitEnergy(seconds, Tolerance);
-        step.FindHolding(seconds);
-        Assert.Equal(bodies * (bodies - 1) / 2, step.Problem.ContactCount);
         for (int i = 1; i < step.Problem.ContactCount; i++)
         {
             ref readonly SolverContact before = ref step.Problem.Contacts[i - 1];
             ref readonly SolverContact c = ref step.Problem.Contacts[i];
             Assert.True(before.First < c.First || (before.First == c.First && before.Second < c.Second));
-            Assert.True(c.Holds || ContactSolver.Opening(step.Problem, c) > -Tolerance); // what neither pushes nor was left out does not close
         }
     }
 
@@ -64,6 +63,94 @@ public sealed class CrowdTests
         {
             Assert.Equal(all.Problem.Bodies[b].Velocity, step.Problem.Bodies[b].Velocity);
         }
+    }
+
+    /// <summary>
+    /// n bodies spawned at one point: what the worst event is of work, and what is carried, grows no faster than n log n. Counted, not
+    /// timed.
+    /// </summary>
+    [Theory]
+    [InlineData(0)]
+    [InlineData(0.2)]
+    public void Work_OfBodiesSpawnedInOnePlace_GrowsNoFasterThanTheirNumberTimesItsLogarithm(double spread)
+    {
+        (double few, int carriedByFew) = Spawned(32, spread, SolverRules.Usual);
+        (double many, int carriedByMany) = Spawned(128, spread, SolverRules.Usual);
+        double most = 128 * Math.Log(128) / (32 * Math.Log(32));
+        Assert.InRange(many / few, 0, most);
+        Assert.InRange(carriedByMany, 128, 2 * (Most + 1) * 128); // both of a pair carry it
+        Assert.InRange((double)carriedByMany / carriedByFew, 0, most);
+    }
+
+    /// <summary>The control: all pairs are carried, and their work grows with them.</summary>
+    [Fact]
+    public void Work_OfACrowdWithoutTheLimit_IsSeenToGrowWithItsPairs()
+    {
+        FaultySolverRules all = new() { SolvesCrowds = true };
+        (double few, int carriedByFew) = Spawned(32, 0.2, all);
+        (double many, int carriedByMany) = Spawned(128, 0.2, all);
+        Assert.True(many / few > 10, $"{many / few}");
+        Assert.True((double)carriedByMany / carriedByFew > 12, $"{carriedByMany} and {carriedByFew}");
+    }
+
+    /// <summary>The crowd is parted all the same: after ten seconds nothing is deeper than the tolerance, and all still are
+    /// there.</summary>
+    [Theory]
+    [InlineData(16, 0)]
+    [InlineData(48, 0.2)]
+    public void Overlap_OfBodiesSpawnedInOnePlace_Ends(int bodies, double spread)
+    {
+        Simulation world = World(bodies, spread, SolverRules.Usual);
+        world.AdvanceTo(At(0.1));
+        Assert.True(MinGap(world, At(0.1)) < -0.1);
+        world.AdvanceTo(At(10));
+        Assert.True(MinGap(world, At(10)) >= -world.Scene.ContactTolerance, $"{MinGap(world, At(10))}");
+        Assert.All(Bodies(world), body => Assert.True(Read(world, body, 10).Position.Y > 0.19));
+    }
+
+    /// <summary>The most work of an event in the first steps, in units of about a microsecond, and how many contacts bodies carry after
+    /// the first.</summary>
+    private static (double Work, int Carried) Spawned(int bodies, double spread, SolverRules rules)
+    {
+        Simulation world = World(bodies, spread, rules);
+        MostWork most = new();
+        world.Work = most;
+        world.AdvanceTo(At(0.1) + SimDuration.FromTicks(world.Engine.Step.Scale.Step.Ticks));
+        int carried = 0;
+        foreach (BodySnapshot body in world.Snapshot(world.SimulatedTo).Bodies)
+        {
+            carried += body.Contacts.Length;
+        }
+
+        world.AdvanceTo(At(0.15));
+        return (most.Amount, carried);
+    }
+
+    private static Simulation World(int bodies, double spread, SolverRules rules)
+    {
+        Scene scene = new SceneBuilder("a floor").AddPlane("floor", Vector3D.Up, 0).WithSmallestRadius(0.1).Build();
+        Simulation world = new(scene, new SimulationOptions().WithParts(new FaultyEngineParts { Rules = rules }));
+        Random random = new(1);
+        for (uint n = 1; n <= bodies; n++)
+        {
+            Vector3D apart = V(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5) * spread;
+            world.Submit(PlayerAction.Spawn(new BodySpec(0.2, 1, 0.5), V(0, 1, 0) + apart).Stamp(At(0.1), 1, n));
+        }
+
+        return world;
+    }
+
+    private sealed class MostWork : IWorkObserver
+    {
+        internal double Amount { get; private set; }
+
+        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
+        {
+            Amount = Math.Max(Amount, amount);
+            return WorkVerdict.GoOn;
+        }
+
+        public WorkVerdict OnCall() => WorkVerdict.GoOn;
     }
 
     private static ContactStep Solved(int bodies, double spread, SolverRules rules)
