@@ -185,9 +185,6 @@ public sealed class PeerThread : IDisposable
     /// <summary>The crossing notices given in the session's options; null if none were, and before there is a world.</summary>
     public CrossingNotices? Crossings => Session.World?.Crossings;
 
-    /// <summary>The notices of lost bodies given in the session's options; null if none were, and before there is a world.</summary>
-    public LossNotices? Losses => Session.World?.Losses;
-
     /// <summary>The number of steps done so far.</summary>
     public long Steps => thread.Steps;
 
