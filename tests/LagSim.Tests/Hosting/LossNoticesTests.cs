@@ -117,7 +117,7 @@ public sealed class LossNoticesTests
     public void Losses_OfDrawnWorldsWithLateEvents_AreConfirmedOnceInOrderAndNoOther()
     {
         int confirmed = 0, moved = 0, retracted = 0;
-        for (int seed = 0; seed < 20; seed++)
+        for (int seed = 0; seed < 12; seed++)
         {
             Course late = new();
             Assert.True(IsRight(seed, late, late.Notices), $"seed {seed}: {late.Courses.Broken}");
@@ -128,7 +128,7 @@ public sealed class LossNoticesTests
 
         string seen = $"{confirmed} confirmed, {moved} moved, {retracted} retracted";
         TestContext.Current.TestOutputHelper?.WriteLine(seen);
-        Assert.True(confirmed > 40 && moved > 20 && retracted > 15, seen);
+        Assert.True(confirmed > 25 && moved > 8 && retracted > 5, seen);
     }
 
     [Fact]
@@ -160,11 +160,11 @@ public sealed class LossNoticesTests
             // One player lets it fall to the centre, another pushes it on its way, or past the centre.
             group.Do(1, PlayerAction.SetFilter(BodyId.OfScene(n), ghost));
             group.Run(0.05);
-            group.Do(2, n % 3 == 0 ? PlayerAction.SetVelocity(BodyId.OfScene(n), axes[(n + 2) % 6] * 2) : PlayerAction.Impulse(BodyId.OfScene(n), axes[n]));
+            group.Do(2, n % 3 == 0 ? PlayerAction.SetVelocity(BodyId.OfScene(n), axes[(n + 2) % 6] * 20) : PlayerAction.Impulse(BodyId.OfScene(n), axes[n]));
             group.Run(0.3);
         }
 
-        group.Run(12);
+        group.Run(7);
         Assert.All(peers, peer => Assert.Null(peer.Courses.Broken));
         Assert.All(peers, peer => Assert.Equal(4, peer.Courses.Confirmed.Count));
         Assert.All(peers, peer => Assert.True(peer.Courses.Confirmed.Zip(peers[0].Courses.Confirmed).All(pair => pair.First.IsSameLoss(pair.Second))));
@@ -244,7 +244,7 @@ public sealed class LossNoticesTests
             events.Add((n <= 6 ? PlayerAction.SetFilter(body, ghost) : random.Next(4) switch
             {
                 0 => PlayerAction.SetFilter(body, default),
-                1 => PlayerAction.SetVelocity(body, axes[(stone + 2) % 6] * 2), // past the centre
+                1 => PlayerAction.SetVelocity(body, axes[(stone + 2) % 6] * 20), // away, past the centre
                 _ => PlayerAction.Impulse(body, axes[stone] * (random.NextDouble() - 0.3)),
             }).Stamp(At(random.NextDouble()), 1, n));
         }
