@@ -74,6 +74,7 @@ public sealed class LossNoticesTests
     [InlineData("rescue", new[] { NoticeKind.Predicted, NoticeKind.InDoubt, NoticeKind.Retracted })]
     [InlineData("rescue that is taken back", new[] { NoticeKind.Predicted, NoticeKind.InDoubt, NoticeKind.Moved, NoticeKind.Confirmed })]
     [InlineData("what changes nothing", new[] { NoticeKind.Predicted, NoticeKind.Confirmed })]
+    [InlineData("what has no effect", new[] { NoticeKind.Predicted, NoticeKind.Confirmed })]
     public void Loss_ThatALateEventChanges_StaysTheSame(string late, NoticeKind[] expected)
     {
         LossNotices losses = new();
@@ -88,6 +89,7 @@ public sealed class LossNoticesTests
                 world.Submit(late switch
                 {
                     "a push" => PlayerAction.Impulse(First, V(0.5)).Stamp(At(0.2), 2, 1),
+                    "what has no effect" => PlayerAction.Release(First, V(0)).Stamp(At(0.2), 2, 1), // nobody holds it: what was cut is put back
                     "what changes nothing" => PlayerAction.SetFilter(First, ghost).Stamp(At(0.2), 2, 1),
                     _ => rescue,
                 });
