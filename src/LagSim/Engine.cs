@@ -26,6 +26,7 @@ internal sealed class Engine
     private readonly RollbackState rollback = new();
     private readonly EventPredictor predictor;
     private readonly Agenda agenda;
+    private readonly ILossObserver? lossObserver;
 
     /// <summary>A world without bodies, with room for as many as are expected.</summary>
     /// <param name="scene">The scene.</param>
@@ -38,6 +39,7 @@ internal sealed class Engine
     {
         EngineParts parts = options.Parts;
         Scene = scene;
+        lossObserver = options.LossObserver;
         Progress = new Progress(start, options.History, from);
         rollback.Cursor = EventKey.Before(from);
         Bodies = new BodyTable(expected);
@@ -218,6 +220,7 @@ internal sealed class Engine
     internal void Begin()
     {
         Timelines.Triggers = Rules; // not before: what a snapshot has was heard of
+        Timelines.Losses = lossObserver;
         if (Crossings is not null)
         {
             Crossings.Triggers = Rules;

@@ -343,8 +343,8 @@ public sealed class Simulation
     /// kept: for as long as the history, and longer while no other body takes their room.</summary>
     /// <returns>In canonical order of bodies.</returns>
     /// <remarks>What a body does never ends a world: one that becomes too fast, or whose forces no step follows, is taken out of it, on every
-    /// peer alike; rules hear of it by <see cref="GameRules.OnLost"/>. A late event may bring it back. Allocates. Cost: grows with the
-    /// bodies.</remarks>
+    /// peer alike; rules hear of it by <see cref="GameRules.OnLost"/>, a game by <see cref="Hosting.LossNotices"/>. A late event may bring it
+    /// back. Allocates. Cost: grows with the bodies.</remarks>
     /// <exception cref="InvalidOperationException">The simulation ended by an exception.</exception>
     public IReadOnlyList<LostBody> LostBodies()
     {

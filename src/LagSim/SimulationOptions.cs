@@ -104,6 +104,7 @@ public sealed class SimulationOptions
         changed.Healing = HealingMode.FullRollback;
         changed.Observer = null;
         changed.CrossingObserver = null;
+        changed.LossObserver = null;
         changed.Parts = EngineParts.Usual;
     });
 
@@ -118,6 +119,12 @@ public sealed class SimulationOptions
 
     /// <summary>The same with an observer of crossings.</summary>
     internal SimulationOptions WithCrossingObserver(ICrossingObserver? observer) => With(changed => changed.CrossingObserver = observer);
+
+    /// <summary>Notified of bodies that are lost; null for none.</summary>
+    internal ILossObserver? LossObserver { get; private set; }
+
+    /// <summary>The same with an observer of losses.</summary>
+    internal SimulationOptions WithLossObserver(ILossObserver? observer) => With(changed => changed.LossObserver = observer);
 
     /// <summary>Where the world says which call of rules it is in; null, the default, if nobody looks.</summary>
     internal RunningRuleCall? RunningRuleCall { get; private set; }

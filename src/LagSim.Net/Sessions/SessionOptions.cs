@@ -181,6 +181,12 @@ public abstract record SessionOptions
     public CrossingNotices? Crossings { get; init; }
 
     /// <summary>
+    /// Receives which bodies left the world because they cannot be followed any further; null, the default, for none. An instance serves one
+    /// session only. Losses are confirmed as contacts are. What datagrams are lost is no matter of this.
+    /// </summary>
+    public LossNotices? Losses { get; init; }
+
+    /// <summary>
     /// Receives what the scene's rules tell; null, the default, for none. An instance serves one session only. Confirmed as contacts are.
     /// </summary>
     public RuleNotices? RuleNotices { get; init; }

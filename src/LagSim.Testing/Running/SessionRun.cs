@@ -217,7 +217,7 @@ internal sealed class SessionRun
         chosen = chosen with
         {
             Cancellation = cancellation,
-            ExtraHistory = chosen.Contacts is null && chosen.RuleNotices is null ? WholeTimelines : chosen.ExtraHistory,
+            ExtraHistory = chosen is { Contacts: null, Crossings: null, Losses: null, RuleNotices: null } ? WholeTimelines : chosen.ExtraHistory,
         };
         SeededRandom luck = clockLuck.Fork((ulong)number);
         double drift = luck.NextDouble(-ClockDriftPartsPerMillion, ClockDriftPartsPerMillion);

@@ -48,13 +48,14 @@ public sealed class LiveWorld
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
     /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see
     /// cref="RuleWatchdog.Start"/> it before, since making a world calls <c>OnStart</c>.</param>
+    /// <param name="losses">Receives which bodies of this world alone are lost; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     public LiveWorld(Scene scene, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null, ContactNotices? contacts = null,
-        CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null)
+        CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null, LossNotices? losses = null)
         : this(
-            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead,
-            renderedPast, contacts, crossings, notices)
+            new Simulation(scene, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog, losses)), lookAhead,
+            renderedPast, contacts, crossings, notices, losses)
     {
     }
 
@@ -69,21 +70,23 @@ public sealed class LiveWorld
     /// <param name="notices">Receives what the scene's rules tell in this world alone; null, the default, for none.</param>
     /// <param name="watchdog">Ends this world if rules do not return from a call; null, the default, for none. <see
     /// cref="RuleWatchdog.Start"/> it before, since making a world calls <c>OnStart</c>.</param>
+    /// <param name="losses">Receives which bodies of this world alone are lost; null, the default, for none.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SceneException">The snapshot is of no world of the scene.</exception>
     public LiveWorld(
         Scene scene, WorldSnapshot snapshot, SimulationOptions options, SimDuration? lookAhead = null, SimDuration? renderedPast = null,
-        ContactNotices? contacts = null, CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null)
+        ContactNotices? contacts = null, CrossingNotices? crossings = null, RuleNotices? notices = null, RuleWatchdog? watchdog = null,
+        LossNotices? losses = null)
         : this(
-            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog)), lookAhead,
-            renderedPast, contacts, crossings, notices)
+            new Simulation(scene, snapshot, Checked(options, lookAhead, renderedPast, contacts, crossings, notices, watchdog, losses)),
+            lookAhead, renderedPast, contacts, crossings, notices, losses)
     {
     }
 
     private LiveWorld(
         Simulation simulation, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings,
-        RuleNotices? notices)
+        RuleNotices? notices, LossNotices? losses)
     {
         Notices = notices;
         if (notices is not null)
@@ -94,6 +97,7 @@ public sealed class LiveWorld
         Simulation = simulation;
         Contacts = contacts;
         Crossings = crossings;
+        Losses = losses;
         events = EventsAStep;
         LookAhead = lookAhead ?? LatencyCompensationWindow.DefaultLookAhead;
         this.renderedPast = renderedPast ?? DefaultRenderedPast;
@@ -113,6 +117,9 @@ public sealed class LiveWorld
 
     /// <summary>Receives what its rules tell; null for none.</summary>
     public RuleNotices? Notices { get; }
+
+    /// <summary>Receives which of its bodies are lost; null for none.</summary>
+    public LossNotices? Losses { get; }
 
     /// <summary>
     /// Keeps account of what players' acts cost, and bounds what a step may cost by it; null, the default, for none. Of one world at a
@@ -168,6 +175,7 @@ public sealed class LiveWorld
         Contacts?.Restart();
         Crossings?.Restart();
         Notices?.Restart();
+        Losses?.Restart();
     }
 
     /// <summary>
@@ -276,12 +284,14 @@ public sealed class LiveWorld
             Contacts?.Tell(Simulation);
             Crossings?.Tell(Simulation);
             Notices?.Tell(Simulation);
+            Losses?.Tell(Simulation);
         }
 
         SimDuration history = Simulation.Engine.Progress.History;
         SimTime confirmation = SimTime.Min(
             Contacts?.NextDue(history, LookAhead) ?? SimTime.MaxValue, Crossings?.NextDue(history, LookAhead) ?? SimTime.MaxValue);
         confirmation = SimTime.Min(confirmation, Notices?.NextDue(history, LookAhead) ?? SimTime.MaxValue);
+        confirmation = SimTime.Min(confirmation, Losses?.NextDue(history, LookAhead) ?? SimTime.MaxValue);
         if (Simulation.Engine.Loop.Blocked is not null)
         {
             return SimTime.Min(confirmation, now + LookAhead); // there is nothing to do before an event comes
@@ -293,7 +303,7 @@ public sealed class LiveWorld
     /// <summary>The options, if they and the spans go together.</summary>
     private static SimulationOptions Checked(
         SimulationOptions options, SimDuration? lookAhead, SimDuration? renderedPast, ContactNotices? contacts, CrossingNotices? crossings,
-        RuleNotices? notices, RuleWatchdog? watchdog)
+        RuleNotices? notices, RuleWatchdog? watchdog, LossNotices? losses)
     {
         if (options is null)
         {
@@ -321,9 +331,11 @@ public sealed class LiveWorld
         contacts?.Follow();
         notices?.Follow();
         crossings?.Follow();
+        losses?.Follow();
         options = watchdog is null ? options : options.WithRunningRuleCall(watchdog.Running);
         options = contacts is null ? options : options.WithObserver(contacts);
-        return crossings is null ? options : options.WithCrossingObserver(crossings);
+        options = crossings is null ? options : options.WithCrossingObserver(crossings);
+        return losses is null ? options : options.WithLossObserver(losses);
     }
 
     /// <summary>

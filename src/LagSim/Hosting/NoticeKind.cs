@@ -1,6 +1,6 @@
 namespace LagSim.Hosting;
 
-/// <summary>The kind of a notice: of a contact, of a crossing, or of what rules told.</summary>
+/// <summary>The kind of a notice: of a contact, of a crossing, of a lost body, or of what rules told.</summary>
 /// <remarks>
 /// Of each thing that is told the first notice is <see cref="Predicted"/> and the last <see cref="Confirmed"/> or <see cref="Retracted"/>,
 /// each once. Between them are any number of <see cref="Moved"/> and <see cref="InDoubt"/>. All of them carry the same <c>Id</c>.

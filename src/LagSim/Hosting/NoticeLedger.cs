@@ -7,8 +7,8 @@ using LagSim.Time;
 namespace LagSim.Hosting;
 
 /// <summary>
-/// Keeps account of what is predicted of a world, such as contacts, crossings and what rules tell: each is reported as predicted, as moved
-/// whenever a late event changes it, and then as confirmed when nothing can change it any more, or as retracted when nothing can bring it
+/// Keeps account of what is predicted of a world, such as contacts, crossings, lost bodies and what rules tell: each is reported as predicted, as
+/// moved whenever a late event changes it, and then as confirmed when nothing can change it any more, or as retracted when nothing can bring it
 /// back.
 /// </summary>
 /// <remarks>For the simulation's thread, apart from <see cref="TryRead"/> and <see cref="Lost"/>.</remarks>

@@ -46,13 +46,14 @@ public sealed class SimulationHost : IDisposable
     /// <param name="notices">Receives what the scene's rules tell in this world alone, likewise; null, the default, for none.</param>
     /// <param name="ruleTimeout">How long a call of the scene's rules may take before the world ends because of it, 100 ms to 600 s of real
     /// time; default 10 s. If the call goes on for half as long again, the thread is given up.</param>
+    /// <param name="losses">Receives which bodies of this world alone are lost; null, the default, for none. Confirmed as contacts are.</param>
     /// <exception cref="ArgumentOutOfRangeException">A value is out of its range.</exception>
     /// <exception cref="InvalidOperationException">The notices follow a world already.</exception>
     /// <exception cref="SimulationException">The world cannot be simulated from the start; <c>OnStart</c> of rules is called
     /// here.</exception>
     public SimulationHost(
         Scene scene, IClock clock, SimDuration? lookAhead = null, ContactNotices? contacts = null, CrossingNotices? crossings = null,
-        RuleNotices? notices = null, SimDuration? ruleTimeout = null)
+        RuleNotices? notices = null, SimDuration? ruleTimeout = null, LossNotices? losses = null)
     {
         this.clock = clock ?? throw new ArgumentNullException(nameof(clock));
         watchdog = new RuleWatchdog(ruleTimeout);
@@ -62,7 +63,8 @@ public sealed class SimulationHost : IDisposable
             watchdog.Start(); // before there is a world: its making calls OnStart
         }
 
-        world = new LiveWorld(scene!, options, lookAhead, contacts: contacts, crossings: crossings, notices: notices, watchdog: watchdog);
+        world = new LiveWorld(
+            scene!, options, lookAhead, contacts: contacts, crossings: crossings, notices: notices, watchdog: watchdog, losses: losses);
         thread = new WorldThread("LagSim world", Step, stop.Cancel);
     }
 
@@ -93,6 +95,9 @@ public sealed class SimulationHost : IDisposable
 
     /// <summary>Receives crossings of sensors; null for none. For the game's thread <see cref="CrossingNotices.TryRead"/>.</summary>
     public CrossingNotices? Crossings => world.Crossings;
+
+    /// <summary>Receives which bodies are lost; null for none. For the game's thread <see cref="LossNotices.TryRead"/>.</summary>
+    public LossNotices? Losses => world.Losses;
 
     /// <summary>How often the clock was beyond what was simulated when a step began.</summary>
     public long LateSteps => world.LateSteps;

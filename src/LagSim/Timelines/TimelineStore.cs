@@ -63,6 +63,9 @@ internal sealed class TimelineStore
     /// <summary>Notified of what rules may hear of; null, the default, where there are none.</summary>
     internal IRuleTriggers? Triggers { get; set; }
 
+    /// <summary>Notified of bodies that are lost; null, the default, for none.</summary>
+    internal ILossObserver? Losses { get; set; }
+
     /// <summary>Notified of segments that are opened; null for none.</summary>
     internal ISegmentOpenedObserver? Openings { get; set; }
 
@@ -147,6 +150,11 @@ internal sealed class TimelineStore
         Triggers?.OnOpened(body, key);
         int at = TakeRoom(key.Time);
         int before = ends[slot].Last;
+        if (Losses is not null && IsLossOf(body, key))
+        {
+            Losses.OnLost(key, segments[before].Segment);
+        }
+
         Extras.Set(at, before, segment, output, hold, spin, segments.Length);
         ref OpenedSegment opened = ref segments[at];
         opened.Segment = segment;
@@ -211,6 +219,10 @@ internal sealed class TimelineStore
         }
 
         Triggers?.OnCut(body, segments[at].Key);
+        if (Losses is not null && IsLossOf(body, segments[at].Key))
+        {
+            Losses.OnCut(segments[at].Key);
+        }
 
         ends[slot].Last = links[at].Previous;
         if (ends[slot].Last == None)
@@ -309,6 +321,9 @@ internal sealed class TimelineStore
             Drop(at);
         }
     }
+
+    /// <summary>Whether an event is the loss of that body, and not of one that it lay on.</summary>
+    private static bool IsLossOf(BodyId body, in EventKey key) => key.Kind == EventKind.Lost && key.Body == body;
 
     /// <summary>A place for one more segment.</summary>
     private int TakeRoom(SimTime now)

@@ -105,6 +105,21 @@ internal static class Examples
         }
     }
 
+    internal static void Replace(Scene scene)
+    {
+        LossNotices losses = new();
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Losses = losses });
+
+        // each frame
+        while (losses.TryRead(out LossNotice loss))
+        {
+            if (loss.Kind == NoticeKind.Confirmed)
+            {
+                _ = host.Do(PlayerAction.Spawn(new BodySpec(0.1, 1, 0.5), new Vector3D(0, 1, 0)));
+            }
+        }
+    }
+
     internal static void Smooth(PeerThread me, BodyId ball)
     {
         DisplayOffsets display = new(me.Session.Scene!);

@@ -77,6 +77,21 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         }
     }
 
+    internal void Losses()
+    {
+        LossNotices losses = new();
+        using SimulationHost host = new(scene, new StopwatchClock(), losses: losses); // in a session: new HostOptions { Losses = losses }
+
+        // each frame
+        while (losses.TryRead(out LossNotice loss))
+        {
+            if (loss.Kind == NoticeKind.Confirmed)
+            {
+                Console.WriteLine($"{scene.Describe(loss.Body)} is gone: {loss.Reason}, near {loss.Position}"); // the same on every machine
+            }
+        }
+    }
+
     internal void Share(ConcurrentQueue<string> refusals)
     {
         // where the world is

@@ -47,6 +47,7 @@ public sealed class SessionOptionsTests
         KeepAlive = SimDuration.FromSeconds(1),
         Contacts = new ContactNotices(),
         Crossings = new CrossingNotices(),
+        Losses = new LossNotices(),
         RuleNotices = new RuleNotices(),
         RuleTimeout = SimDuration.FromSeconds(7),
         Strategy = LateEventStrategy.Interpolation,

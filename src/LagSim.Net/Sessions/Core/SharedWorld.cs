@@ -102,7 +102,7 @@ internal sealed class SharedWorld
         live?.Retire();
         begunAt = start;
         LiveWorld made = new(Scene!, WorldOptions(start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings,
-            options.RuleNotices, Watchdog)
+            options.RuleNotices, Watchdog, options.Losses)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
@@ -117,7 +117,7 @@ internal sealed class SharedWorld
         live?.Retire();
         LiveWorld copied = new(
             Scene!, snapshot, WorldOptions(snapshot.Start), options.Window.LookAhead, options.RenderedPast + DisplayDelay, options.Contacts, options.Crossings,
-            options.RuleNotices, Watchdog)
+            options.RuleNotices, Watchdog, options.Losses)
         {
             Work = new WorkLedger(clock),
             WaitsForLateEvents = true,
