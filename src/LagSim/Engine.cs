@@ -121,7 +121,7 @@ internal sealed class Engine
         Isolated = parts.IsolatedImpact(
             scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
         ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
-            scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph);
+            scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph, partners);
         IslandImpactProblem problem = new(Step, work);
         IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments, closed);
         IslandImpact island = new(

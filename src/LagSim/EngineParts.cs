@@ -91,8 +91,9 @@ internal class EngineParts
 
     internal virtual ImpactGraphBuilder ImpactGraphBuilder(
         Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
-        FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
-        new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph);
+        FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
+        Partners partners) =>
+        new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners);
 
     internal virtual FreePlaces FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view) =>
         new(scene, bodies, timelines, view);

@@ -3,6 +3,7 @@ using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Islands;
 using LagSim.Rollback;
 using LagSim.Scenes;
 using LagSim.Timelines;
@@ -14,7 +15,7 @@ namespace LagSim.Response;
 /// </summary>
 internal class ImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
-    FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph)
+    FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph, Partners partners)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
@@ -35,6 +36,12 @@ internal class ImpactGraphBuilder(
         collapses = mayCollapse && rewinds.AreNone && collapse.Collapses(key);
         if (mayCollapse && rewinds.AreNone && !collapses)
         {
+            // That there is none depends on all of them: what changes one of them later may bring the collapse about.
+            foreach (int asked in graph.Slots)
+            {
+                partners.NearMisses.Add(asked);
+            }
+
             Follow(slot, key, withStruckBefore: false);
         }
 

@@ -17,6 +17,7 @@ internal sealed class ImpactHandler(
             return true;
         }
 
+        partners.NearMisses.Clear();
         if (!builder.TryBuild(slot, key, out double residual, out bool collapses))
         {
             return false;
@@ -24,7 +25,6 @@ internal sealed class ImpactHandler(
 
         crowd.LeaveOut();
         resolver.SetTargets(collapses, key);
-        partners.NearMisses.Clear();
         closed.IsOpen = collapses && CollapseRule.IsLong(key);
         EventKey canonical = graph.CanonicalKey(key);
         ImpactOutcome outcome = graph.HasHand() ? island.Handle(canonical, residual, presses: true) : ImpactOutcome.GivesWay;

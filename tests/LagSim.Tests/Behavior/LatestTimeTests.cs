@@ -2,6 +2,7 @@ using System;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 
 namespace LagSim.Tests.Behavior;
@@ -49,9 +50,9 @@ public sealed class LatestTimeTests
         WorldSnapshot snapshot = world.Snapshot(Latest - SimDuration.FromSeconds(1));
         Simulation continued = new(World(), snapshot, new SimulationOptions());
         continued.AdvanceTo(Latest);
-        Assert.Equal(StateHash.Of(world, Latest), StateHash.Of(continued, Latest));
+        Assert.Equal(world.StateHash(Latest), continued.StateHash(Latest));
         WorldSnapshot beyond = new(Start, Latest + SimDuration.OneTick, 0, snapshot.BodyArray);
-        Assert.Contains("until 7340032s", Assert.Throws<SceneException>(() => new Simulation(World(), beyond, new SimulationOptions())).Message);
+        Assert.Contains("until 7340032s", Assert.Throws<SceneException>(() => _ = new Simulation(World(), beyond, new SimulationOptions())).Message);
     }
 
     private static Scene World(bool inFlight = false)

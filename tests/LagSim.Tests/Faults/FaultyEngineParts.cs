@@ -141,7 +141,8 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override ImpactGraphBuilder ImpactGraphBuilder(
         Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
-        FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph) =>
+        FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
+        Partners partners) =>
         new FaultyImpactGraphBuilder(
-            scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, this);
+            scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners, this);
 }

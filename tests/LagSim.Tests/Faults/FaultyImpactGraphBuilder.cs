@@ -2,6 +2,7 @@ using LagSim.BroadPhase;
 using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Islands;
 using LagSim.Response;
 using LagSim.Rollback;
 using LagSim.Scenes;
@@ -13,8 +14,8 @@ namespace LagSim.Tests.Faults;
 internal sealed class FaultyImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
     FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
-    FaultyEngineParts faults)
-    : ImpactGraphBuilder(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph)
+    Partners partners, FaultyEngineParts faults)
+    : ImpactGraphBuilder(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners)
 {
     private readonly ContactGraph graph = graph;
 

@@ -14,6 +14,9 @@ namespace LagSim.Harness.Verification.Harm;
 /// <param name="Velocity">The velocity, in m/s.</param>
 internal sealed record HarmAction(double AtSeconds, EventKind Kind, int Spawn, int Body, Vector3D Place, Vector3D Velocity = default)
 {
+    /// <summary>For a spawn that copies no body of the scene, what it is.</summary>
+    internal BodySpec? Spec { get; init; }
+
     /// <summary>Converts it to a player's action.</summary>
     /// <param name="scene">The scene.</param>
     /// <param name="spawned">The bodies that the player has spawned so far.</param>
@@ -22,7 +25,7 @@ internal sealed record HarmAction(double AtSeconds, EventKind Kind, int Spawn, i
         BodyId body = Spawn >= 0 && Kind != EventKind.Spawn ? spawned(Spawn) : BodyId.OfScene(Body);
         return Kind switch
         {
-            EventKind.Spawn => PlayerAction.Spawn(scene.Bodies[Body].Spec, Place, Velocity),
+            EventKind.Spawn => PlayerAction.Spawn(Spec ?? scene.Bodies[Body].Spec, Place, Velocity),
             EventKind.SetVelocity => PlayerAction.SetVelocity(body, Velocity),
             EventKind.Teleport => PlayerAction.Teleport(body, Place, Velocity),
             EventKind.Grab => PlayerAction.Grab(body, default),

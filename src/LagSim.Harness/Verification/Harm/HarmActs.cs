@@ -58,15 +58,16 @@ internal static class HarmActs
         return scene;
     }
 
-    /// <summary>Elastic balls that just fit between floor and ceiling, thrown up.</summary>
+    /// <summary>Elastic balls that just fit between floor and ceiling, thrown up, where the scene's own ball has room.</summary>
     internal static Scene DrawFit(SeededRandom random, List<HarmAction> actions)
     {
         double radius = 0.5, slack = WorldDraws.LogUniform(random, 1e-9, 1e-4);
-        Scene scene = Box(random, (2 * radius) + slack, 1, radius);
+        Scene scene = Box(random, (2 * radius) + slack, 1, 0.1);
+        BodySpec fitting = new(radius, random.Pick(0.1, 1, 10), 1);
         int count = 1 + random.NextInt(6);
         for (int n = 0; n < count; n++)
         {
-            actions.Add(new HarmAction(0.1, EventKind.Spawn, -1, 0, new Vector3D((1.1 * n) - 2.5, radius + (slack / 2), 1.5)));
+            actions.Add(new HarmAction(0.1, EventKind.Spawn, -1, 0, new Vector3D((1.1 * n) - 2.5, radius + (slack / 2), 1.5)) { Spec = fitting });
             actions.Add(new HarmAction(0.2, EventKind.SetVelocity, n, 0, default, new Vector3D(0, WorldDraws.LogUniform(random, 1e-3, MaxSpeed), 0)));
         }
 

@@ -74,7 +74,7 @@ public sealed class HarmProcessRun : IDisposable
 
         relay = new UdpRelay(
             new IPEndPoint(IPAddress.Loopback, 0), IPEndPoint.Parse(address), LinkProfiles.PureDelay(drawn.LinkMilliseconds), drawn.Seed, new StopwatchClock());
-        HarmAction[] actions = [.. drawn.Actions.Where(action => action.Kind != EventKind.SetFilter)]; // which the tool has no word for
+        HarmAction[] actions = [.. drawn.Actions.Where(action => action.Kind != EventKind.SetFilter && action.Spec is null)]; // what the tool has words for
         uint[] sequences =
         [
             .. actions.Select((action, n) => (action, n)).Where(d => d.action.Kind == EventKind.Spawn).Select(d => (uint)d.n + 1),
