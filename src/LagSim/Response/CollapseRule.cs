@@ -54,7 +54,9 @@ internal class CollapseRule(
     /// impacts may follow. Where a member of an island takes part they always may: the bodies that hold it give way to no push, however
     /// light they are themselves.
     /// </summary>
-    internal virtual bool Collapses(in EventKey key)
+    /// <param name="key">The impact.</param>
+    /// <param name="askedAll">Whether that depends on all of the graph, and not only on what is struck now.</param>
+    internal virtual bool Collapses(in EventKey key, out bool askedAll)
     {
         SimTime time = key.Time;
         bool isLong = IsLong(key);
@@ -66,6 +68,7 @@ internal class CollapseRule(
             hasMember |= graph.HasMember(graph.Contacts[i]);
         }
 
+        askedAll = isStruckAgain;
         if (!isStruckAgain || hasMember || isLong)
         {
             return isStruckAgain;

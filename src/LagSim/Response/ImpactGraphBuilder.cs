@@ -33,11 +33,12 @@ internal class ImpactGraphBuilder(
         residual = double.MaxValue;
         bool mayCollapse = (collapse.HasLosses && CollapseRule.MayBeStruckAgain(key)) || CollapseRule.IsLong(key);
         Follow(slot, key, mayCollapse);
-        collapses = mayCollapse && rewinds.AreNone && collapse.Collapses(key);
+        bool askedAll = false;
+        collapses = mayCollapse && rewinds.AreNone && collapse.Collapses(key, out askedAll);
         if (mayCollapse && rewinds.AreNone && !collapses)
         {
             // That there is none depends on all of them: what changes one of them later may bring the collapse about.
-            foreach (int asked in graph.Slots)
+            foreach (int asked in askedAll ? graph.Slots : default)
             {
                 partners.NearMisses.Add(asked);
             }

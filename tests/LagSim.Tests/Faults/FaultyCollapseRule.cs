@@ -12,7 +12,7 @@ internal sealed class FaultyCollapseRule(
     Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, StrikeCounts strikes, FaultyEngineParts faults)
     : CollapseRule(scene, bodies, timelines, graph, strikes)
 {
-    internal override bool Collapses(in EventKey key) => !faults.NeverCollapses && base.Collapses(key);
+    internal override bool Collapses(in EventKey key, out bool askedAll) => base.Collapses(key, out askedAll) && !faults.NeverCollapses;
 
     private protected override bool TakesIn(int strikeCount) =>
         faults.Has(HealingFault.CollapsesWithWhoTouches) || base.TakesIn(strikeCount);
