@@ -255,11 +255,12 @@ internal class RuleCaller
         }
     }
 
-    /// <summary>Whether a failed call counts as none: a command, if the rules say so, and if what failed are they and not the
-    /// machine.</summary>
+    /// <summary>Whether a failed call counts as none: a command, if the rules say so, and if what failed are they and not the machine or a
+    /// call that was given up. Nothing else that a call asks of the world ends the world by itself, so any other exception is the rules'
+    /// own.</summary>
     private bool MaySkip(RuleCall call, Exception failure) =>
-        call.Key.Kind == EventKind.Command && rules.SkipsFailedCommands
-        && failure is not (SimulationException or OutOfMemoryException or InsufficientExecutionStackException);
+        call.Key.Kind == EventKind.Command && rules.SkipsFailedCommands && running?.IsGivenUp != true
+        && failure is not (OutOfMemoryException or InsufficientExecutionStackException);
 
     /// <summary>What a call did is forgotten but for what it read, since that may change and with it whether it fails.</summary>
     private protected virtual void Skip(RuleCall call, Exception failure)

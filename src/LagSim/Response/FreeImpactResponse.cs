@@ -82,7 +82,7 @@ internal sealed class FreeImpactResponse(
 
     /// <summary>
     /// A body that an impact would make faster than <see cref="Limits.MaxReboundSpeed"/> leaves it at that speed, in the same direction: a
-    /// rule of the world, the same bits on every peer. A velocity that is not finite stays as it is, and ends the simulation.
+    /// rule of the world, the same bits on every peer. A velocity that is not finite becomes no finite one, and its body is lost (<see cref="LossReason.NotFinite"/>).
     /// </summary>
     internal void LimitSpeeds()
     {

@@ -86,8 +86,10 @@ public abstract class GameRules : SceneRules
     /// <para>So no bytes that a player sends end the world for all. It is part of the scene's hash: a peer whose rules say otherwise is
     /// refused. Every peer is told by <see cref="Hosting.RuleNotices"/> (<see cref="RuleNotice.CommandFailed"/>), the sender too, and the
     /// first of a world is written to <see cref="System.Diagnostics.Trace"/>.</para>
-    /// <para>A call that is given up because it does not return, or for which the machine has no memory or stack left, ends the world all
-    /// the same: other peers may fare better.</para>
+    /// <para>Whatever the rules throw counts, also an exception of LagSim's own types, but for two:
+    /// <see cref="System.OutOfMemoryException"/> and <see cref="System.InsufficientExecutionStackException"/>. They say that this machine has
+    /// no memory or stack left, and end the world all the same, as does a call that is given up because it does not return: other peers may
+    /// fare better.</para>
     /// </remarks>
     protected void WithFailedCommandsSkipped() => SkipsFailedCommands = true;
 

@@ -342,7 +342,7 @@ internal class RuleLog : IRuleTriggers
     private static EventKey KeyFor(SimTime time, uint round, int number) =>
         new(time, round, EventKind.Timer, default, default, 0, unchecked((uint)number));
 
-    private EventKey KeyOf(in RuleTimer timer) => KeyFor(start + SimDuration.FromTicks(timer.At), timer.Round, timer.Number);
+    private EventKey KeyOf(in RuleTimer timer) => KeyFor(timer.Time(start), timer.Round, timer.Number);
 
     private ulong HashOf(RuleCall call)
     {

@@ -31,7 +31,8 @@ public sealed class RuleWorld
     /// <summary>How often a call may read a body or a region: 4,096.</summary>
     public const int MaxReads = 4096;
 
-    /// <summary>How far ahead a timer may be set: 2^20 s, 12 days.</summary>
+    /// <summary>How far ahead a timer may be set: 2^20 s, 12 days. One that is due only after the latest instant of a world, 84 days after
+    /// the origin, is never due.</summary>
     public static readonly SimDuration MaxDelay = SimDuration.FromSeconds(1 << 20);
 
     private readonly GameRules rules;
@@ -236,7 +237,8 @@ public sealed class RuleWorld
     /// <summary>Sets a timer, in place of any of that number: <see cref="GameRules.OnTimer"/> is called then.</summary>
     /// <param name="timer">Its number, at least zero; the game's own meaning.</param>
     /// <param name="after">How long from now, at least zero: with zero it is due in the next round of this tick, or in the next tick if
-    /// <see cref="IsChainOver"/>.</param>
+    /// <see cref="IsChainOver"/>. A timer that would be due only after the latest instant of a world, 84 days after the origin, is set, and
+    /// never due.</param>
     /// <exception cref="RuleException">A value is out of its range, or too many timers are set.</exception>
     public void SetTimer(int timer, SimDuration after)
     {
@@ -254,7 +256,7 @@ public sealed class RuleWorld
         }
 
         after = after == SimDuration.Zero && !deeds.MayCause() ? SimDuration.OneTick : after;
-        memory.Set(new RuleTimer((Elapsed + after).Ticks, after == SimDuration.Zero ? key.Round + 1 : 0, timer));
+        memory.Set(new RuleTimer(RuleTimer.DueAfter(Elapsed, after), after == SimDuration.Zero ? key.Round + 1 : 0, timer));
     }
 
     /// <summary>Cancels a timer; false if none of that number is set.</summary>

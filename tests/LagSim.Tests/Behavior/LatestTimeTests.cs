@@ -1,6 +1,8 @@
 using System;
 using LagSim.Events;
+using LagSim.Rules;
 using LagSim.Scenes;
+using LagSim.Tests.Rules;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
@@ -53,6 +55,37 @@ public sealed class LatestTimeTests
         Assert.Equal(world.StateHash(Latest), continued.StateHash(Latest));
         WorldSnapshot beyond = new(Start, Latest + SimDuration.OneTick, 0, snapshot.BodyArray);
         Assert.Contains("until 7340032s", Assert.Throws<SceneException>(() => _ = new Simulation(World(), beyond, new SimulationOptions())).Message);
+    }
+
+    /// <summary>A timer that is due at the latest instant is called there; one that would be due after it is set, and never due. So rules that
+    /// set the same one again and again end no world, wherever it begins.</summary>
+    /// <param name="start">When the world begins, in units of 2^20 s.</param>
+    /// <param name="calls">How often the timer is due.</param>
+    [Theory]
+    [InlineData(0, 7)]
+    [InlineData(6, 1)]
+    [InlineData(-1, 7)]
+    public void Timer_ThatIsDueAfterTheLatest_NeverComesAndEndsNothing(int start, int calls)
+    {
+        GivenRules rules = new()
+        {
+            Start = w => w.SetTimer(1, RuleWorld.MaxDelay),
+            Timer = (w, timer) =>
+            {
+                w.State<GivenState>().Count++;
+                w.SetTimer(timer, RuleWorld.MaxDelay);
+            },
+        };
+        SimTime until = start < 0 ? Latest - SimDuration.OneTick : Latest; // as long as a duration can be
+        Scene scene = new SceneBuilder("timers").WithGravity(default).AddBody("a", new BodySpec(0.2, 1, 0.5), default).WithRules(rules).Build();
+        Simulation world = new(scene, new SimulationOptions(SimTime.FromTicks((long)start << 60)));
+        world.AdvanceTo(until);
+        Assert.True(world.TryReadRules(until, out GivenState state));
+        Assert.Equal(calls, state.Count);
+        Assert.Equal(1, StateLayout.Timers(world.Engine.Rules!.Current.Bytes));
+        Simulation continued = new(scene, world.Snapshot(until), new SimulationOptions());
+        continued.AdvanceTo(until);
+        Assert.Equal(world.StateHash(until), continued.StateHash(until));
     }
 
     private static Scene World(bool inFlight = false)

@@ -99,6 +99,21 @@ public sealed class OverlapTests
         Assert.All(Bodies(world), body => Assert.InRange(Read(world, body, 3).Position.Y, -Radius, gravity > 0 ? 4 * Radius : 6 * Radius));
     }
 
+    /// <summary>In a periodic box nothing pushes (docs/LIMITS.md): what rests in another stays there, what moves out of it parts, and what is
+    /// put beside it was never in it.</summary>
+    [Theory]
+    [InlineData(WhenOccupied.Overlap, 0, true)]
+    [InlineData(WhenOccupied.Overlap, 0.1, false)]
+    [InlineData(WhenOccupied.Beside, 0, false)]
+    public void BodyPutIntoAnother_InAPeriodicBox_IsNotPushedOut(WhenOccupied when, double speed, bool stays)
+    {
+        Scene scene = new SceneBuilder("box").WithGravity(V(0)).WithPeriodicBox(V(20, 20, 20)).AddBody("a", new BodySpec(Radius, 1, 0.5), V(5, 5, 5)).Build();
+        Simulation world = new(scene, KeepAll);
+        world.Submit(PlayerAction.Spawn(new BodySpec(Radius, 1, 0.5), V(6 - Depth, 5, 5), V(speed), whenOccupied: when).Stamp(At(0), 0, 1));
+        world.AdvanceTo(At(50));
+        Assert.Equal(stays ? Depth : 0, Math.Max(0, DepthAt(world, 50)), 9);
+    }
+
     private static Simulation WithOverlap(double gravity, double tolerance, bool sleeps = false, bool isSlow = false)
     {
         SceneBuilder builder = new SceneBuilder("overlap").WithGravity(V(0, -gravity)).WithContactTolerance(tolerance);

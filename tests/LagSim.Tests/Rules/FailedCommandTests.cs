@@ -100,9 +100,36 @@ public sealed class FailedCommandTests
     [Theory]
     [InlineData(typeof(OutOfMemoryException))]
     [InlineData(typeof(InsufficientExecutionStackException))]
-    [InlineData(typeof(SimulationException))]
     public void FailedCommand_OfTheMachine_EndsTheWorld(Type failure) =>
         Assert.Throws<SimulationException>(() => Run(Scene(new Skips(failure: () => (Exception)Activator.CreateInstance(failure)!)), 1, [Bad]));
+
+    /// <summary>Anybody can throw what the world throws: who throws it in a command ends the world no more than with any other.</summary>
+    [Theory]
+    [InlineData(typeof(SimulationException))]
+    [InlineData(typeof(TimelinesFullException))]
+    [InlineData(typeof(RuleException))]
+    [InlineData(typeof(OperationCanceledException))]
+    public void FailedCommand_WithAnExceptionOfTheWorldsOwnKind_IsSkipped(Type failure)
+    {
+        Simulation world = Run(Scene(new Skips(failure: () => (Exception)Activator.CreateInstance(failure)!)), 1, [Good, Bad]);
+        Assert.Equal(Run(Scene(new Skips()), 1, [Good, Bad]).StateHash(At(1)), world.StateHash(At(1)));
+        Assert.Equal([1, RuleNotice.CommandFailed], RuleEvents.Of(world).Select(one => one.Notice.Code));
+    }
+
+    /// <summary>Whatever a command throws once it is given up, the world is over.</summary>
+    [Fact]
+    public void FailedCommand_ThatIsGivenUp_EndsTheWorld()
+    {
+        RunningRuleCall running = new(SimDuration.FromSeconds(1));
+        Simulation world = new(Scene(new Skips(failure: () =>
+        {
+            Assert.True(running.TryGiveUp(running.Number));
+            return new InvalidOperationException("No such command.");
+        })), KeepAll.WithRunningRuleCall(running));
+        world.Submit(Bad);
+        Assert.EndsWith("and was given up.", Assert.Throws<SimulationException>(() => world.AdvanceTo(At(1))).Message, StringComparison.Ordinal);
+        Assert.Empty(RuleEvents.Of(world));
+    }
 
     [Theory]
     [InlineData(RuleNotice.CommandFailed)]
