@@ -50,15 +50,10 @@ internal sealed class CollisionPredictor(
 
         SimTime opened = timelines.Key(last).Time;
         SimTime from = opened;
-        if (segment.Epoch < opened)
+        if (segment.Epoch < opened && TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact) && contact.Tick > opened)
         {
-            // A path taken over from a snapshot, or from an event that came late: solved from its beginning, the root has the bits that it
-            // has on other peers, and where they have none there is none.
-            bool touches = TouchSurface(slot, last, surface, isPlane, segment.Epoch, out contact);
-            if (!touches || contact.Tick > opened)
-            {
-                return touches;
-            }
+            // A path taken over from an event that came late: solved from its beginning, the root has the bits that it has on other peers.
+            return true;
         }
 
         while (TouchSurface(slot, last, surface, isPlane, from, out contact))

@@ -1,7 +1,9 @@
 using System;
+using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
+using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -127,4 +129,34 @@ public sealed class OverlapTests
 
     private static double DepthAt(Simulation world, double time) =>
         (2 * Radius) - (Read(world, world.BodyAt(0), time).Position - Read(world, world.BodyAt(1), time).Position).Length;
+
+    /// <summary>Eight at one place part with no more energy than each would have that is pushed out of another.</summary>
+    [Fact]
+    public void Bodies_AtOnePlace_PartAsFastInTheMeanAsTwoWould()
+    {
+        const int Count = 8;
+        double each = 0.5 * 2 * 1; // m v² / 2 with v² = 2 a s: the pull of 1 m/s² over the metre that they are deep
+        Assert.InRange(MostEnergy(Count, null), each, Count * each * 1.1);
+        Assert.InRange(MostEnergy(Count, new FaultyEngineParts { Rules = new FaultySolverRules { GainsEnergy = true } }), Count * each * 2, double.MaxValue); // the control
+    }
+
+    private static double MostEnergy(int count, FaultyEngineParts? parts)
+    {
+        Scene scene = new SceneBuilder("void").WithGravity(Vector3D.Zero).AddBody("far", new BodySpec(0.5, 1, 0), V(50)).Build();
+        SimulationOptions options = new(history: SimDuration.MaxValue);
+        Simulation world = new(scene, parts is null ? options : options.WithParts(parts));
+        for (uint n = 1; n <= count; n++)
+        {
+            world.Submit(PlayerAction.Spawn(new BodySpec(0.5, 1, 0), V(0)).Stamp(At(1), 1, n));
+        }
+
+        double most = 0;
+        for (double time = 1; time < 3; time += 0.02)
+        {
+            world.AdvanceTo(At(time));
+            most = Math.Max(most, Bodies(world).Where(body => world.TryRead(body, At(time), out _)).Sum(body => 0.5 * Read(world, body, time).Velocity.LengthSquared));
+        }
+
+        return most;
+    }
 }

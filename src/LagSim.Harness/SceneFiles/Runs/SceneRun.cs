@@ -173,7 +173,7 @@ public sealed class SceneRun
     {
         MotionLaw before = lastLaw[body.Index];
         MotionLaw law = lastLaw[body.Index] = entry.State.Motion;
-        if (entry.Key.Kind is not (EventKind.Start or EventKind.StepEnd))
+        if (entry.Key.Kind is not (EventKind.Start or EventKind.StepEnd) && !WasOnlyAsked(simulation, body, entry, last))
         {
             bool isOfSurface = entry.Key.Kind == EventKind.Impact && entry.Key.Body == entry.Key.Other;
             string surface = isOfSurface
@@ -186,6 +186,19 @@ public sealed class SceneRun
         {
             pending.Add(new BodyEvent(entry.Key, law == MotionLaw.Resting ? "rest" : "wake", body, "", entry.State));
         }
+    }
+
+    /// <summary>Whether an impact of others was tested against a body, and has left it as it was.</summary>
+    private static bool WasOnlyAsked(Simulation simulation, BodyId body, in TimelineEntry entry, in TimelineEntry? last)
+    {
+        if (entry.Key.Kind != EventKind.Impact || entry.Key.Body == body || entry.Key.Other == body)
+        {
+            return false;
+        }
+
+        BodyState before = Before(simulation, body, entry, last), after = entry.State;
+        return before.Motion == after.Motion && before.Spin == after.Spin
+            && (after.Velocity - before.Velocity).Length <= 1e-9 * (before.Velocity.Length + simulation.Scene.Gravity.Length);
     }
 
     /// <summary>Returns the body right before an event: after the event before it, if that is of the same tick, else a tick ago.</summary>

@@ -39,7 +39,7 @@ internal sealed class ContactEntryCase : IHardCase
             int read = 0;
             for (int n = 0; read < worlds && n < MostDrawn * worlds; n++)
             {
-                Random random = new(unchecked((int)context.Seed * 1_000_003) + (n * 8) + (int)kind);
+                Random random = new(unchecked(((int)context.Seed * 1_000_003) + (((n * 8) + (int)kind) * 1_299_709)));
                 if (Gain(context, new Drawn(random, kind)) is double gain)
                 {
                     worst = Worst([worst, gain]);
