@@ -38,7 +38,7 @@ internal sealed class Overlaps
 
     internal void Look(WorldMoment moment)
     {
-        HasSteps |= moment.Simulation.Engine.Stepper.StepsTaken > 0;
+        HasSteps |= moment.Simulation.Engine.Stepper.StepsTaken > 0 || moment.Bodies.Any(b => b.State.Motion == MotionLaw.Constrained);
         HashSet<BodyId> moved = [.. moment.Acts.Where(a => a.Kind is not (EventKind.SetVelocity or EventKind.Impulse)).Select(a => a.Body)];
         foreach (WorldDepth depth in moment.Depths)
         {
