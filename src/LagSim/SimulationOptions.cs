@@ -1,6 +1,7 @@
 using System;
 using System.Threading;
 using LagSim.Rules;
+using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 
@@ -48,7 +49,7 @@ public sealed class SimulationOptions
             throw new ArgumentOutOfRangeException(nameof(history), given.ToShortString(), "The history must be longer than zero.");
         }
 
-        if (start.Ticks is < -(3L << 61) or > 3L << 61)
+        if (!Limits.IsStart(start))
         {
             throw new ArgumentOutOfRangeException(nameof(start), start.ToShortString(), "The start must lie within 72 days (3 x 2^21 s) of the origin.");
         }

@@ -14,12 +14,9 @@ namespace LagSim;
 /// </remarks>
 internal static class SnapshotCheck
 {
-    /// <summary>Furthest from the origin that a world may begin.</summary>
-    private const long MaxStart = 3L << 61;
-
     internal static void Throw(WorldSnapshot snapshot, Scene scene)
     {
-        if (snapshot.Start.Ticks is < -MaxStart or > MaxStart || snapshot.Time > Limits.LatestTime || snapshot.Time <= snapshot.Start)
+        if (!Limits.IsStart(snapshot.Start) || snapshot.Time > Limits.LatestTime || snapshot.Time <= snapshot.Start)
         {
             throw new SceneException(
                 $"The snapshot is of {snapshot.Time.ToShortString()} in a world that began at {snapshot.Start.ToShortString()}; a world begins within 72 days"

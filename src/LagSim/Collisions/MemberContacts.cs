@@ -110,10 +110,8 @@ internal sealed class MemberContacts(
 
     /// <summary>
     /// Whether two members do not carry each other only because each has as many contacts that are deeper: of a crowd, steps and impacts
-    /// take the
-    /// deepest of each body (<see cref="DeepestContacts"/>). What changes within a step waits for its end; then two whom different steps
-    /// have
-    /// moved are struck, and so come into one.
+    /// take the deepest of each body (<see cref="DeepestContacts"/>). What changes within a step waits for its end; then two whom different
+    /// steps have moved are struck, and so come into one.
     /// </summary>
     private bool AreCrowded(int slot, int piece, int other, int otherPiece)
     {

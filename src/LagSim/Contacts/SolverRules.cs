@@ -19,8 +19,8 @@ internal class SolverRules
     /// <summary>Whether what two give each other acts on both, also where one of them leaves.</summary>
     internal virtual bool KeepsMomentum => true;
 
-    /// <summary>Whether forces act on what is cut short in its step until then by the velocity that it had, and from then on by the one that it gets.</summary>
-    internal virtual bool CutsForces => true;
+    /// <summary>Whether a step that is cut short before its middle takes back what forces gave for the time after the cut.</summary>
+    internal virtual bool TakesBackForces => true;
 
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
     internal virtual bool RefinesNormals => true;

@@ -45,7 +45,7 @@ internal sealed class IslandStepper(
         canonical = StepKey();
         graph.Evaluate(canonical.Time, 0);
         SimTime time = canonical.Time;
-        UndoWhatDidNotAct(time);
+        TakeBackForces(time);
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && sleep.MayFallAsleep(canonical.Time) && statics.Holds(canonical.Time, length.ToSeconds()))
@@ -137,7 +137,7 @@ internal sealed class IslandStepper(
     /// Takes back what forces gave members whose step is cut short before its middle: a velocity is that of the middle. Forces that follow
     /// from it would else act backwards on the velocities that this step gives, and a drag drive what it should brake.
     /// </summary>
-    private void UndoWhatDidNotAct(SimTime tick)
+    private void TakeBackForces(SimTime tick)
     {
         for (int i = 0; i < graph.BodyCount; i++)
         {

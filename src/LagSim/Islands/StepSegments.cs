@@ -71,7 +71,7 @@ internal sealed class StepSegments(
     /// </summary>
     internal SimTime ForcesActedUntil(int piece, SimTime tick) =>
         timelines.Segment(piece).Law == MotionLaw.Resting ? tick
-            : step.Rules.CutsForces ? SimTime.Min(timelines.Carried.CentreOf(piece), tick)
+            : step.Rules.TakesBackForces ? SimTime.Min(timelines.Carried.CentreOf(piece), tick)
             : timelines.Carried.CentreOf(piece);
 
     private void OpenMember(int body, in EventKey key, SimTime end, SimTime centre, SimTime still)

@@ -20,6 +20,9 @@ internal static class Limits
     /// </summary>
     internal static readonly SimTime LatestTime = SimTime.FromTicks(7L << 60);
 
+    /// <summary>How far from the origin, before or after, a world may begin: 3 x 2^21 s, which is 72 days, so that one lasts 12 days at least.</summary>
+    internal static readonly SimDuration FurthestStart = SimDuration.FromTicks(3L << 61);
+
     /// <summary>
     /// The fastest that forces may change a deviation, in 1/s: what is stiffer is not moved by steps of which there are millions a second.
     /// </summary>
@@ -38,6 +41,9 @@ internal static class Limits
 
     internal static readonly SimDuration MinStep = SimDuration.FromSeconds(1e-6);
     internal static readonly SimDuration MaxStep = SimDuration.FromSeconds(1);
+
+    /// <summary>Whether a world may begin at an instant.</summary>
+    internal static bool IsStart(SimTime start) => start.Ticks >= -FurthestStart.Ticks && start.Ticks <= FurthestStart.Ticks;
 
     internal static void CheckSpec<T>(in BodySpec spec, T whose, in Vector3D gravity, Force[] forces)
     {

@@ -34,7 +34,7 @@ internal sealed class FaultySolverRules : SolverRules
 
     internal override bool KeepsMomentum => !LosesMomentum;
 
-    internal override bool CutsForces => !ActsBackwards;
+    internal override bool TakesBackForces => !ActsBackwards;
 
     internal override bool RefinesNormals => !SweepsAlone;
 

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Concurrent;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
@@ -22,8 +21,6 @@ public static class InvariantCheck
     /// <summary>The most failing sessions that are shrunk; the others are only named.</summary>
     public const int MaxShrunk = 3;
 
-    private static readonly TimeSpan ProgressEvery = TimeSpan.FromMilliseconds(100);
-
     /// <summary>Plays all sessions, several at a time.</summary>
     /// <param name="options">The options.</param>
     /// <param name="progress">Called from time to time on the caller's thread with the number of finished sessions; may be null.</param>
@@ -35,26 +32,8 @@ public static class InvariantCheck
         ArgumentNullException.ThrowIfNull(options);
         ThrowIfInvalid(options);
         Stopwatch watch = Stopwatch.StartNew();
-        CheckOutcome?[] outcomes = new CheckOutcome?[options.Sessions];
-        ConcurrentBag<ulong> stopped = [];
-        int next = -1, done = 0;
-        Exception? fault = null;
-        Thread[] workers = [.. Enumerable.Range(0, Math.Min(options.Workers, options.Sessions)).Select(n => new Thread(Work) { IsBackground = true, Name = $"LagSim check {n}" })];
-        Array.ForEach(workers, worker => worker.Start());
-        foreach (Thread worker in workers)
-        {
-            while (!worker.Join(ProgressEvery))
-            {
-                Report();
-            }
-        }
-
-        if (fault is not null)
-        {
-            throw fault;
-        }
-
-        CheckOutcome[] played = [.. outcomes.OfType<CheckOutcome>()];
+        (IReadOnlyList<CheckOutcome> played, IReadOnlyList<int> stopped) = ParallelPlay.Run(
+            options.Sessions, options.Workers, "LagSim check", n => CheckSession.Play(SeedOf(n), options, cancellation), progress, cancellation);
         double seconds = watch.Elapsed.TotalSeconds;
         List<CheckFailure> failures = [];
         foreach (CheckOutcome failed in played.Where(o => o.Failure is not null))
@@ -64,42 +43,9 @@ public static class InvariantCheck
             failures.Add(new CheckFailure(failed, least, isShrunk, Command(least, options, isShrunk)));
         }
 
-        return new CheckReport(played, failures, options.Sessions, seconds) { StoppedSeeds = [.. stopped.Order()] };
+        return new CheckReport(played, failures, options.Sessions, seconds) { StoppedSeeds = [.. stopped.Select(SeedOf)] };
 
-        void Work()
-        {
-            ulong seed = options.Seed;
-            try
-            {
-                for (int n = Interlocked.Increment(ref next); n < options.Sessions && !cancellation.IsCancellationRequested; n = Interlocked.Increment(ref next))
-                {
-                    seed = unchecked(options.Seed + (ulong)n);
-                    outcomes[n] = CheckSession.Play(seed, options, cancellation);
-                    Interlocked.Increment(ref done);
-                }
-            }
-            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
-            {
-                stopped.Add(seed); // unfinished; the finished sessions are reported
-            }
-            catch (Exception failure)
-            {
-                Interlocked.CompareExchange(ref fault, failure, null);
-                Interlocked.Exchange(ref next, options.Sessions); // the other workers have no more to do
-            }
-        }
-
-        void Report()
-        {
-            try
-            {
-                progress?.Invoke(Volatile.Read(ref done));
-            }
-            catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
-            {
-                // The workers end by themselves; their finished sessions are reported.
-            }
-        }
+        ulong SeedOf(int n) => unchecked(options.Seed + (ulong)n);
     }
 
     /// <summary>Returns the command that plays one session, or the parts of it in the options.</summary>

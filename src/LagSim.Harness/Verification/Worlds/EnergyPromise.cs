@@ -15,7 +15,7 @@ namespace LagSim.Harness.Verification.Worlds;
 /// <para>The bound is a millionth, for integrators; and where bodies are in contact steps, of which velocities read are those of their
 /// middles, the error of that: with the capture speed c = sqrt(2 a d) it is m (v c + 4 c²) of each body (docs/CONTACT.md, rule 1).</para>
 /// <para>Not judged while a hand holds something, while bodies are in one another because players put them there, and where rules act.
-/// Energy is taken anew after that, and when a body has left the world: what it had, above or below zero, goes with it.</para>
+/// The sum begins anew after that, and when a body has left the world with what it had.</para>
 /// </remarks>
 internal sealed class EnergyPromise : WorldPromise
 {
