@@ -47,9 +47,15 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         Assert.True(await phones[0].Page.EvaluateAsync<bool>("() => document.documentElement.scrollWidth <= innerWidth"), "the page is wider than the phone");
 
         (double x, double y) before = await MalletAsync(phones[0].Page, 0, 0);
-        await DragAsync(phones[0].Page);
-        (double x, double y) after = await MalletAsync(phones[0].Page, 0, 0);
+        (double x, double y) after = before;
+        await DragAsync(phones[0].Page, async () =>
+        {
+            after = await MalletAsync(phones[0].Page, 0, 0);
+            return Math.Abs(after.x - before.x) + Math.Abs(after.y - before.y) > 0.1;
+        });
         Assert.True(Math.Abs(after.x - before.x) + Math.Abs(after.y - before.y) > 0.1, $"The mallet was at {before}, and is at {after}.");
+        await phones[0].Page.WaitForTimeoutAsync(300);
+        after = await MalletAsync(phones[0].Page, 0, 0);
         await phones[1].Page.WaitForFunctionAsync(
             "([x, y]) => { const f = lagsim.peers[0].frame; return Math.hypot(f[16] - x, f[17] - y) < 0.01 }", new[] { after.x, after.y }, new() { Timeout = 10_000 });
 
@@ -243,22 +249,25 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         return (at[0], at[1]);
     }
 
-    /// <summary>A finger goes over the table, to the side of the first player, and stays there. It is down for longer than a second: a hand whose
-    /// first grab the host has refused, right at the start, takes the mallet again after that, from where it is.</summary>
-    private static async Task DragAsync(IPage page)
+    /// <summary>
+    /// A finger lies on the table, on the side of the first player, until something has come of it, or for long enough that something could: a
+    /// hand whose first grab the host has refused takes the mallet again a second later, from where it is, on a busy machine perhaps again.
+    /// </summary>
+    private static async Task DragAsync(IPage page, Func<Task<bool>>? until = null)
     {
-        const int DragSteps = 70;
+        int steps = until is null ? 70 : 800; // of 25 ms
         await page.Locator("#waiting").WaitForAsync(new() { State = WaitForSelectorState.Hidden }); // the table moves up into its place
         LocatorBoundingBoxResult box = (await page.Locator(".pane canvas").First.BoundingBoxAsync())!;
         ICDPSession devices = await page.Context.NewCDPSessionAsync(page);
-        for (int n = 0; n <= DragSteps; n++)
+        Task TouchAsync(string type, params object[] points) => devices.SendAsync("Input.dispatchTouchEvent", new() { ["type"] = type, ["touchPoints"] = points });
+        object Finger(int n) => new { x = box.X + (0.2 * box.Width) + (n % 2), y = box.Y + (0.3 * box.Height) }; // a finger that lies still trembles
+        await TouchAsync("touchStart", Finger(0));
+        for (int n = 1; n < steps && !(until is not null && await until()); n++)
         {
-            object[] points = n == DragSteps ? [] : [new { x = box.X + (0.2 * box.Width), y = box.Y + (0.3 * box.Height) }];
-            await devices.SendAsync(
-                "Input.dispatchTouchEvent", new() { ["type"] = n == 0 ? "touchStart" : n == DragSteps ? "touchEnd" : "touchMove", ["touchPoints"] = points });
             await page.WaitForTimeoutAsync(25);
+            await TouchAsync("touchMove", Finger(n));
         }
 
-        await page.WaitForTimeoutAsync(300);
+        await TouchAsync("touchEnd");
     }
 }
