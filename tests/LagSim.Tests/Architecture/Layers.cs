@@ -47,7 +47,7 @@ internal static class Layers
         // What the tool does.
         ["LagSim.Harness/Reports/Charts"],
         ["LagSim.Harness/Reports"],
-        ["LagSim.Harness/SceneFiles", "LagSim.Harness/SceneFiles/Runs"],
+        ["LagSim.Harness/SceneFiles", "LagSim.Harness/SceneFiles/Runs", "LagSim.Harness/Verification"],
         [
             "LagSim.Harness/Relays", "LagSim.Harness/Verification/References", "LagSim.Harness/Verification/Check",
             "LagSim.Harness/Experiments/Metrics", "LagSim.Harness/Experiments/Hands", AccuracyWords,

@@ -1,8 +1,7 @@
 using System;
 using System.Collections.Generic;
-using System.Linq;
 using System.Threading;
-using System.Threading.Tasks;
+using LagSim.Harness.Verification;
 
 namespace LagSim.Harness.Experiments.Sweep;
 
@@ -22,33 +21,7 @@ public static class LinkSweep
     {
         ArgumentNullException.ThrowIfNull(options);
         SweepCell[] cells = [.. options.Cells()];
-        SweepOutcome?[] outcomes = new SweepOutcome?[cells.Length];
-        object gate = new();
-        int next = -1;
-        Task[] workers = [.. Enumerable.Range(0, Math.Max(1, options.Workers)).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))];
-        Task.WaitAll(workers);
-        return [.. outcomes.OfType<SweepOutcome>()];
-
-        void Work()
-        {
-            for (int n = Interlocked.Increment(ref next); n < cells.Length && !cancellation.IsCancellationRequested; n = Interlocked.Increment(ref next))
-            {
-                try
-                {
-                    // A token linked once for the whole sweep would keep the sessions of all cells alive.
-                    using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
-                    SweepOutcome outcome = new SweepRun(cells[n], options, stop.Token).Play();
-                    outcomes[n] = outcome;
-                    lock (gate)
-                    {
-                        progress?.Invoke(outcome);
-                    }
-                }
-                catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
-                {
-                    return;
-                }
-            }
-        }
+        return ParallelPlay.Run(
+            cells.Length, options.Workers, "LagSim sweep", (n, stop) => new SweepRun(cells[n], options, stop).Play(), progress, cancellation);
     }
 }

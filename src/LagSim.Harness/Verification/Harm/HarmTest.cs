@@ -1,8 +1,6 @@
 using System;
 using System.Collections.Generic;
-using System.Linq;
 using System.Threading;
-using System.Threading.Tasks;
 
 namespace LagSim.Harness.Verification.Harm;
 
@@ -20,33 +18,8 @@ public static class HarmTest
     public static IReadOnlyList<HarmOutcome> Run(HarmOptions options, Action<HarmOutcome>? progress = null, CancellationToken cancellation = default)
     {
         ArgumentNullException.ThrowIfNull(options);
-        HarmOutcome?[] outcomes = new HarmOutcome?[options.Attacks];
-        object gate = new();
-        int next = -1;
-        int workers = Math.Max(1, options.Workers);
-        Task.WaitAll([.. Enumerable.Range(0, workers).Select(_ => Task.Factory.StartNew(Work, TaskCreationOptions.LongRunning))]);
-        return [.. outcomes.OfType<HarmOutcome>()];
-
-        void Work()
-        {
-            while (!cancellation.IsCancellationRequested && Interlocked.Increment(ref next) is int n && n < outcomes.Length)
-            {
-                try
-                {
-                    // A token linked once for all sessions would keep them alive.
-                    using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
-                    HarmOutcome outcome = new HarmRun(new HarmCase(options.Seed + (ulong)n), options, stop.Token).Play();
-                    outcomes[n] = outcome;
-                    lock (gate)
-                    {
-                        progress?.Invoke(outcome);
-                    }
-                }
-                catch (OperationCanceledException) when (cancellation.IsCancellationRequested)
-                {
-                    return;
-                }
-            }
-        }
+        return ParallelPlay.Run(
+            options.Attacks, options.Workers, "LagSim harm",
+            (n, stop) => new HarmRun(new HarmCase(options.Seed + (ulong)n), options, stop).Play(), progress, cancellation);
     }
 }

@@ -4,12 +4,41 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 
-namespace LagSim.Harness.Verification.Check;
+namespace LagSim.Harness.Verification;
 
 /// <summary>Plays many drawn things, several at a time, each on one thread, while the caller's thread reports progress.</summary>
 internal static class ParallelPlay
 {
     private static readonly TimeSpan ProgressEvery = TimeSpan.FromMilliseconds(100);
+
+    /// <summary>Plays all, and tells of each as it is finished.</summary>
+    /// <param name="count">How many there are.</param>
+    /// <param name="workers">How many at a time.</param>
+    /// <param name="name">What the threads are called.</param>
+    /// <param name="play">Plays the one of a number, from 0, until a token of its own says stop; safe on several threads.</param>
+    /// <param name="finished">Called with each outcome, on any thread but never on two at once; may be null.</param>
+    /// <param name="cancellation">Ends it early.</param>
+    /// <returns>What the finished ones gave, in order.</returns>
+    internal static IReadOnlyList<T> Run<T>(
+        int count, int workers, string name, Func<int, CancellationToken, T> play, Action<T>? finished, CancellationToken cancellation)
+        where T : class
+    {
+        object gate = new();
+        return Run(count, workers, name, Play, null, cancellation).Finished;
+
+        T Play(int n)
+        {
+            // One token for all would keep what each has played alive.
+            using CancellationTokenSource stop = CancellationTokenSource.CreateLinkedTokenSource(cancellation);
+            T outcome = play(n, stop.Token);
+            lock (gate)
+            {
+                finished?.Invoke(outcome);
+            }
+
+            return outcome;
+        }
+    }
 
     /// <summary>Plays all.</summary>
     /// <param name="count">How many there are.</param>
