@@ -56,7 +56,7 @@ internal static class ParallelPlay
         ConcurrentBag<int> stopped = [];
         int next = -1, done = 0;
         Exception? fault = null;
-        Thread[] threads = [.. Enumerable.Range(0, Math.Min(workers, count)).Select(n => new Thread(Work) { IsBackground = true, Name = $"{name} {n}" })];
+        Thread[] threads = [.. Enumerable.Range(0, Math.Min(Math.Max(1, workers), count)).Select(n => new Thread(Work) { IsBackground = true, Name = $"{name} {n}" })];
         Array.ForEach(threads, thread => thread.Start());
         foreach (Thread thread in threads)
         {
