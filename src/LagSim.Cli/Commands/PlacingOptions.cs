@@ -22,7 +22,7 @@ internal readonly struct PlacingOptions
         this.players = players;
     }
 
-    /// <summary>What becomes of it if another body is there.</summary>
+    /// <summary>What becomes of it if another body or static geometry is there.</summary>
     internal WhenOccupied WhenOccupied { get; }
 
     /// <summary>Whose a spawned body is; everyone's if nothing is said.</summary>

@@ -20,7 +20,7 @@ internal sealed class ScriptedAction
         + "release (with a velocity, in m/s) "
         + "or remove (without X,Y,Z). "
         + "After X,Y,Z of a grab, /force=NEWTONS and /power=WATTS say how strong the hand is. "
-        + "After X,Y,Z of a spawn or teleport, /skip does nothing if another body is there at that instant, /beside puts it beside that one; of a"
+        + "After X,Y,Z of a spawn or teleport, /skip does nothing if another body or static geometry is there at that instant, /beside puts it beside; of a"
         + " spawn, /players=0+2 or /players=me says which players it belongs to. "
         + "command@SECONDS:NUMBER[,DATA] tells the scene's rules something: NUMBER is 0 to 65535, DATA up to 128 bytes as 0x and hexadecimal digits, or a text. "
         + "BODY is the name of a body of the scene, by default the first, or PEER.SEQUENCE.0 for a spawned one. "

@@ -63,5 +63,5 @@ public readonly struct LogEntry : IEquatable<LogEntry>
     private string Strength() => (Event.MaxForce == 0 ? "" : FormattableString.Invariant($", with {Event.MaxForce:R} N at most"))
         + (Event.MaxPower == 0 ? "" : FormattableString.Invariant($", with {Event.MaxPower:R} W at most"));
 
-    private string Occupied() => Event.WhenOccupied == WhenOccupied.Overlap ? "" : $", {Event.WhenOccupied} if another body is there";
+    private string Occupied() => Event.WhenOccupied == WhenOccupied.Overlap ? "" : $", {Event.WhenOccupied} if something is there";
 }

@@ -74,7 +74,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>Which peers may do something to a spawned body; everyone for any other event.</summary>
     public PeerSet Players { get; }
 
-    /// <summary>What becomes of a spawn or a teleport if another body is there; the default for any other event.</summary>
+    /// <summary>What becomes of a spawn or a teleport if something is there; the default for any other event.</summary>
     public WhenOccupied WhenOccupied { get; }
 
     /// <summary>The greatest force in N of a hand that grabs; 0 for the default, and for any other event.</summary>

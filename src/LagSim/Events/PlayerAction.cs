@@ -64,8 +64,8 @@ public readonly struct PlayerAction
     /// <param name="spin">In rad/s about the vector; default none.</param>
     /// <param name="players">Which peers may do something to it; default everyone. What any other does to it has no effect, on every peer alike;
     /// only the host may remove it all the same.</param>
-    /// <param name="whenOccupied">What becomes of it if another body is there at that instant; by default it is put there all the
-    /// same.</param>
+    /// <param name="whenOccupied">What becomes of it if another body or static geometry that it collides with is there at that instant; by default
+    /// it is put into a body all the same, and outside of a wall.</param>
     public static PlayerAction Spawn(
         BodySpec spec, Vector3D position, Vector3D velocity = default, Vector3D spin = default, PeerSet players = default,
         WhenOccupied whenOccupied = WhenOccupied.Overlap) =>
@@ -78,8 +78,8 @@ public readonly struct PlayerAction
     /// <param name="body">The body.</param>
     /// <param name="position">Where its centre is put, in metres.</param>
     /// <param name="velocity">In m/s; default none.</param>
-    /// <param name="whenOccupied">What becomes of it if another body is there at that instant; by default it is put there all the
-    /// same.</param>
+    /// <param name="whenOccupied">What becomes of it if another body or static geometry that it collides with is there at that instant; by default
+    /// it is put into a body all the same, and outside of a wall.</param>
     public static PlayerAction Teleport(
         BodyId body, Vector3D position, Vector3D velocity = default, WhenOccupied whenOccupied = WhenOccupied.Overlap) =>
         new(EventKind.Teleport, body, position, velocity, default, whenOccupied: whenOccupied);

@@ -75,7 +75,7 @@ internal sealed class ExternalHandler(
         }
         else if (!places.TryFind(slot, key, external, timelines.Extras.Filter(last), out Vector3D position))
         {
-            return; // another body is there
+            return; // something is there
         }
         else if (isForwarded)
         {

@@ -118,7 +118,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
     /// <summary>Kind, bodies, time, place and speed, for logs.</summary>
     public override string ToString() => string.Format(
         CultureInfo.InvariantCulture, "{0} {1}/{2} at {3}, {4} m, {5} m/s",
-            Kind, First, Surface < 0 ? Second.ToString() : $"surface {Surface}", Time, Position, ClosingSpeed);
+            Kind, First, Surface < 0 ? Second.ToString() : $"surface {Surface}", Time.ToShortString(), Position, ClosingSpeed);
 
     /// <summary>The order of contacts: by impact, then by bodies and surface.</summary>
     internal static int Compare(in ContactNotice a, in ContactNotice b)

@@ -84,7 +84,7 @@ public readonly struct LossNotice : IEquatable<LossNotice>, INotice<LossNotice>
 
     /// <summary>Kind, body, reason, time, place and velocity, for logs.</summary>
     public override string ToString() => string.Format(
-        CultureInfo.InvariantCulture, "{0}: body {1} is lost, {2}, at {3}, {4} m, {5} m/s", Kind, Body, Reason, Time, Position, Velocity);
+        CultureInfo.InvariantCulture, "{0}: body {1} is lost, {2}, at {3}, {4} m, {5} m/s", Kind, Body, Reason, Time.ToShortString(), Position, Velocity);
 
     int INotice<LossNotice>.CompareWith(LossNotice other) => EventKey.Compare(Key, other.Key);
 

@@ -89,5 +89,5 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>, INotice<RuleEvent>
     public static bool operator !=(in RuleEvent a, in RuleEvent b) => !a.Equals(b);
 
     /// <summary>Kind, notice and time, for logs.</summary>
-    public override string ToString() => string.Format(CultureInfo.InvariantCulture, "{0} {1} at {2}", Kind, Notice, Time);
+    public override string ToString() => string.Format(CultureInfo.InvariantCulture, "{0} {1} at {2}", Kind, Notice, Time.ToShortString());
 }

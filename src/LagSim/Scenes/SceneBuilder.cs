@@ -180,7 +180,8 @@ public sealed class SceneBuilder
         return this;
     }
 
-    /// <summary>Sets which peers may spawn bodies in a session; default everyone. Everyone may touch spawned bodies.</summary>
+    /// <summary>Sets which peers may spawn bodies in a session; default everyone. Who may do something to a spawned
+    /// body is said with its spawn (<see cref="Events.PlayerAction.Spawn"/>), by default everyone.</summary>
     public SceneBuilder WithSpawners(PeerSet peers)
     {
         spawners = peers;

@@ -28,7 +28,7 @@ internal static class SensorSnippets
         int goal = scene.SensorNamed("goal");
         foreach (Crossing crossing in world.Crossings(world.HistoryEdge, world.SimulatedTo))
         {
-            Console.WriteLine($"{scene.Describe(crossing.Body)} {(crossing.Entered ? "enters" : "leaves")} '{scene.Sensors[crossing.Sensor].Name}' at {crossing.Time}");
+            Console.WriteLine($"{scene.Describe(crossing.Body)} {(crossing.Entered ? "enters" : "leaves")} '{scene.Sensors[crossing.Sensor].Name}' at {crossing.Time.ToShortString()}");
         }
 
         bool isGoal = world.IsInside(scene.BodyNamed("ball"), goal, SimTime.FromSeconds(1));
@@ -46,7 +46,7 @@ internal static class SensorSnippets
         {
             if (crossing.Kind == NoticeKind.Confirmed && crossing.Sensor == goal && crossing.Entered)
             {
-                Console.WriteLine($"goal at {crossing.Time}");
+                Console.WriteLine($"goal at {crossing.Time.ToShortString()}");
             }
         }
     }

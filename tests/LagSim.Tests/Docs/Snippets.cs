@@ -210,8 +210,8 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
 
-        // on another machine, with the host's address: a client gets the scene from the host
-        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
+        // on another machine, with the host's address in place of Loopback: a client gets the scene from the host
+        using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, 5000));
         if (!client.WaitUntilRunning(TimeSpan.FromSeconds(15)))
         {
             throw new InvalidOperationException(client.Session.EndReason);
@@ -220,7 +220,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         // each frame
         if (client.Latest() is RenderSnapshot snapshot && snapshot.TryRead(ball, client.Session.DisplayTime, out BodyState state))
         {
-            Draw(state.Position);
+            Console.WriteLine(state.Position); // or draw it
         }
 
         // a kick: shows here at once, and takes effect on every other machine at the same instant
