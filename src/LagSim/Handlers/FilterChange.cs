@@ -44,14 +44,15 @@ internal sealed class FilterChange(Scene scene, BodyTable bodies, TimelineStore 
         }
 
         double radius = bodies.Spec(slot).Radius;
-        Vector3D outside = clearance.PutOut(position, radius, filter);
-        if (IsInNew(outside, radius, filter, before, clearance.Slack(outside.Taxicab + radius)))
+        bool staysMember = paths.IsMember(last) && !IsInNew(position, radius, filter, before, scene.ContactTolerance);
+        Vector3D outside = position;
+        if (!staysMember && !clearance.TryPutOut(position, radius, filter, out outside))
         {
-            return; // what is to stop it now leaves it no room
+            return; // what is to stop it leaves it no room
         }
 
         timelines.Extras.OpenWith(filter);
-        if (paths.IsMember(last) && !IsInNew(position, radius, filter, before, scene.ContactTolerance))
+        if (staysMember)
         {
             if (members.TryGoOn(slot, key, position, velocity, spin, hasChanged: true))
             {

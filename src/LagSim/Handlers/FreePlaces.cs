@@ -14,11 +14,6 @@ namespace LagSim.Handlers;
 /// </remarks>
 internal class FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view)
 {
-    /// <summary>Each sphere of the search is half a radius wider than the one before, so the last has 32 radii.</summary>
-    private const int Spheres = 64;
-
-    private static readonly Vector3D[] Directions = MakeDirections();
-
     private readonly Clearance clearance = new(scene);
     private readonly Paths paths = new(timelines);
     private readonly List<(Vector3D Centre, double Reach)> near = new();
@@ -42,8 +37,9 @@ internal class FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines
         bool isAdmitted = clearance.Admits(position, spec, filter);
         if (external.WhenOccupied != WhenOccupied.Skip && !isAdmitted)
         {
-            position = scene.Box.Wrap(clearance.PutOut(position, spec.Radius, filter)).WithoutNegativeZero();
-            isAdmitted = clearance.Admits(position, spec, filter);
+            isAdmitted = clearance.TryPutOut(position, spec.Radius, filter, out position);
+            position = scene.Box.Wrap(position).WithoutNegativeZero();
+            isAdmitted = isAdmitted && clearance.Admits(position, spec, filter);
         }
 
         if (external.WhenOccupied == WhenOccupied.Overlap)
@@ -59,43 +55,20 @@ internal class FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines
 
         bool isFound = false;
         Vector3D middle = position;
-        for (int sphere = 1; sphere <= Spheres && external.WhenOccupied == WhenOccupied.Beside && !isFound; sphere++)
+        for (int n = 0; n < PlacesAround.Count && external.WhenOccupied == WhenOccupied.Beside && !isFound; n++)
         {
-            for (int n = 0; n < Directions.Length && !isFound; n++)
-            {
-                position = scene.Box.Wrap(middle + (Directions[n] * (0.5 * sphere * spec.Radius))).WithoutNegativeZero();
-                isFound = IsFree(position) && clearance.Admits(position, spec, filter);
-            }
+            position = scene.Box.Wrap(PlacesAround.At(n, middle, spec.Radius)).WithoutNegativeZero();
+            isFound = IsFree(position) && clearance.Admits(position, spec, filter);
         }
 
         return isFound;
-    }
-
-    private static Vector3D[] MakeDirections()
-    {
-        List<Vector3D> directions = new();
-        foreach (int y in new[] { 0, 1, -1 })
-        {
-            for (int x = 1; x >= -1; x--)
-            {
-                for (int z = 1; z >= -1; z--)
-                {
-                    if (x != 0 || y != 0 || z != 0)
-                    {
-                        directions.Add(new Vector3D(x, y, z).Direction);
-                    }
-                }
-            }
-        }
-
-        return directions.ToArray();
     }
 
     /// <summary>Finds the bodies that may be in the way, as they come to the event, in canonical order.</summary>
     private void FindNear(int slot, in EventKey key, CollisionFilter filter, in Vector3D position, double radius)
     {
         near.Clear();
-        double range = 0.5 * (Spheres + 1) * radius;
+        double range = PlacesAround.Range(radius);
         foreach (int other in bodies)
         {
             int piece = other == slot ? TimelineStore.None : view.SegmentBefore(other, key);

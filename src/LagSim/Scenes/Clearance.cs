@@ -9,10 +9,8 @@ namespace LagSim.Scenes;
 /// </remarks>
 internal sealed class Clearance(Scene scene)
 {
-    /// <summary>The number of times that a body inside static geometry is moved out of one surface after the other.</summary>
-    private const int MaxPushOuts = 16;
-
     private readonly StaticSurfaces surfaces = scene.Surfaces;
+    private readonly NearestPlace nearest = new(scene.Surfaces);
 
     /// <summary>Whether a ball at a place is inside of nothing that stops it, but for what rounding and the scene's threshold leave of
     /// touching.</summary>
@@ -43,38 +41,20 @@ internal sealed class Clearance(Scene scene)
         scene.Box.Nearest(position - centre).Length - reach >= -Slack(position.Taxicab + centre.Taxicab + reach);
 
     /// <summary>
-    /// The place for a body that is inside static geometry that stops it: outside of it, at the surface, one surface after the other in the
-    /// scene's order. A body between surfaces too close for it stays inside.
+    /// The nearest place outside of static geometry that stops a ball (<see cref="NearestPlace"/>), or, where none is between the surfaces
+    /// that are near, the first of those around it; false if there is none there either.
     /// </summary>
-    internal Vector3D PutOut(in Vector3D position, double radius, CollisionFilter filter)
+    internal bool TryPutOut(in Vector3D position, double radius, CollisionFilter filter, out Vector3D place)
     {
-        Vector3D at = position;
-        bool isInside = true;
-        for (int n = 0; n < MaxPushOuts && isInside; n++)
+        bool isOut = nearest.TryFind(position, radius, filter, out place) && IsClear(place, radius, filter);
+        Vector3D middle = place;
+        for (int n = 0; n < PlacesAround.Count && !isOut; n++)
         {
-            isInside = false;
-            foreach (ref readonly StaticPlane plane in scene.PlaneArray.AsSpan())
-            {
-                double gap = plane.Gap(at, radius);
-                if (gap < 0 && filter.CollidesWith(plane.Filter))
-                {
-                    isInside |= gap < -scene.RestitutionThreshold;
-                    at -= plane.Normal * gap;
-                }
-            }
-
-            foreach (ref readonly StaticSphere sphere in scene.SphereArray.AsSpan())
-            {
-                double gap = (at - sphere.Centre).Length - sphere.Radius - radius;
-                if (gap < 0 && filter.CollidesWith(sphere.Filter))
-                {
-                    isInside |= gap < -scene.RestitutionThreshold;
-                    at = sphere.Centre + ((at - sphere.Centre).Direction * (sphere.Radius + radius));
-                }
-            }
+            place = PlacesAround.At(n, middle, radius);
+            isOut = IsClear(place, radius, filter);
         }
 
-        return at;
+        return isOut;
     }
 
     /// <summary>What rounding and the scene's threshold leave of touching, in metres, among numbers of that size.</summary>

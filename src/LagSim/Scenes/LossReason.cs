@@ -23,4 +23,7 @@ public enum LossReason : byte
 
     /// <summary>The forces on it have no finite value: at the very centre of a pull.</summary>
     NotFinite = 3,
+
+    /// <summary>A hand let it go inside of static geometry that leaves it no room: between surfaces too close for it, as far as was looked.</summary>
+    NoRoom = 4,
 }

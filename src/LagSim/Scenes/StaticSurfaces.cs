@@ -15,6 +15,9 @@ internal readonly struct StaticSurfaces(StaticPlane[] planes, StaticSphere[] sph
     /// <summary>How many there are.</summary>
     internal int Count => planes.Length + spheres.Length;
 
+    /// <summary>How many of them are planes; these come first.</summary>
+    internal int Planes => planes.Length;
+
     /// <summary>Whether a surface is a plane; otherwise it is a sphere.</summary>
     internal bool IsPlane(int surface) => surface < planes.Length;
 

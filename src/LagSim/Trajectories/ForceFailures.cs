@@ -37,6 +37,7 @@ internal sealed class ForceFailures(Scene scene, BodyTable bodies, TimelineStore
         {
             LossReason.TooFast => $"it would be faster than {Limits.Text(Limits.MaxSpeed(scene.SmallestRadius))} m/s, a fifth of the smallest radius in a tick{there}",
             LossReason.TooStiff => $"the forces on it change faster than the shortest step follows{there}",
+            LossReason.NoRoom => "a hand let it go there, and the static geometry that stops it leaves it no room",
             _ => $"what the forces {names} give there has no finite value",
         };
         return $"At {time.ToShortString()} {scene.Describe(bodies.Id(slot))} cannot be followed any further, at {Limits.Short(x)} m with {Limits.Short(v)} m/s: {why}.";

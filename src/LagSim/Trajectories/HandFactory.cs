@@ -46,7 +46,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         }
         else if (external.Kind == EventKind.Release && IsHolding(slot, external.Peer))
         {
-            flights.Open(slot, key, PutOut(slot, last, position), external.Velocity);
+            LetGo(slot, key, last, position, external.Velocity);
         }
     }
 
@@ -97,7 +97,7 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         Vector3D position = timelines.Segment(last).PositionAt(seconds, dense);
         if (key.Time >= hold.KeyframeTime + HandPath.Lasts)
         {
-            flights.Open(slot, key, PutOut(slot, last, position), Vector3D.Zero);
+            LetGo(slot, key, last, position, Vector3D.Zero);
         }
         else
         {
@@ -122,7 +122,16 @@ internal sealed class HandFactory(Scene scene, BodyTable bodies, TimelineStore t
         timelines.Append(slot, bodies.Id(slot), key, path, timelines.Dense(last), hold.Busy(busy));
     }
 
-    /// <summary>The place where a body is released: outside of what stops it.</summary>
-    private Vector3D PutOut(int slot, int last, in Vector3D position) =>
-        clearance.PutOut(position, bodies.Spec(slot).Radius, timelines.Extras.Filter(last));
+    /// <summary>A body is released outside of what stops it; where that leaves it no room, it is lost.</summary>
+    private void LetGo(int slot, in EventKey key, int last, in Vector3D position, in Vector3D velocity)
+    {
+        if (clearance.TryPutOut(position, bodies.Spec(slot).Radius, timelines.Extras.Filter(last), out Vector3D outside))
+        {
+            flights.Open(slot, key, outside, velocity);
+        }
+        else
+        {
+            loss.Lose(slot, key, position, velocity, LossReason.NoRoom);
+        }
+    }
 }

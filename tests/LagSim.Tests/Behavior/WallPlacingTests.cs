@@ -1,3 +1,5 @@
+using System;
+using System.Linq;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
@@ -71,6 +73,63 @@ public sealed class WallPlacingTests
         Assert.Equal((false, false, true), (world.TookEffect(spawn), world.TookEffect(filter), world.TookEffect(fits)));
         Assert.Equal(CollisionFilter.None, Read(world, First, 2).Filter);
         Near(V(0.25, 3), Read(world, fits.Body, 2).Position, 1e-12);
+    }
+
+    /// <summary>
+    /// Behind an overhanging wall: the nearest place outside of it and of the floor. (One surface after the other, sixteen times, left it 9 cm
+    /// deep at 20 degrees, and there it slept.)
+    /// </summary>
+    [Theory]
+    [InlineData(90)]
+    [InlineData(45)]
+    [InlineData(20)]
+    [InlineData(10)]
+    [InlineData(1)]
+    public void Place_BehindAnOverhangingWall_IsWhereBothAreTouched(double degrees)
+    {
+        const double Radius = 0.25;
+        double angle = degrees * Math.PI / 180;
+        Vector3D wall = V(Math.Sin(angle), -Math.Cos(angle));
+        BodySpec spec = new(Radius, 1, 0.5, friction: 0.5);
+        Scene scene = new SceneBuilder("wedge").WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, V(0), 0.5, 0.5)
+            .AddPlane("wall", wall, V(0), 0.5, 0.5, OfOwn).AddBody("ball", spec.With(new CollisionFilter(2, 5)), V(100, Radius)).Build();
+        Vector3D behind = V(-0.5, 0.1);
+        Vector3D outside = V(Radius / Math.Tan(angle / 2), Radius);
+        ExternalEvent grab = ExternalEvent.Grab(At(0.1), 1, 1, First, V(0));
+        ExternalEvent keyframe = ExternalEvent.HoldKeyframe(At(0.2), 1, 2, First, behind, V(0));
+        ExternalEvent[][] ways =
+        [
+            [grab, keyframe, ExternalEvent.Release(At(0.5), 1, 3, First, V(0))],
+            [grab, keyframe], // lets go by itself
+            [ExternalEvent.Teleport(At(0.5), 1, 1, First, behind, V(0))],
+            [
+                ExternalEvent.SetFilter(At(0.3), 1, 1, First, Ghost), ExternalEvent.Teleport(At(0.4), 1, 2, First, behind, V(0)),
+                ExternalEvent.SetFilter(At(0.5), 1, 3, First, new CollisionFilter(2, 5)),
+            ],
+        ];
+        foreach (ExternalEvent[] way in ways)
+        {
+            Simulation world = Run(scene, 10, way);
+            double there = way.Length == 2 ? 1.2 : 0.5;
+            Near(outside, Read(world, First, there).Position, 1e-9 / Math.Sin(angle / 2));
+            Vector3D after = Read(world, First, 10).Position;
+            Assert.True(Math.Min(after.Y, Vector3D.Dot(after, wall)) > Radius - 1e-3, $"{after} is inside.");
+        }
+    }
+
+    /// <summary>Between walls too close for it a hand may carry a body, but cannot let it go: it is out of the world, which goes on.</summary>
+    [Theory]
+    [InlineData(0.6)]
+    [InlineData(1.1)]
+    public void Release_BetweenWalls_WhereThereIsNoRoomLosesTheBody(double room)
+    {
+        Scene scene = new SceneBuilder("slot").WithGravity(Floating).WithSmallestRadius(0.25).AddPlane("left", V(1), 0).AddPlane("right", V(-1), -room)
+            .AddBody("ghost", Ball().With(CollisionFilter.None), V(0.3)).AddBody("other", Ball(0.25), V(0.3, 7), V(0, 1)).Build();
+        Simulation world = Run(scene, 2,
+            [ExternalEvent.Grab(At(0.1), 1, 1, First, V(0)), ExternalEvent.SetFilter(At(0.2), 1, 2, First, default), ExternalEvent.Release(At(0.5), 1, 3, First, V(0))]);
+        Assert.Equal(room < 1 ? [LossReason.NoRoom] : [], world.LostBodies().Select(lost => lost.Reason));
+        Assert.Equal(room > 1, world.TryRead(First, At(2), out _));
+        Near(V(0.3, 9), Read(world, Second, 2).Position, 1e-12);
     }
 
     /// <summary>The filter of that instant, which a late event changes: a teleport below the floor of a body that is a ghost then, or not.</summary>

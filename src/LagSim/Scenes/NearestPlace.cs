@@ -1,0 +1,177 @@
+using System;
+
+namespace LagSim.Scenes;
+
+/// <summary>The nearest place for a ball that is outside of the static geometry that stops it.</summary>
+/// <remarks>
+/// <para>Outside of a plane is a half-space, and outside of a static sphere is at least the half-space beyond its tangent plane. The nearest
+/// point of half-spaces is found as the least point of an LP-type problem (Sharir and Welzl 1992): from a basis of at most three planes that
+/// push, the one that is violated most joins, and the nearest point of those four gives the next basis. Each basis is further off than the
+/// one before, so it ends. Planes come first; then the tangent planes of spheres join, and are taken anew where that point is as long as it comes
+/// nearer. So among planes the place is the nearest there is; beside static spheres there may be a nearer one.</para>
+/// <para>Pure and immutable. Cost: the surfaces of the scene, times the few that push.</para>
+/// </remarks>
+internal sealed class NearestPlace(StaticSurfaces surfaces)
+{
+    /// <summary>How often tangent planes are taken anew, at most: each time the error is squared.</summary>
+    private const int MaxTangents = 8;
+
+    /// <summary>The sine of the least angle between planes that are not taken for parallel: their edge is a million times as far off as the ball is deep.</summary>
+    private const double LeastSine = 1e-6;
+
+    /// <summary>Finds the place; false if the half-spaces have no point in common, so that there is none between these surfaces.</summary>
+    /// <param name="position">Where the ball's centre is.</param>
+    /// <param name="radius">Its radius.</param>
+    /// <param name="filter">What it collides with.</param>
+    /// <param name="place">Where its centre is put: where it is, if it is outside but for rounding. Without an answer, where planes alone would have it.</param>
+    internal bool TryFind(in Vector3D position, double radius, CollisionFilter filter, out Vector3D place)
+    {
+        place = position;
+        bool isFound = TryFindWay(position, place, radius, filter, surfaces.Planes, out Vector3D way);
+        place = position + way;
+        for (int n = 0; n < MaxTangents && isFound && surfaces.Planes < surfaces.Count; n++)
+        {
+            isFound = TryFindWay(position, place, radius, filter, surfaces.Count, out Vector3D next);
+            if (!isFound || (n > 0 && !(next.Length < way.Length)))
+            {
+                return n > 0;
+            }
+
+            way = next;
+            place = position + way;
+        }
+
+        return isFound;
+    }
+
+    /// <summary>The shortest way out of the half-spaces of the first surfaces, those of spheres by their tangents towards a point.</summary>
+    private bool TryFindWay(in Vector3D position, in Vector3D tangentAt, double radius, CollisionFilter filter, int count, out Vector3D way)
+    {
+        way = default;
+        Basis basis = default;
+        double rounding = 1e-15 * (position.Taxicab + radius);
+        for (double length = 0; TryFindDeepest(position, tangentAt, radius, filter, count, way, rounding, out HalfSpace deepest);)
+        {
+            if (!basis.TryJoin(deepest, rounding, out way))
+            {
+                return false;
+            }
+
+            if (way.Length <= length)
+            {
+                break; // no further off than before: what is left is rounding
+            }
+
+            length = way.Length;
+        }
+
+        return true;
+    }
+
+    /// <summary>Which half-space a way leaves the ball in most deeply, if by more than rounding.</summary>
+    private bool TryFindDeepest(
+        in Vector3D position, in Vector3D tangentAt, double radius, CollisionFilter filter, int count, in Vector3D way, double rounding,
+        out HalfSpace deepest)
+    {
+        double depth = rounding;
+        deepest = default;
+        for (int surface = 0; surface < count; surface++)
+        {
+            if (!filter.CollidesWith(surfaces.Filter(surface)))
+            {
+                continue;
+            }
+
+            Vector3D normal = surfaces.Normal(surface, tangentAt);
+            double needed = surfaces.IsPlane(surface)
+                ? -surfaces.Gap(surface, position, radius)
+                : Vector3D.Dot(normal, tangentAt - position) - surfaces.Gap(surface, tangentAt, radius);
+            double left = needed - Vector3D.Dot(normal, way);
+            if (left > depth)
+            {
+                (depth, deepest) = (left, new HalfSpace(normal, needed));
+            }
+        }
+
+        return depth > rounding;
+    }
+
+    /// <summary>What is outside of a plane: ways that go at least so far along its normal.</summary>
+    private readonly struct HalfSpace(Vector3D normal, double needed)
+    {
+        internal readonly Vector3D Normal = normal;
+        internal readonly double Needed = needed;
+    }
+
+    /// <summary>The half-spaces, three at most, whose planes the shortest way out ends on.</summary>
+    private struct Basis
+    {
+        private HalfSpace first, second, third;
+        private int count;
+
+        /// <summary>One more half-space joins, in which the way ends so far: the basis and the way of all four.</summary>
+        /// <returns>False if they have no point in common.</returns>
+        internal bool TryJoin(in HalfSpace joining, double slack, out Vector3D way)
+        {
+            Span<HalfSpace> all = stackalloc HalfSpace[4] { joining, first, second, third };
+            all = all.Slice(0, count + 1);
+            for (int size = 1; size <= 3; size++)
+            {
+                for (int b = 1; b <= (size == 1 ? 1 : all.Length - 1); b++)
+                {
+                    for (int c = b + 1; c <= (size < 3 ? b + 1 : all.Length - 1); c++)
+                    {
+                        if (TryMeet(all, size, b, c, out way) && IsIn(all, way, slack))
+                        {
+                            (first, second, third, count) = (joining, size > 1 ? all[b] : default, size > 2 ? all[c] : default, size);
+                            return true;
+                        }
+                    }
+                }
+            }
+
+            way = default;
+            return false;
+        }
+
+        private static bool IsIn(ReadOnlySpan<HalfSpace> all, in Vector3D way, double slack)
+        {
+            bool isIn = true;
+            foreach (ref readonly HalfSpace half in all)
+            {
+                isIn &= Vector3D.Dot(half.Normal, way) >= half.Needed - slack - (1e-14 * way.Length);
+            }
+
+            return isIn;
+        }
+
+        /// <summary>The shortest way to where the planes of the first half-space and of others meet, if each of them pushes.</summary>
+        private static bool TryMeet(ReadOnlySpan<HalfSpace> all, int size, int second, int third, out Vector3D way)
+        {
+            (Vector3D a, double p) = (all[0].Normal, all[0].Needed);
+            way = a * p;
+            if (size == 1)
+            {
+                return true;
+            }
+
+            (Vector3D b, double q) = (all[second].Normal, all[second].Needed);
+            Vector3D edge = Vector3D.Cross(a, b);
+            double sine2 = edge.LengthSquared;
+            if (size == 2)
+            {
+                double cosine = Vector3D.Dot(a, b);
+                (double pushA, double pushB) = (p - (cosine * q), q - (cosine * p));
+                way = ((a * pushA) + (b * pushB)) * (1 / sine2);
+                return sine2 > LeastSine * LeastSine && pushA >= 0 && pushB >= 0;
+            }
+
+            (Vector3D c, double r) = (all[third].Normal, all[third].Needed);
+            Vector3D bc = Vector3D.Cross(b, c), ca = Vector3D.Cross(c, a);
+            double volume = Vector3D.Dot(edge, c);
+            way = ((bc * p) + (ca * q) + (edge * r)) * (1 / volume);
+            return Math.Abs(volume) > LeastSine * LeastSine && Vector3D.Dot(way, bc) / volume >= 0
+                && Vector3D.Dot(way, ca) / volume >= 0 && Vector3D.Dot(way, edge) / volume >= 0;
+        }
+    }
+}
