@@ -304,14 +304,14 @@ internal sealed class SessionRun
             throw new SessionTestException($"What the players did cannot be simulated: {thrown.Message}", thrown);
         }
 
-        bool hasFailed = Members.Any(member => member.Session.Failure is not null); // then worlds hold what the host has not judged
+        bool hasFailed = Members.Any(member => member.Session.Failure is not null); // then worlds hold what the host has not judged, as that of who is out does
         Comparison comparison = new(alone);
         foreach (Member member in Members)
         {
             int number = member.Player.Number;
             member.Trace.CompareCommitted(number, comparison);
             member.Trace.CompareWrong(number, comparison);
-            if (!member.Player.HasLeft && !hasFailed && member.Session.World is LiveWorld world)
+            if (!member.Player.HasLeft && !member.HasEnded && !hasFailed && member.Session.World is LiveWorld world)
             {
                 comparison.Take(number, world.Simulation);
             }

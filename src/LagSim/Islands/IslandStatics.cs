@@ -10,8 +10,9 @@ namespace LagSim.Islands;
 /// Statics: whether an island that is put to rest where it is stays there, or is only slow, as what has just begun to slide is.
 /// </summary>
 /// <remarks>
-/// A step from rest is solved, with what forces give in it and with the contacts closed. Where impulses within their cones balance the
-/// forces, no body moves after it. A pure function of the island at a tick. Cost: one more solution for each step in which an island is
+/// A step from rest is solved, with the contacts closed, and with what forces give in it and what would stop each body within the time of
+/// waiting. Where impulses within their cones balance that, no body moves after it: nothing sets the island going, and what still moves is
+/// braked. What is no faster than sweeps may leave it is at rest. A pure function of the island at a tick. Cost: one more solution for each step in which an island is
 /// slow enough to sleep; the impulses that it finds serve the step that follows if there is one.
 /// </remarks>
 internal class IslandStatics(BodyTable bodies, in Forces forces, ContactGraph graph, ContactStep step)
@@ -23,7 +24,7 @@ internal class IslandStatics(BodyTable bodies, in Forces forces, ContactGraph gr
 
     /// <summary>
     /// Whether an island stays at rest, whose step has its bodies and contacts ready: nothing in it is deep in anything, and its contacts
-    /// balance its forces. If not, the step is as it was, but for better impulses to begin with.
+    /// balance its forces and stop it. If not, the step is as it was, but for better impulses to begin with.
     /// </summary>
     /// <param name="tick">When it would fall asleep.</param>
     /// <param name="seconds">The length of the step.</param>
@@ -38,7 +39,8 @@ internal class IslandStatics(BodyTable bodies, in Forces forces, ContactGraph gr
         {
             int slot = graph.Slots[i];
             Vector3D pull = forces.On(bodies.Id(slot)).At(bodies.Spec(slot), tick, 0, graph.Positions[i], Vector3D.Zero, Vector3D.Zero);
-            step.PutToRest(i, pull * seconds);
+            Vector3D momentum = graph.Velocities[i].Length <= step.Scale.FinestSweepSpeed ? default : graph.Velocities[i];
+            step.PutToRest(i, (pull + (momentum * (1 / ContactScale.StillFor.ToSeconds()))) * seconds);
         }
 
         step.SolveAtRest(seconds, SweepPart * step.Scale.LeastPull * seconds);

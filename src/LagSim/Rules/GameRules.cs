@@ -154,7 +154,8 @@ public abstract class GameRules : SceneRules
 
     /// <summary>
     /// A body has left the world by itself, because its motion cannot be followed further (<see cref="LossReason"/>); its state can be read
-    /// here for the last time. By default as if it were removed: <see cref="OnRemoved"/>. Only if <see cref="HearsBodies"/>.
+    /// here for the last time. By default as if it were removed: <see cref="OnRemoved"/>. Only if
+    /// <see cref="HearsBodies"/>; a scene refuses rules that override this and not that.
     /// </summary>
     public virtual void OnLost(RuleWorld world, BodyId body, LossReason why) => OnRemoved(world, body);
 }

@@ -13,6 +13,7 @@ internal static class UnheardRules
     private static readonly Type[] OfContact = [typeof(BodyId), typeof(BodyId), typeof(int)];
     private static readonly Type[] OfCrossing = [typeof(BodyId), typeof(int)];
     private static readonly Type[] OfBody = [typeof(RuleWorld), typeof(BodyId)];
+    private static readonly Type[] OfLoss = [typeof(RuleWorld), typeof(BodyId), typeof(LossReason)];
 
     /// <summary>What is wrong with rules of a type, as the rest of a sentence; null if nothing is.</summary>
     internal static string? Problem([DynamicallyAccessedMembers(DynamicallyAccessedMemberTypes.PublicMethods)] Type rules)
@@ -25,7 +26,8 @@ internal static class UnheardRules
                 nameof(GameRules.OnCrossing), [typeof(RuleWorld), typeof(Crossing).MakeByRefType()],
                 nameof(GameRules.HearsCrossing), Overrides(rules, nameof(GameRules.HearsCrossing), OfCrossing))
             ?? Lacks(nameof(GameRules.OnSpawned), OfBody, nameof(GameRules.HearsBodies), hearsBodies)
-            ?? Lacks(nameof(GameRules.OnRemoved), OfBody, nameof(GameRules.HearsBodies), hearsBodies);
+            ?? Lacks(nameof(GameRules.OnRemoved), OfBody, nameof(GameRules.HearsBodies), hearsBodies)
+            ?? Lacks(nameof(GameRules.OnLost), OfLoss, nameof(GameRules.HearsBodies), hearsBodies);
 
         string? Lacks(string called, Type[] parameters, string asked, bool hears) =>
             !hears && Overrides(rules, called, parameters) ? $"override {called} but not {asked}, so it would never be called: override {asked} too" : null;

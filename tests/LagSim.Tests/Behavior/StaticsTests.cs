@@ -58,6 +58,33 @@ public sealed class StaticsTests
         Assert.Equal(!sleeps, Math.Abs(pulled.X - (Length * (1 - Math.Cos(20 * Math.Sqrt(Stiffness))))) < 1e-3);
     }
 
+    /// <summary>
+    /// Two that touch and drift along a slot without friction, where nothing brakes them, however slow; where all is rough resistance stops
+    /// them. The control: where slow is still they stop without friction too.
+    /// </summary>
+    [Theory]
+    [InlineData(0.95)]
+    [InlineData(0.1)]
+    public void BallsThatDriftTogether_GoOn(double part)
+    {
+        double speed = part * 2e-3; // of the still speed
+        Assert.Equal(20 * speed, WayOf(speed, 0, sleeps: false), 1e-6);
+        Assert.InRange(WayOf(speed, 0, sleeps: true), 0, 2 * speed);
+        Assert.InRange(WayOf(speed, 0.5, sleeps: false), -1e-5, 2 * speed);
+    }
+
+    /// <summary>How far one that stands on another has drifted with it.</summary>
+    private static double WayOf(double speed, double friction, bool sleeps)
+    {
+        BodySpec spec = new(0.1, 1, 0, friction: friction, rollingResistance: friction / 5);
+        Scene scene = new SceneBuilder("slot").WithContactTolerance(1e-3)
+            .AddPlane("floor", Vector3D.Up, 0, 0, 1).AddPlane("left", V(1), -0.1, 0, 1).AddPlane("right", V(-1), -0.1, 0, 1)
+            .AddBody("below", spec, V(0, 0.1), V(0, 0, speed)).AddBody("above", spec, V(0, 0.3), V(0, 0, speed)).Build();
+        Simulation world = new(scene, KeepAll.WithParts(new FaultyEngineParts { SleepsWhereSlow = sleeps }));
+        world.AdvanceTo(At(20));
+        return (Read(world, First, 20).Position.Z + Read(world, Second, 20).Position.Z) / 2;
+    }
+
     /// <summary>What friction holds against the same force sleeps, where it was put.</summary>
     [Fact]
     public void WeakForce_AgainstRollingResistance_MovesNothing() =>

@@ -19,6 +19,7 @@ public sealed class UnheardRulesTests
             (new CrossingAlone(), "OnCrossing", "HearsCrossing"),
             (new SpawnedAlone(), "OnSpawned", "HearsBodies"),
             (new RemovedAlone(), "OnRemoved", "HearsBodies"),
+            (new LostAlone(), "OnLost", "HearsBodies"),
             (new Derived(), "OnContact", "HearsContact"),
             (new Hiding(), "OnContact", "HearsContact"),
         ];
@@ -78,6 +79,13 @@ public sealed class UnheardRulesTests
     private sealed class RemovedAlone() : GameRules("removed alone", 1)
     {
         public override void OnRemoved(RuleWorld world, BodyId body)
+        {
+        }
+    }
+
+    private sealed class LostAlone() : GameRules("lost alone", 1)
+    {
+        public override void OnLost(RuleWorld world, BodyId body, LossReason why)
         {
         }
     }

@@ -282,6 +282,20 @@ public sealed class SessionTestTests
         Assert.Contains("player 1 is out: ", message, StringComparison.Ordinal);
     }
 
+    /// <summary>What a player did last before it was sent away is in its own world alone, and no difference: its going is what happened.</summary>
+    [Fact]
+    public void Run_PlayerWhomTheHostSendsAway_SaysSo()
+    {
+        Session host = null!;
+        SessionTest test = new SessionTest(Box()).WithClients(2, "delay-100ms")
+            .At(1, 0, _ => Assert.True(((HostSession)host).Kick(1)))
+            .At(1.05, 1, PlayerAction.SetVelocity(First, V(3, 1)));
+        test.PrepareSession = (player, session) => host = player == 0 ? session : host;
+        string message = Assert.Throws<SessionTestException>(() => test.Run(3, Cancellation)).Message;
+        Assert.Contains("player 1 is out: The host sent this player away", message, StringComparison.Ordinal);
+        Assert.Contains("player 2 is running", message, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Run_Cancelled_Stops()
     {
