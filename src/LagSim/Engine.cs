@@ -70,7 +70,7 @@ internal sealed class Engine
         SegmentLookup view = parts.SegmentLookup(Timelines, rollback);
         StepMarks marks = new();
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
-        MemberContacts memberContacts = new(Timelines, Bodies, scene.Surfaces, Step.Scale);
+        MemberContacts memberContacts = new(Timelines, view, Bodies, scene.Surfaces, Step.Scale);
         CollisionPredictor collisions = new(
             scene, start, Bodies, Timelines, memberContacts, strikes, Step.Scale, hasIslands);
         CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, view, marks);

@@ -57,7 +57,7 @@ internal static class LooseParts
         Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view)
     {
         ContactScale scale = new(scene.ContactTolerance, scene.Gravity, default);
-        MemberContacts members = new(timelines, bodies, scene.Surfaces, scale);
+        MemberContacts members = new(timelines, view, bodies, scene.Surfaces, scale);
         StrikeCounts strikes = new(timelines, bodies, scene.Surfaces, scene.Box);
         return new CollisionPredictor(scene, default, bodies, timelines, members, strikes, scale, hasIslands: true);
     }

@@ -72,13 +72,6 @@ public sealed class WorldCheckTests
         Assert.Equal(WorldFailureKind.Differs, Assert.Single(Run(options with { PrepareLate = late => late.WithParts(parts) }).Failures).FailureKind);
     }
 
-    /// <summary>
-    /// A hand strikes in a jam and lets go within the step: what the blow left to the step is on the paths of those it struck, so that a
-    /// snapshot of after that, which knows of no hand, goes on alike.
-    /// </summary>
-    [Fact]
-    public void Run_SnapshotOfAfterAHandHasLetGo_HasTheSameBits() => Assert.Empty(Run(new WorldOptions { Worlds = 1, Seed = 3_000_875 }).Failures);
-
     /// <summary>Rows without weight in which one is put into others and comes out: what leaves took momentum from nothing.</summary>
     [Theory]
     [InlineData(1001051)]

@@ -23,7 +23,7 @@ public sealed class ContactRuleTests
         Scene scene = Heap();
         Simulation simulation = new(scene, Options(new FaultyContactScale(scene) { CutsImpactsShort = isCutShort }));
         Assert.Equal(isCutShort, Deepest(simulation, 2) > Tolerance);
-        Assert.Equal(isCutShort, simulation.ImpactsProcessed > 500); // 879, and 216 by the rule
+        Assert.Equal(isCutShort, simulation.ImpactsProcessed > 1_000);
     }
 
     /// <summary>
@@ -91,7 +91,7 @@ public sealed class ContactRuleTests
         Simulation simulation = new(scene, Options(new FaultyContactScale(scene) { StrikesWhatIsSlow = isStruck }));
         long most = 10_000;
         simulation.TryAdvanceTo(At(2), ref most);
-        Assert.Equal(isStruck, simulation.ImpactsProcessed > 300); // 364, and 216 by the rule
+        Assert.Equal(isStruck, simulation.ImpactsProcessed > 2_000);
     }
 
     /// <summary>Rule 14: what closes again in the instant in which it bounced bounces no second time. The control has it bounce as often as it closes.</summary>
