@@ -1,6 +1,5 @@
 using LagSim.BroadPhase;
 using LagSim.Collisions;
-using LagSim.Time;
 using LagSim.Timelines;
 
 namespace LagSim;
@@ -15,12 +14,6 @@ internal sealed class BroadPhaseGrowth(
         if (!broadPhase.IsOutgrown)
         {
             return;
-        }
-
-        if (!rollback.IsActive && rollback.Cursor.Time <= progress.SimulatedTo)
-        {
-            // The cursor is at the last event, which may be long ago, and no body would be listed between then and now.
-            rollback.Cursor = Events.EventKey.Before(progress.SimulatedTo + SimDuration.OneTick);
         }
 
         broadPhase.Rebuild(progress.HistoryEdge, rollback.Cursor.Time);

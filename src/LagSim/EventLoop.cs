@@ -97,6 +97,7 @@ internal sealed class EventLoop(
         }
 
         progress.SimulatedTo = stop != Stop.None ? reached : until;
+        rollback.MoveOn(EventKey.Before(progress.SimulatedTo + SimDuration.OneTick));
         rewinder.EndIfDone();
         ForgetUpTo(progress.SimulatedTo);
         if (stop == Stop.Cancelled)

@@ -19,7 +19,7 @@ internal sealed class RollbackState
     /// </summary>
     internal SimTime Horizon { get; private set; }
 
-    /// <summary>The current event, or the key that was rewound to.</summary>
+    /// <summary>The current event, or the key that was rewound to; between advances no earlier than what comes next.</summary>
     internal EventKey Cursor { get; set; }
 
     /// <summary>Segments up to this serial are from before the current rollback. Only in one of the causal cone.</summary>
@@ -72,6 +72,12 @@ internal sealed class RollbackState
 
     /// <summary>From now on the current rollback, if there is one, re-simulates all bodies.</summary>
     internal void BecomeFull() => Kind = IsActive ? RollbackKind.Full : RollbackKind.None;
+
+    /// <summary>
+    /// All before a key has happened. What is predicted then is predicted from there on: from the last event on, which may be long ago, the broad
+    /// phase would ask to be looked at again at an instant that is over, and a heal that went back to it would take its late event for done.
+    /// </summary>
+    internal void MoveOn(in EventKey key) => Cursor = EventKey.Compare(key, Cursor) > 0 ? key : Cursor;
 
     /// <summary>The current rollback is done.</summary>
     internal void End() => Kind = RollbackKind.None;

@@ -72,6 +72,13 @@ public sealed class WorldCheckTests
         Assert.Equal(WorldFailureKind.Differs, Assert.Single(Run(options with { PrepareLate = late => late.WithParts(parts) }).Failures).FailureKind);
     }
 
+    /// <summary>
+    /// An event that is to come is taken back, and its body predicted again, as from now on; then a late one comes. (As from the last event
+    /// on, the broad phase wanted a look at an instant that was over, and the heal that began there took the late event for done.)
+    /// </summary>
+    [Fact]
+    public void Run_LateEventAfterOneThatWasTakenBack_TakesEffect() => Assert.Empty(Run(new WorldOptions { Worlds = 1, Seed = 9_023_183, ShrinkingPlays = 0 }).Failures);
+
     /// <summary>Rows without weight in which one is put into others and comes out: what leaves took momentum from nothing.</summary>
     [Theory]
     [InlineData(1001051)]
