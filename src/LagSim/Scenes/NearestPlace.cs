@@ -134,7 +134,7 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
             return false;
         }
 
-        private static bool IsIn(ReadOnlySpan<HalfSpace> all, in Vector3D way, double slack)
+        private static bool IsIn(Span<HalfSpace> all, in Vector3D way, double slack)
         {
             bool isIn = true;
             foreach (ref readonly HalfSpace half in all)
@@ -146,7 +146,7 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
         }
 
         /// <summary>The shortest way to where the planes of the first half-space and of others meet, if each of them pushes.</summary>
-        private static bool TryMeet(ReadOnlySpan<HalfSpace> all, int size, int second, int third, out Vector3D way)
+        private static bool TryMeet(Span<HalfSpace> all, int size, int second, int third, out Vector3D way)
         {
             (Vector3D a, double p) = (all[0].Normal, all[0].Needed);
             way = a * p;
