@@ -41,6 +41,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await using IBrowserContext one = await served.Browser.NewContextAsync(Phone), other = await served.Browser.NewContextAsync(Phone);
         JoinedPage[] phones = [await JoinedPage.OpenAsync(one, address), await JoinedPage.OpenAsync(other, address)];
         await phones[0].AskAsync("Ann");
+        await phones[0].Page.GetByText("waiting for the others").WaitForAsync(); // so that the left side is hers
         await phones[1].AskAsync("Bob");
         await phones[0].RunningAsync();
         await phones[1].RunningAsync();
@@ -144,6 +145,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await using IBrowserContext third = await served.Browser.NewContextAsync(Phone);
         JoinedPage[] players = [await JoinedPage.OpenAsync(one, address), await JoinedPage.OpenAsync(other, address)];
         await players[0].AskAsync("Ann");
+        await players[0].Page.GetByText("waiting for the others").WaitForAsync(); // so that the left side is hers
         await players[1].AskAsync("<b>WWWWWWWWWWWWWWWWW</b>"); // as wide as names are, and not a part of the page
         await players[0].RunningAsync();
         await players[1].RunningAsync();
