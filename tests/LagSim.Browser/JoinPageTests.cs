@@ -47,6 +47,22 @@ public sealed class JoinPageTests(ServedPage served)
         Assert.Empty(again.Complaints);
     }
 
+    /// <summary>A tab takes a seat at a time. With it: for how many milliseconds the tab stood still at most, since it answers others only while it runs.</summary>
+    private const string TakeSeat =
+        """
+        async at => {
+          const { Seat } = await import('./seats.mjs')
+          let last = Date.now(), stood = 0
+          const watch = setInterval(() => { const now = Date.now(); stood = Math.max(stood, now - last - 10); last = now }, 10)
+          await new Promise(resolve => setTimeout(resolve, at - Date.now()))
+          const seat = await Seat.take('somewhere')
+          await new Promise(resolve => setTimeout(resolve, 300))
+          clearInterval(watch)
+          setTimeout(() => seat.leave(), 700)
+          return [seat.number, stood]
+        }
+        """;
+
     /// <summary>However close to each other tabs are opened, each has a seat of its own, by what they say to each other alone.</summary>
     [Fact]
     public async Task Seats_TakenAtTheSameTime_AreNotTheSame()
@@ -58,19 +74,15 @@ public sealed class JoinPageTests(ServedPage served)
         await Task.WhenAll(pages.Select(page => page.GotoAsync(served.Address)));
         foreach (int apart in new[] { 0, 1, 30, 100, 100, 100, 100, 100, 100, 190, 210 })
         {
-            long at = DateTimeOffset.UtcNow.ToUnixTimeMilliseconds() + 300;
-            int[] seats = await Task.WhenAll(pages.Select((page, n) => page.EvaluateAsync<int>(
-                """
-                async at => {
-                  const { Seat } = await import('./seats.mjs')
-                  await new Promise(resolve => setTimeout(resolve, at - Date.now()))
-                  const seat = await Seat.take('somewhere')
-                  setTimeout(() => seat.leave(), 1000)
-                  return seat.number
-                }
-                """, at + (n * apart))));
-            Assert.Equal([0, 1], seats.Order());
-            await pages[0].WaitForTimeoutAsync(1200);
+            int[][] seats = [];
+            for (int tries = 0; tries < 10 && (tries == 0 || seats.Any(seat => seat[1] > 50)); tries++)
+            {
+                long at = DateTimeOffset.UtcNow.ToUnixTimeMilliseconds() + 300;
+                seats = await Task.WhenAll(pages.Select((page, n) => page.EvaluateAsync<int[]>(TakeSeat, at + (n * apart))));
+                await pages[0].WaitForTimeoutAsync(1200);
+            }
+
+            Assert.Equal([0, 1], seats.Select(seat => seat[0]).Order());
         }
     }
 
