@@ -4,41 +4,35 @@ namespace LagSim.Scenes;
 
 /// <summary>The nearest place for a ball that is outside of the static geometry that stops it.</summary>
 /// <remarks>
-/// <para>Outside of a plane is a half-space, and outside of a static sphere is at least the half-space beyond its tangent plane. The nearest
-/// point of half-spaces is found as the least point of an LP-type problem (Sharir and Welzl 1992): from a basis of at most three planes that
-/// push, the one that is violated most joins, and the nearest point of those four gives the next basis. Each basis is further off than the
-/// one before, so it ends. Planes come first; then the tangent planes of spheres join, and are taken anew where that point is as long as it comes
-/// nearer. So among planes the place is the nearest there is; beside static spheres there may be a nearer one.</para>
+/// <para>Outside of a plane is a half-space, and outside of a static sphere is at least the half-space beyond a tangent plane. The nearest
+/// point of half-spaces is found as an LP-type problem (Sharir and Welzl 1992): to a basis, of three planes at most, comes the plane that it
+/// leaves the ball in most deeply, and the nearest point of those four gives the next basis. Each is further off than the one before, so it
+/// ends. The tangents of spheres are those at the nearest place outside of the planes. So among planes, and beside one sphere alone, it is
+/// the nearest place there is; beside several there may be a nearer one.</para>
 /// <para>Pure and immutable. Cost: the surfaces of the scene, times the few that push.</para>
 /// </remarks>
 internal sealed class NearestPlace(StaticSurfaces surfaces)
 {
-    /// <summary>How often tangent planes are taken anew, at most: each time the error is squared.</summary>
-    private const int MaxTangents = 8;
-
-    /// <summary>The sine of the least angle between planes that are not taken for parallel: their edge is a million times as far off as the ball is deep.</summary>
+    /// <summary>
+    /// The sine of the least angle between planes that are not taken for parallel: their edge is a million radii away. Already below a
+    /// thousandth rounding may leave the ball inside one of them; then there is no place either.
+    /// </summary>
     private const double LeastSine = 1e-6;
 
     /// <summary>Finds the place; false if the half-spaces have no point in common, so that there is none between these surfaces.</summary>
     /// <param name="position">Where the ball's centre is.</param>
     /// <param name="radius">Its radius.</param>
     /// <param name="filter">What it collides with.</param>
-    /// <param name="place">Where its centre is put: where it is, if it is outside but for rounding. Without an answer, where planes alone would have it.</param>
+    /// <param name="place">Where its centre is put: where it is, if it is outside but for rounding. If there is none, where planes alone
+    /// would have it.</param>
     internal bool TryFind(in Vector3D position, double radius, CollisionFilter filter, out Vector3D place)
     {
-        place = position;
-        bool isFound = TryFindWay(position, place, radius, filter, surfaces.Planes, out Vector3D way);
+        bool isFound = TryFindWay(position, position, radius, filter, surfaces.Planes, out Vector3D way);
         place = position + way;
-        for (int n = 0; n < MaxTangents && isFound && surfaces.Planes < surfaces.Count; n++)
+        if (isFound && surfaces.Planes < surfaces.Count)
         {
-            isFound = TryFindWay(position, place, radius, filter, surfaces.Count, out Vector3D next);
-            if (!isFound || (n > 0 && !(next.Length < way.Length)))
-            {
-                return n > 0;
-            }
-
-            way = next;
-            place = position + way;
+            isFound = TryFindWay(position, place, radius, filter, surfaces.Count, out way);
+            place = isFound ? position + way : place;
         }
 
         return isFound;

@@ -2,8 +2,8 @@ using System.Collections.Generic;
 
 namespace LagSim.Scenes;
 
-/// <summary>Places around a place, in a fixed order: 26 directions on each of 64 spheres, each half a radius of the ball wider than the one before.</summary>
-/// <remarks>First beside, then above, then below. Pure, safe on any thread.</remarks>
+/// <summary>Places around a place, in a fixed order: in 26 directions on each of 64 spheres.</summary>
+/// <remarks>Each sphere is half a radius of the ball wider than the one before. First beside, then above, then below. Pure, safe on any thread.</remarks>
 internal static class PlacesAround
 {
     /// <summary>The last sphere has 32 radii.</summary>

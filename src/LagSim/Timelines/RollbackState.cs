@@ -74,8 +74,8 @@ internal sealed class RollbackState
     internal void BecomeFull() => Kind = IsActive ? RollbackKind.Full : RollbackKind.None;
 
     /// <summary>
-    /// All before a key has happened. What is predicted then is predicted from there on: from the last event on, which may be long ago, the broad
-    /// phase would ask to be looked at again at an instant that is over, and a heal that went back to it would take its late event for done.
+    /// All before a key has happened, and predictions begin there. From the last event on, which may be long ago, the broad phase would ask
+    /// to be looked at again at an instant that is over; a heal would go back to it, and take its late event for done.
     /// </summary>
     internal void MoveOn(in EventKey key) => Cursor = EventKey.Compare(key, Cursor) > 0 ? key : Cursor;
 

@@ -69,6 +69,17 @@ public sealed class NearestPlaceTests
         Assert.True(found > 300, $"{found}");
     }
 
+    /// <summary>A wedge has a place as long as its planes can be told from parallel ones.</summary>
+    [Theory]
+    [InlineData(1e-2, true)]
+    [InlineData(1e-7, false)]
+    public void Place_BehindAWedgeThatIsAllButFlat_IsFarAwayOrNone(double sine, bool isFound)
+    {
+        StaticPlane[] wedge = [new StaticPlane("floor", V(0, 1), 0, 0, 0), new StaticPlane("wall", V(sine, -1).Direction, 0, 0, 0)];
+        Assert.Equal(isFound, new NearestPlace(new StaticSurfaces(wedge, [])).TryFind(V(-1, 0), Radius, default, out Vector3D place));
+        Assert.True(!isFound || Math.Abs((place.X * sine / (2 * Radius)) - 1) < 1e-4);
+    }
+
     [Fact]
     public void Place_BetweenPlanesTooClose_IsNone() => Assert.False(new NearestPlace(
         new StaticSurfaces([new StaticPlane("a", V(1), 0, 0, 0), new StaticPlane("b", V(-1), -0.4, 0, 0)], [])).TryFind(V(0.2), Radius, default, out _));
