@@ -70,7 +70,7 @@ internal sealed class Engine
         SegmentLookup view = parts.SegmentLookup(Timelines, rollback);
         StepMarks marks = new();
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
-        MemberContacts memberContacts = new(Timelines, view, Bodies, scene.Surfaces, Step.Scale);
+        MemberContacts memberContacts = new(Timelines, Bodies, scene.Surfaces, Step.Scale);
         CollisionPredictor collisions = new(
             scene, start, Bodies, Timelines, memberContacts, strikes, Step.Scale, hasIslands);
         CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, view, marks);
@@ -123,7 +123,8 @@ internal sealed class Engine
         ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
             scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph, partners);
         IslandImpactProblem problem = new(Step, work);
-        IslandImpactSegments memberSegments = new(Bodies, Timelines, graph, problem, members, trajectories, resolver, segments, closed);
+        IslandImpactSegments memberSegments = new(
+            Bodies, Timelines, graph, problem, members, memberContacts, trajectories, resolver, segments, closed);
         IslandImpact island = new(
             scene, Bodies, Timelines, rewinds, graph, Step.Scale, problem, partners, memberContacts, trajectories.Friction, notifier,
             memberSegments, blows);

@@ -207,6 +207,13 @@ internal static class SnapshotCheck
                     + $" the body itself, and {PersistentContact.NoSurface} goes with another.");
             }
 
+            if (contact.Solved && !(contact.Holds && !isPair && body.Opened.Kind == EventKind.Impact))
+            {
+                throw new SceneException(
+                    $"A contact of {whose} is solved; only a surface that holds can be, and only after an impact, but this is {(isPair ? "a body" : "a surface")},"
+                    + $" it {(contact.Holds ? "holds" : "does not hold")}, and the path was opened by {body.Opened.Kind}.");
+            }
+
             Limits.Components(contact.Push, double.MaxValue, whose, "impulse of a contact", "N s");
             Limits.Components(contact.Turn, double.MaxValue, whose, "angular impulse of a contact", "N m s");
         }

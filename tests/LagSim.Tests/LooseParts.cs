@@ -53,11 +53,10 @@ internal static class LooseParts
     }
 
     /// <summary>A predictor of the contacts of these paths in a scene with these surfaces.</summary>
-    internal static CollisionPredictor Predictor(
-        Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view)
+    internal static CollisionPredictor Predictor(Scene scene, BodyTable bodies, TimelineStore timelines)
     {
         ContactScale scale = new(scene.ContactTolerance, scene.Gravity, default);
-        MemberContacts members = new(timelines, view, bodies, scene.Surfaces, scale);
+        MemberContacts members = new(timelines, bodies, scene.Surfaces, scale);
         StrikeCounts strikes = new(timelines, bodies, scene.Surfaces, scene.Box);
         return new CollisionPredictor(scene, default, bodies, timelines, members, strikes, scale, hasIslands: true);
     }

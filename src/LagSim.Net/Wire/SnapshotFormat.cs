@@ -22,11 +22,13 @@ internal static class SnapshotFormat
     private const byte FilterFlag = 2;
     private const byte PlayersFlag = 4;
     private const byte SensorsFlag = 8;
+    private const byte HoldsFlag = 1; // of a contact
+    private const byte SolvedFlag = 3; // and holds
     private const int HoldBytes = 57; // cubic, peer, offset, keyframe
     private const int MemberBytes = 18; // centre, still since, number of contacts
     private const int SideBytes = 4; // two counts
     private const int CrossingBytes = 15; // time, round, sensor, whether it entered
-    private const int ContactBytes = 61; // partner, surface, whether it holds, push, turn
+    private const int ContactBytes = 61; // partner, surface, whether it holds and is solved, push, turn
 
     /// <summary>Encodes a snapshot.</summary>
     /// <exception cref="ArgumentException">
@@ -277,7 +279,9 @@ internal static class SnapshotFormat
             writer.WriteUInt64(contact.Partner.Packed);
             writer.WriteUInt32(contact.Surface >= PersistentContact.NoSurface ? unchecked((uint)contact.Surface)
                 : throw new ArgumentException($"Body {body.Id} cannot travel: it has a contact with surface {contact.Surface}."));
-            writer.WriteByte(contact.Holds ? (byte)1 : (byte)0);
+            writer.WriteByte(!contact.Solved ? contact.Holds ? HoldsFlag : (byte)0
+                : contact.Holds && contact.Surface != PersistentContact.NoSurface ? SolvedFlag
+                : throw new ArgumentException($"Body {body.Id} cannot travel: it has a solved contact that is none with a surface that holds."));
             WriteExactly(ref writer, contact.Push);
             WriteExactly(ref writer, contact.Turn);
         }
@@ -295,8 +299,9 @@ internal static class SnapshotFormat
             BodyId partner = BodyId.FromPacked(reader.ReadUInt64());
             int surface = unchecked((int)reader.ReadUInt32());
             byte holds = reader.ReadByte();
-            reader.Require(surface >= PersistentContact.NoSurface && holds <= 1);
-            contacts[i] = new PersistentContact(partner, surface, holds == 1, ReadExactly(ref reader), ReadExactly(ref reader));
+            bool solved = holds == SolvedFlag;
+            reader.Require(surface >= PersistentContact.NoSurface && (holds <= HoldsFlag || (solved && surface != PersistentContact.NoSurface)));
+            contacts[i] = new PersistentContact(partner, surface, holds != 0, ReadExactly(ref reader), ReadExactly(ref reader), solved);
         }
 
         return contacts;

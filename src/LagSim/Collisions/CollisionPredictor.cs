@@ -43,7 +43,7 @@ internal sealed class CollisionPredictor(
             return false; // the surface that carries a body stays below it until another event, and nothing static stops a hand
         }
 
-        if (segment.Law == MotionLaw.Constrained && (members.IsOutOfReach(slot, segment, surface) || members.IsCovered(slot, last, surface)))
+        if (segment.Law == MotionLaw.Constrained && (members.IsOutOfReach(slot, segment, surface) || members.IsCovered(last, surface)))
         {
             return false;
         }

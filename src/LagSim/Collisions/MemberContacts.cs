@@ -10,16 +10,16 @@ namespace LagSim.Collisions;
 
 /// <summary>Decides which contacts of members are left to their steps, so that no impact is searched for.</summary>
 internal sealed class MemberContacts(
-    TimelineStore timelines, SegmentLookup view, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
+    TimelineStore timelines, BodyTable bodies, StaticSurfaces surfaces, ContactScale scale)
 {
     private readonly Paths paths = new(timelines);
 
     /// <summary>
     /// Whether a contact that a member's segment carries is left to the step, not to impacts: a surface that the step took into account, or
-    /// one that an impact by a hand did, which may press no further, or that the member does not close on. What a step's solver leaves is
-    /// an error of the step, and the next continues from it.
+    /// that an impact by a hand has solved, or that the member does not close on. What a step's solver leaves is an error of the step, and
+    /// the next continues from it.
     /// </summary>
-    internal bool IsCovered(int slot, int piece, int surface)
+    internal bool IsCovered(int piece, int surface)
     {
         int at = timelines.Carried.With(piece, surface);
         if (at == TimelineStore.None)
@@ -28,7 +28,7 @@ internal sealed class MemberContacts(
         }
 
         ref readonly MotionSegment path = ref timelines.Segment(piece);
-        return timelines.Key(piece).Kind == EventKind.StepEnd || (IsSolved(slot, piece, at) && IsOpenedWithHand(piece))
+        return timelines.Key(piece).Kind == EventKind.StepEnd || timelines.Carried.At(at).Solved
             || (timelines.Carried.At(at).Holds && Vector3D.Dot(surfaces.Normal(surface, path.Position), path.Velocity) >= -scale.ImpactSpeed);
     }
 
@@ -38,30 +38,6 @@ internal sealed class MemberContacts(
     /// </summary>
     private bool IsSolved(int slot, int piece, int contact) =>
         timelines.Key(piece).Kind == EventKind.Impact && timelines.Carried.At(contact).Holds && !IsElastic(slot, timelines.Carried.At(contact));
-
-    /// <summary>
-    /// Whether the impact that opened a member's segment was one with a hand that the member touches. A world that began from a snapshot
-    /// may know the hand's path only from a later segment on; then that segment decides.
-    /// </summary>
-    private bool IsOpenedWithHand(int piece)
-    {
-        bool isByHand = false;
-        for (int at = timelines.Carried.First(piece); at != TimelineStore.None && !isByHand; at = timelines.Carried.Next(at))
-        {
-            ref readonly PersistentContact contact = ref timelines.Carried.At(at);
-            int partner = contact.Surface == PersistentContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
-            isByHand = partner >= 0 && IsOpenedWith(partner, timelines.Key(piece));
-        }
-
-        return isByHand;
-    }
-
-    private bool IsOpenedWith(int hand, in EventKey key)
-    {
-        int before = view.SegmentBefore(hand, key);
-        int opened = before == TimelineStore.None ? timelines.First(hand) : timelines.Next(before);
-        return opened != TimelineStore.None && paths.IsHeld(opened) && (before == TimelineStore.None || timelines.Key(opened) == key);
-    }
 
     /// <summary>Whether a member is surely further from a surface than it gets on its chord.</summary>
     internal bool IsOutOfReach(int slot, in MotionSegment chord, int surface)

@@ -58,7 +58,7 @@ internal class MemberFactory(BodyTable bodies, TimelineStore timelines, in Force
         timelines.BeginMember(piece, centre, still);
         for (int at = timelines.Carried.First(before); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
-            PersistentContact contact = timelines.Carried.At(at);
+            PersistentContact contact = timelines.Carried.At(at).GoingOn; // a copy, since the list may move
             timelines.Carried.Add(piece, contact);
         }
 

@@ -1,3 +1,4 @@
+using LagSim.Collisions;
 using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Islands;
@@ -14,7 +15,7 @@ namespace LagSim.Response;
 /// </summary>
 internal sealed class IslandImpactSegments(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, IslandImpactProblem impact, MemberFactory members,
-    TrajectoryFactory trajectories, FreeImpactResponse resolver, ImpactSegments alone, ClosedInstants closed)
+    MemberContacts memberContacts, TrajectoryFactory trajectories, FreeImpactResponse resolver, ImpactSegments alone, ClosedInstants closed)
 {
     private readonly Paths paths = new(timelines);
 
@@ -84,6 +85,11 @@ internal sealed class IslandImpactSegments(
         }
 
         AddPersistentContact(body, timelines.Last(slot));
+        if (TouchesHand(timelines.Last(slot)))
+        {
+            LeaveSurfacesToStep(slot);
+        }
+
         timelines.EndMember(timelines.Last(slot), bodies.Id(slot));
     }
 
@@ -122,6 +128,36 @@ internal sealed class IslandImpactSegments(
             else if (c.Lasts)
             {
                 timelines.Carried.Add(piece, new PersistentContact(partner, isPair ? PersistentContact.NoSurface : c.Surface, holds: true));
+            }
+        }
+    }
+
+    /// <summary>Whether a member carries a contact with a hand of the impact.</summary>
+    private bool TouchesHand(int piece)
+    {
+        bool touches = false;
+        for (int at = timelines.Carried.First(piece); at != TimelineStore.None && !touches; at = timelines.Carried.Next(at))
+        {
+            ref readonly PersistentContact contact = ref timelines.Carried.At(at);
+            int partner = contact.Surface == PersistentContact.NoSurface ? bodies.SlotOf(contact.Partner) : -1;
+            touches = partner >= 0 && graph.IndexOf(partner) >= 0 && paths.IsHeld(timelines.Last(partner));
+        }
+
+        return touches;
+    }
+
+    /// <summary>
+    /// What a hand's impact has solved it may press no further: surfaces that hold are left to the step, except elastic ones, which impacts
+    /// do not pass over.
+    /// </summary>
+    private void LeaveSurfacesToStep(int slot)
+    {
+        for (int at = timelines.Carried.First(timelines.Last(slot)); at != TimelineStore.None; at = timelines.Carried.Next(at))
+        {
+            ref readonly PersistentContact contact = ref timelines.Carried.At(at);
+            if (contact.Surface != PersistentContact.NoSurface && contact.Holds && !memberContacts.IsElastic(slot, contact))
+            {
+                timelines.Carried.Solve(at);
             }
         }
     }

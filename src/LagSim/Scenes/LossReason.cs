@@ -1,6 +1,6 @@
 namespace LagSim.Scenes;
 
-/// <summary>Why a body has left the world by itself: its motion cannot be followed further. The numbers are part of hashes: never renumber.</summary>
+/// <summary>Why a body has left the world by itself: its motion cannot be followed further, or there is no room for it. The numbers are part of hashes: never renumber.</summary>
 /// <remarks>
 /// What one body does never ends a world. A body that cannot be followed is taken out of it at that instant, by an event of the fold
 /// (<see cref="Events.EventKind.Lost"/>), on every peer alike.

@@ -13,10 +13,7 @@ namespace LagSim.Scenes;
 /// </remarks>
 internal sealed class NearestPlace(StaticSurfaces surfaces)
 {
-    /// <summary>
-    /// The sine of the least angle between planes that are not taken for parallel: their edge is a million radii away. Already below a
-    /// thousandth rounding may leave the ball inside one of them; then there is no place either.
-    /// </summary>
+    /// <summary>The sine of the least angle between planes that are not taken for parallel: their edge is a million radii away.</summary>
     private const double LeastSine = 1e-6;
 
     /// <summary>Finds the place; false if the half-spaces have no point in common, so that there is none between these surfaces.</summary>
@@ -139,33 +136,41 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
             return isIn;
         }
 
-        /// <summary>The shortest way to where the planes of the first half-space and of others meet, if each of them pushes.</summary>
+        /// <summary>
+        /// The shortest way to where the planes of the first half-space and of others meet, if each of them pushes: by a QR decomposition of
+        /// their normals, which keeps its figures where planes are all but parallel.
+        /// </summary>
         private static bool TryMeet(Span<HalfSpace> all, int size, int second, int third, out Vector3D way)
         {
-            (Vector3D a, double p) = (all[0].Normal, all[0].Needed);
-            way = a * p;
+            (Vector3D a, double alongA) = (all[0].Normal, all[0].Needed);
+            way = a * alongA;
             if (size == 1)
             {
                 return true;
             }
 
-            (Vector3D b, double q) = (all[second].Normal, all[second].Needed);
-            Vector3D edge = Vector3D.Cross(a, b);
-            double sine2 = edge.LengthSquared;
+            Vector3D b = all[second].Normal;
+            double cosine = Vector3D.Dot(a, b);
+            Vector3D across = b - (a * cosine);
+            across = (across - (a * Vector3D.Dot(a, across))).Direction; // once more, since what was left of b may be little
+            double sine = Vector3D.Dot(across, b);
+            double alongB = (all[second].Needed - (cosine * alongA)) / sine;
+            way += across * alongB;
             if (size == 2)
             {
-                double cosine = Vector3D.Dot(a, b);
-                (double pushA, double pushB) = (p - (cosine * q), q - (cosine * p));
-                way = ((a * pushA) + (b * pushB)) * (1 / sine2);
-                return sine2 > LeastSine * LeastSine && pushA >= 0 && pushB >= 0;
+                double pushB = alongB / sine;
+                return sine > LeastSine && pushB >= 0 && alongA - (cosine * pushB) >= 0;
             }
 
-            (Vector3D c, double r) = (all[third].Normal, all[third].Needed);
-            Vector3D bc = Vector3D.Cross(b, c), ca = Vector3D.Cross(c, a);
-            double volume = Vector3D.Dot(edge, c);
-            way = ((bc * p) + (ca * q) + (edge * r)) * (1 / volume);
-            return Math.Abs(volume) > LeastSine * LeastSine && Vector3D.Dot(way, bc) / volume >= 0
-                && Vector3D.Dot(way, ca) / volume >= 0 && Vector3D.Dot(way, edge) / volume >= 0;
+            Vector3D c = all[third].Normal;
+            Vector3D outside = Vector3D.Cross(a, across);
+            (double onA, double onB, double onC) = (Vector3D.Dot(a, c), Vector3D.Dot(across, c), Vector3D.Dot(outside, c));
+            double alongC = (all[third].Needed - (onA * alongA) - (onB * alongB)) / onC;
+            way += outside * alongC;
+            double pushOfC = alongC / onC;
+            double pushOfB = (alongB - (onB * pushOfC)) / sine;
+            return sine > LeastSine && Math.Abs(onC) > LeastSine && pushOfC >= 0 && pushOfB >= 0
+                && alongA - (cosine * pushOfB) - (onA * pushOfC) >= 0;
         }
     }
 }

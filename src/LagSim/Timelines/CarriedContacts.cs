@@ -147,6 +147,13 @@ internal sealed class CarriedContacts
         c = new PersistentContact(c.Partner, c.Surface, holds, c.Push, c.Turn);
     }
 
+    /// <summary>A contact of the segment begun, with a surface that holds, is solved.</summary>
+    internal void Solve(int contact)
+    {
+        ref PersistentContact c = ref contacts[contact];
+        c = new PersistentContact(c.Partner, c.Surface, holds: true, c.Push, c.Turn, solved: true);
+    }
+
     /// <summary>Makes room for as many segments as the store has, if any carries something.</summary>
     internal void Grow(int room)
     {
@@ -177,7 +184,7 @@ internal sealed class CarriedContacts
         for (int at = members[segment].First; at != None; at = nextContact[at])
         {
             hash.Add(contacts[at].Partner.Packed);
-            hash.Add(((ulong)(uint)contacts[at].Surface << 1) | (contacts[at].Holds ? 1UL : 0));
+            hash.Add(((ulong)(uint)contacts[at].Surface << 1) | (contacts[at].Holds ? 1UL : 0) | (contacts[at].Solved ? 1UL << 33 : 0));
             hash.Add(contacts[at].Push);
             hash.Add(contacts[at].Turn);
         }

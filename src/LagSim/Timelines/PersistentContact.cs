@@ -18,13 +18,15 @@ public readonly struct PersistentContact : IEquatable<PersistentContact>
     /// <param name="holds">See <see cref="Holds"/>.</param>
     /// <param name="push">See <see cref="Push"/>.</param>
     /// <param name="turn">See <see cref="Turn"/>.</param>
-    public PersistentContact(BodyId partner, int surface, bool holds, in Vector3D push = default, in Vector3D turn = default)
+    /// <param name="solved">See <see cref="Solved"/>.</param>
+    public PersistentContact(BodyId partner, int surface, bool holds, in Vector3D push = default, in Vector3D turn = default, bool solved = false)
     {
         Partner = partner;
         Surface = surface;
         Holds = holds;
         Push = push;
         Turn = turn;
+        Solved = solved;
     }
 
     /// <summary>The other body; this one itself where it is a static surface.</summary>
@@ -42,9 +44,18 @@ public readonly struct PersistentContact : IEquatable<PersistentContact>
     /// <summary>The angular impulse of rolling resistance, in N m s.</summary>
     public Vector3D Turn { get; }
 
+    /// <summary>
+    /// Whether the impact by a hand that opened the segment has solved it, a surface that holds: it may press no further, and what that left
+    /// to close is the step's, not an impact's.
+    /// </summary>
+    public bool Solved { get; }
+
+    /// <summary>The same contact as a later segment of the step carries it.</summary>
+    internal PersistentContact GoingOn => new(Partner, Surface, Holds, Push, Turn);
+
     /// <summary>Whether every part is the same, to the bit.</summary>
-    public bool Equals(PersistentContact other) =>
-        Partner == other.Partner && Surface == other.Surface && Holds == other.Holds && Push.Equals(other.Push) && Turn.Equals(other.Turn);
+    public bool Equals(PersistentContact other) => Partner == other.Partner && Surface == other.Surface && Holds == other.Holds
+        && Solved == other.Solved && Push.Equals(other.Push) && Turn.Equals(other.Turn);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is PersistentContact other && Equals(other);

@@ -5,6 +5,7 @@ using LagSim.Harness.Verification.Worlds;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
 using LagSim.Time;
+using LagSim.Timelines;
 using Xunit;
 
 namespace LagSim.Tests.Checks;
@@ -78,6 +79,23 @@ public sealed class WorldCheckTests
     /// </summary>
     [Fact]
     public void Run_LateEventAfterOneThatWasTakenBack_TakesEffect() => Assert.Empty(Run(new WorldOptions { Worlds = 1, Seed = 9_023_183, ShrinkingPlays = 0 }).Failures);
+
+    /// <summary>A hand strikes in a jam and lets go within the step; a snapshot of after that knows what the impact has left to the step.</summary>
+    [Fact]
+    public void Run_HandThatLetsGoWithinTheStepOfItsImpact_HasTheSameBits()
+    {
+        WorldOptions options = new() { Worlds = 1, Seed = 3_000_875, ShrinkingPlays = 0 };
+        Assert.Empty(Run(options).Failures);
+        Assert.Equal(WorldFailureKind.Differs, Assert.Single(Run(options with { PrepareSnapshot = Forgetful }).Failures).FailureKind);
+
+        static WorldSnapshot Forgetful(WorldSnapshot s) =>
+            new(s.Start, s.Time, s.EventHash, [.. s.Bodies.Select(b => b.Contacts.Length > 0 ? WithoutSolved(b) : b)], s.RuleState);
+
+        static BodySnapshot WithoutSolved(BodySnapshot b) => new(
+            b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: b.Spin, spinRate: b.SpinRate, centre: b.Centre,
+            stillSince: b.StillSince, contacts: [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, c.Push, c.Turn))],
+            filter: b.Filter, players: b.Players);
+    }
 
     /// <summary>Rows without weight in which one is put into others and comes out: what leaves took momentum from nothing.</summary>
     [Theory]

@@ -25,8 +25,7 @@ public sealed class CollisionPredictorTests
 
     public CollisionPredictorTests()
     {
-        RollbackState rollback = new();
-        predictor = Predictor(Floor, bodies, timelines, new SegmentLookup(timelines, rollback));
+        predictor = Predictor(Floor, bodies, timelines);
     }
 
     [Theory]

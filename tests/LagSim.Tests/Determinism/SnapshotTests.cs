@@ -167,6 +167,27 @@ public sealed class SnapshotTests
     }
 
     [Fact]
+    public void Simulation_ContactThatNoImpactHasSolved_IsRefusedByName()
+    {
+        Simulation world = Run(new SceneBuilder("two").AddPlane("floor", Vector3D.Up, V(0)).AddBody("low", Ball(0.5, 1, 0), V(0, 0.5)).AddBody("high", Ball(0.5, 1, 0), V(0, 1.6)).Build(), 1);
+        WorldSnapshot good = world.Snapshot(At(0.6));
+        Assert.Equal(EventKind.StepEnd, good.Bodies[0].Opened.Kind);
+        Assert.Equal(world.StateHash(At(0.6)), new Simulation(world.Scene, With(solved: false)).StateHash(At(0.6))); // the control
+        string message = Assert.Throws<SceneException>(() => new Simulation(world.Scene, With(solved: true))).Message;
+        Assert.Contains("A contact of body 0.0.0", message, StringComparison.Ordinal);
+        Assert.Contains("opened by StepEnd", message, StringComparison.Ordinal);
+
+        WorldSnapshot With(bool solved)
+        {
+            BodySnapshot b = good.Bodies[0];
+            BodySnapshot changed = new(b.Id, b.Spec, b.Opened, b.Law, b.Epoch, b.End, b.Position, b.Velocity, b.Acceleration, spin: b.Spin, spinRate: b.SpinRate,
+                centre: b.Centre, stillSince: b.StillSince,
+                contacts: [.. b.Contacts.ToArray().Select(c => new PersistentContact(c.Partner, c.Surface, c.Holds, c.Push, c.Turn, solved && c.Surface >= 0))]);
+            return new WorldSnapshot(good.Start, good.Time, good.EventHash, [changed, good.Bodies[1]]);
+        }
+    }
+
+    [Fact]
     public void Simulation_SnapshotOutOfOrderOrTime_IsRefusedByName()
     {
         Simulation world = Run(Drop(4, 0.8), 1);

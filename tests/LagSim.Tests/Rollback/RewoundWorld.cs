@@ -32,7 +32,7 @@ internal sealed class RewoundWorld
         AddTwoStruck(Bodies, Timelines, byOneImpact);
         Log.TryAdd(1, Later, Later.Key, forwarded: false);
         SegmentLookup view = new(Timelines, Rollback);
-        CollisionPredictor collisions = Predictor(scene, Bodies, Timelines, view);
+        CollisionPredictor collisions = Predictor(scene, Bodies, Timelines);
         CollisionSearch search = new(Bodies, Timelines, flights, scene.Surfaces, collisions, view, new StepMarks());
         AdaptiveBroadPhase broadPhase = new(scene, Bodies, Timelines, bruteForceLimit: 2);
         broadPhase.Begin();

@@ -72,12 +72,15 @@ public sealed class NearestPlaceTests
     /// <summary>A wedge has a place as long as its planes can be told from parallel ones.</summary>
     [Theory]
     [InlineData(1e-2, true)]
-    [InlineData(1e-7, false)]
+    [InlineData(1e-4, true)]
+    [InlineData(1e-5, true)]
+    [InlineData(1.1e-6, true)]
+    [InlineData(0.9e-6, false)]
     public void Place_BehindAWedgeThatIsAllButFlat_IsFarAwayOrNone(double sine, bool isFound)
     {
         StaticPlane[] wedge = [new StaticPlane("floor", V(0, 1), 0, 0, 0), new StaticPlane("wall", V(sine, -1).Direction, 0, 0, 0)];
         Assert.Equal(isFound, new NearestPlace(new StaticSurfaces(wedge, [])).TryFind(V(-1, 0), Radius, default, out Vector3D place));
-        Assert.True(!isFound || Math.Abs((place.X * sine / (2 * Radius)) - 1) < 1e-4);
+        Assert.True(!isFound || Math.Abs((place.X * sine / (Radius * (1 + Math.Sqrt(1 + (sine * sine))))) - 1) < 1e-9);
     }
 
     [Fact]

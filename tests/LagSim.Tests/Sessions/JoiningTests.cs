@@ -100,7 +100,7 @@ public sealed class JoiningTests
         bytes[2] = 77; // as a host of version 77 sends it
         group.Ports[0].Send(bytes, PeerAddress.Virtual(1));
         group.Run(0.1);
-        Assert.Equal("The host refused: it speaks version 77 of the protocol, this peer 12.", group.Sessions[1].EndReason);
+        Assert.Equal($"The host refused: it speaks version 77 of the protocol, this peer {Session.WireVersion}.", group.Sessions[1].EndReason);
     }
 
     [Fact]

@@ -32,7 +32,7 @@ public sealed class PersistentContactFormatTests
     [
         new(Second, PersistentContact.NoSurface, holds: true, V(1, -0.0, double.Epsilon), V(-0.0)),
         new(First, 0, holds: false, V(double.MaxValue, 2, 3), V(4, 5, 6)),
-        new(BodyId.FromPacked(ulong.MaxValue), int.MaxValue, holds: true),
+        new(BodyId.FromPacked(ulong.MaxValue), int.MaxValue, holds: true, solved: true),
     ];
 
     [Theory]
@@ -94,11 +94,16 @@ public sealed class PersistentContactFormatTests
     [InlineData(0, true)]
     [InlineData(1, true)]
     [InlineData(2, false)]
+    [InlineData(3, false)]
     [InlineData(255, false)]
-    public void TryDecode_Holds_IsZeroOrOne(byte holds, bool isAccepted)
+    [InlineData(1, true, 2)]
+    [InlineData(2, false, 2)]
+    [InlineData(3, true, 2)]
+    [InlineData(4, false, 2)]
+    public void TryDecode_Holds_IsZeroOrOneOrThreeForASurface(byte holds, bool isAccepted, int contact = 0)
     {
         byte[] bytes = SnapshotFormat.Encode(World(MotionLaw.Constrained, Three));
-        bytes[HoldsAt] = holds;
+        bytes[HoldsAt + (contact * ContactBytes)] = holds;
         AssertRefusal(isAccepted ? WireRefusal.None : WireRefusal.BadValue, bytes);
     }
 
@@ -160,6 +165,8 @@ public sealed class PersistentContactFormatTests
     {
         Refuse("65536 contacts", [.. Enumerable.Repeat(Three[0], ushort.MaxValue + 1)]);
         Refuse("surface -2", [new PersistentContact(First, -2, holds: true)]);
+        Refuse("solved", [new PersistentContact(Second, PersistentContact.NoSurface, holds: true, solved: true)]);
+        Refuse("solved", [new PersistentContact(First, 0, holds: false, solved: true)]);
         Refuse("finite", [new PersistentContact(Second, PersistentContact.NoSurface, holds: true, V(double.NaN))]);
         Refuse("finite", [new PersistentContact(Second, PersistentContact.NoSurface, holds: true, default, V(0, 0, double.PositiveInfinity))]);
 

@@ -51,5 +51,5 @@ internal static class SnapshotBits
         && a.Contacts.ToArray().Zip(b.Contacts.ToArray()).All(pair => Same(pair.First, pair.Second))
         && Numbers(a).Select(BitConverter.DoubleToInt64Bits).SequenceEqual(Numbers(b).Select(BitConverter.DoubleToInt64Bits));
 
-    private static bool Same(PersistentContact a, PersistentContact b) => (a.Partner, a.Surface, a.Holds) == (b.Partner, b.Surface, b.Holds);
+    private static bool Same(PersistentContact a, PersistentContact b) => (a.Partner, a.Surface, a.Holds, a.Solved) == (b.Partner, b.Surface, b.Holds, b.Solved);
 }

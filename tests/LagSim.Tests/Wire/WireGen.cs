@@ -52,7 +52,8 @@ internal static class WireGen
         from holds in Gen.Elements(true, false)
         from push in ExactVector
         from turn in ExactVector
-        select new PersistentContact(BodyId.FromPacked(partner), surface, holds, push, turn);
+        from solved in Gen.Elements(false, true)
+        select new PersistentContact(BodyId.FromPacked(partner), surface, holds, push, turn, solved && holds && surface != PersistentContact.NoSurface);
 
     internal static readonly Gen<CollisionFilter> Filter = Gen.OneOf(
         Gen.Constant(default(CollisionFilter)), from category in Bits32 from mask in Bits32 select new CollisionFilter(category, mask));

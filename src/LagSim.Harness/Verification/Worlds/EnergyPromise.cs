@@ -15,7 +15,7 @@ namespace LagSim.Harness.Verification.Worlds;
 /// <para>The bound is a millionth, for integrators; and where bodies are in contact steps, of which velocities read are those of their
 /// middles, the error of that: with the capture speed c = sqrt(2 a d) it is m (v c + 4 c²) of each body (docs/CONTACT.md, rule 1).</para>
 /// <para>Not judged while a hand holds something, while bodies are in one another because players put them there, and where rules act.
-/// The sum begins anew after that, and when a body has left the world with what it had.</para>
+/// After each of these, and after a body has left the world, it is compared with what there is then.</para>
 /// </remarks>
 internal sealed class EnergyPromise : WorldPromise
 {

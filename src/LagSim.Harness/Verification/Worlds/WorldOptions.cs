@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Timelines;
 
 namespace LagSim.Harness.Verification.Worlds;
 
@@ -29,6 +30,9 @@ public sealed record WorldOptions
 
     /// <summary>Changes the options of the worlds that hear of events late, for tests that inject faults into healing.</summary>
     internal Func<SimulationOptions, SimulationOptions> PrepareLate { get; init; } = static options => options;
+
+    /// <summary>Changes the snapshot from which a world goes on, for tests in which it lacks something.</summary>
+    internal Func<WorldSnapshot, WorldSnapshot> PrepareSnapshot { get; init; } = static snapshot => snapshot;
 
     /// <summary>The promises that are held to a world; a test adds its own.</summary>
     internal Func<WorldScene, IReadOnlyList<WorldPromise>> Promises { get; init; } = WorldPromise.All;

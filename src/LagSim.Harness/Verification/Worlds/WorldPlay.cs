@@ -182,7 +182,7 @@ internal sealed class WorldPlay
             ? from.Pick([.. acts]).Time + (SimDuration.OneTick * from.NextInt(2))
             : onTime.Start + SimDuration.FromSeconds(from.NextDouble() * world.Seconds);
         at = SimTime.Min(SimTime.Max(at, onTime.Start + SimDuration.OneTick), end);
-        WorldSnapshot snapshot = onTime.Snapshot(at);
+        WorldSnapshot snapshot = options.PrepareSnapshot(onTime.Snapshot(at));
         Simulation continued = new(world.Scene, snapshot, options.PrepareLate(DrawLists(from, Options())));
         string? wrong = null;
         foreach (ExternalEvent act in acts.Where(a => a.Time < at))
