@@ -299,6 +299,7 @@ internal class Rewinder : ISegmentOpenedObserver
                 any = true;
             }
 
+            CutStruckWith(body, from);
             if (Sensors is not null)
             {
                 if (body != slot && Sensors.HasFrom(body, from))
@@ -321,6 +322,27 @@ internal class Rewinder : ISegmentOpenedObserver
                 if (body != slot)
                 {
                     cut.Add(body);
+                }
+            }
+        }
+    }
+
+    /// <summary>
+    /// Cuts those that a body was struck with earlier in the instant of a key, and that were struck again in it after the key: whether that
+    /// is a collapse depends on who still touches them.
+    /// </summary>
+    private protected virtual void CutStruckWith(int body, in EventKey from)
+    {
+        for (int at = timelines.Last(body); at != TimelineStore.None && timelines.Key(at).Time == from.Time; at = timelines.Previous(at))
+        {
+            for (int other = timelines.Together(at); other != at; other = timelines.Together(other))
+            {
+                int partner = timelines.Owner(other);
+                int last = timelines.At(partner, from.Time);
+                if (last != TimelineStore.None && EventKey.Compare(timelines.Key(last), from) > 0
+                    && timelines.Key(last).Round >= CollisionPredictor.CollapseRound)
+                {
+                    cuts.Push((partner, from));
                 }
             }
         }

@@ -73,6 +73,16 @@ public sealed class WorldCheckTests
         Assert.Equal(WorldFailureKind.Differs, Assert.Single(Run(options with { PrepareLate = late => late.WithParts(parts) }).Failures).FailureKind);
     }
 
+    /// <summary>A heal takes back that a rule puts a body elsewhere in the very instant in which another strikes it, and then a wall.</summary>
+    [Fact]
+    public void Run_BodyThatStaysWhereItWasStruck_HasTheSameBits()
+    {
+        WorldOptions options = new() { Worlds = 1, Seed = 9_101_567, ShrinkingPlays = 0 };
+        Assert.Empty(Run(options).Failures);
+        FaultyEngineParts parts = new() { Healing = HealingFault.LeavesStruckAgain };
+        Assert.Equal(WorldFailureKind.Differs, Assert.Single(Run(options with { PrepareLate = late => late.WithParts(parts) }).Failures).FailureKind);
+    }
+
     /// <summary>
     /// An event that is to come is taken back, and its body predicted again, as from now on; then a late one comes. (As from the last event
     /// on, the broad phase wanted a look at an instant that was over, and the heal that began there took the late event for done.)

@@ -42,6 +42,14 @@ internal sealed class FaultyRewinder(
         }
     }
 
+    private protected override void CutStruckWith(int body, in EventKey from)
+    {
+        if (!faults.Has(HealingFault.LeavesStruckAgain))
+        {
+            base.CutStruckWith(body, from);
+        }
+    }
+
     private protected override EventKey CutsFrom(in EventKey key)
     {
         isCutByTime = faults.Has(HealingFault.CutsByTime) && key == rollback.Cursor && key.Time > progress.HistoryEdge;

@@ -76,4 +76,7 @@ internal enum HealingFault
 
     /// <summary>Crossings of a sensor that a body carries are not cut with that body's path.</summary>
     LeavesCarried = 262144,
+
+    /// <summary>Those stay that were struck with a body, and again in that instant, when the body is cut between the two.</summary>
+    LeavesStruckAgain = 524288,
 }
