@@ -220,11 +220,14 @@ internal sealed class EventLoop(
         }
     }
 
+    /// <summary>The history that is kept; where somebody else says what is forgotten, as far as it goes back now.</summary>
+    private SimDuration Kept => progress.History < SimDuration.MaxValue ? progress.History : progress.SimulatedTo - progress.HistoryEdge;
+
     /// <summary>With what a failure ends the simulation: in the one way that callers know.</summary>
     private SimulationException Ending(Exception failure, SimTime reached) => failure switch
     {
         InstantException instant => instant.AsEnd(),
-        TimelinesFullException full => new TimelinesFullException($"{full.Message}{failures.OfFullTimelines(progress.History)}", full),
+        TimelinesFullException full => new TimelinesFullException($"{full.Message}{failures.OfFullTimelines(Kept)}", full),
         _ => new SimulationException($"The simulation failed at or after {reached.ToShortString()}: {failure.Message}", failure),
     };
 

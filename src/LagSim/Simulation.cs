@@ -253,7 +253,8 @@ public sealed class Simulation
     /// <summary>The identity of the n-th body in canonical order, 0 &lt;= n &lt; <see cref="BodyCount"/>. Later spawns may shift
     /// n.</summary>
     /// <exception cref="ArgumentOutOfRangeException">There is no n-th.</exception>
-    public BodyId BodyAt(int n) => Engine.Bodies.Id(Engine.Bodies.SlotAt(n));
+    public BodyId BodyAt(int n) => n >= 0 && n < BodyCount ? Engine.Bodies.Id(Engine.Bodies.SlotAt(n))
+        : throw new ArgumentOutOfRangeException(nameof(n), n, $"The world has {Limits.Count(BodyCount, "body", "bodies")}, counted from 0.");
 
     /// <summary>Where a body is at any instant from <see cref="HistoryEdge"/> to <see cref="Horizon"/>, after all events of that
     /// tick.</summary>

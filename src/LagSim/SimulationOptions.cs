@@ -38,7 +38,7 @@ public sealed class SimulationOptions
     /// </param>
     /// <param name="healing">How an event before the simulated time is brought in. It has no influence on the result, to the bit.</param>
     /// <exception cref="ArgumentOutOfRangeException">
-    /// The history or the most segments are not above zero, or the start is more than 72 days from the origin.
+    /// The history or the most segments are not above zero, the start is more than 72 days from the origin, or there is no such healing.
     /// </exception>
     public SimulationOptions(
         SimTime start = default, SimDuration? history = null, int maxSegments = DefaultMaxSegments, CancellationToken cancellation = default,
@@ -57,6 +57,12 @@ public sealed class SimulationOptions
         if (maxSegments <= 0)
         {
             throw new ArgumentOutOfRangeException(nameof(maxSegments), maxSegments, "At least one segment must be allowed.");
+        }
+
+        if (healing is < HealingMode.CausalCone or > HealingMode.SyncTest)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(healing), healing, $"There are {nameof(HealingMode.CausalCone)}, {nameof(HealingMode.FullRollback)} and {nameof(HealingMode.SyncTest)}.");
         }
 
         Start = start;

@@ -39,6 +39,12 @@ internal static class SnapshotCheck
     private static void CheckBody(in BodySnapshot body, WorldSnapshot snapshot, Scene scene)
     {
         string whose = $"body {body.Id} in the snapshot";
+        if (body.Id.Sequence == 0 && (body.Id.Peer != 0 || body.Id.Index >= scene.BodyArray.Length))
+        {
+            throw new SceneException(
+                $"The snapshot has body {body.Id}; the scene has {Limits.Count(scene.BodyArray.Length, "body", "bodies")} of its own. It is of another scene.");
+        }
+
         Limits.CheckSpec(body.Spec, whose, scene.Gravity, scene.ForceArray);
         if (body.Spec.Radius < scene.SmallestRadius)
         {

@@ -60,6 +60,12 @@ public sealed class HandSender
                 + " order of their times.");
         }
 
+        if (!position.IsFinite || !velocity.IsFinite)
+        {
+            throw new ArgumentOutOfRangeException(
+                position.IsFinite ? nameof(velocity) : nameof(position), position.IsFinite ? velocity : position, "Where a hand is, and how fast, are finite numbers.");
+        }
+
         SimDuration since = hasSent ? time - sent : SimDuration.MaxValue;
         double error = hasSent ? (HandPath.Position(sentPosition, sentVelocity, since) - position).Length : 0;
         GreatestError = Math.Max(GreatestError, error);

@@ -331,7 +331,7 @@ internal ref struct SceneDecoder
 
         string needed = FormattableString.Invariant($"The scene needs the rules '{name}' of version {version}");
         Refuse(namesake is null
-            ? $"{needed}, which this peer was not given (ClientOptions.Rules)."
+            ? $"{needed}, which this peer was not given (ClientOptions.Rules, or for a recording the rules of Recording.Read)."
             : FormattableString.Invariant($"{needed}; here they are of version {namesake.Version}."));
         return null;
     }

@@ -58,8 +58,8 @@ public static class ExternalEventCheck
         if (external.WhenOccupied > WhenOccupied.Beside)
         {
             throw new SceneException(
-                $"What {whose} does where another body is, is {(byte)external.WhenOccupied}; it must be {(byte)WhenOccupied.Overlap} (put it there),"
-                    + $" {(byte)WhenOccupied.Skip} (do nothing) or {(byte)WhenOccupied.Beside} (put it beside).");
+                $"What {whose} does where another body is, is {(byte)external.WhenOccupied}; it must be {nameof(WhenOccupied.Overlap)} (put it there),"
+                    + $" {nameof(WhenOccupied.Skip)} (do nothing) or {nameof(WhenOccupied.Beside)} (put it beside).");
         }
 
         CheckKnown(external, scene, whose);

@@ -48,7 +48,8 @@ public sealed class RenderSnapshot
     public int BodyCount { get; private set; }
 
     /// <summary>The identity of the n-th body in canonical order.</summary>
-    public BodyId BodyAt(int n) => BodyId.FromPacked(identities[n]);
+    public BodyId BodyAt(int n) => n >= 0 && n < BodyCount ? BodyId.FromPacked(identities[n])
+        : throw new ArgumentOutOfRangeException(nameof(n), n, $"The render snapshot has {Limits.Count(BodyCount, "body", "bodies")}, counted from 0.");
 
     /// <summary>Whether the instant is shown.</summary>
     public bool Covers(SimTime time) => time >= From && time <= To;

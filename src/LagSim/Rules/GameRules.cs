@@ -146,15 +146,16 @@ public abstract class GameRules : SceneRules
     {
     }
 
-    /// <summary>A body has disappeared; its state can be read here for the last time. Only if
+    /// <summary>A body has disappeared. Its state in the rules (<see cref="RuleWorld.State{T}(BodyId)"/>) and its properties (<see
+    /// cref="RuleWorld.SpecOf"/>) can be read here for the last time; it is nowhere any more. Only if
     /// <see cref="HearsBodies"/>; a scene refuses rules that override this and not that.</summary>
     public virtual void OnRemoved(RuleWorld world, BodyId body)
     {
     }
 
     /// <summary>
-    /// A body has left the world by itself, because its motion cannot be followed further (<see cref="LossReason"/>); its state can be read
-    /// here for the last time. By default as if it were removed: <see cref="OnRemoved"/>. Only if
+    /// A body has left the world by itself, because its motion cannot be followed further, or there is no room for it (<see
+    /// cref="LossReason"/>). What can be read of it is as in <see cref="OnRemoved"/>. By default as if it were removed: <see cref="OnRemoved"/>. Only if
     /// <see cref="HearsBodies"/>; a scene refuses rules that override this and not that.
     /// </summary>
     public virtual void OnLost(RuleWorld world, BodyId body, LossReason why) => OnRemoved(world, body);

@@ -22,7 +22,7 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
     /// <summary>What lies before this can no longer change.</summary>
     internal SimTime HistoryEdge => timelines.Edge;
 
-    /// <summary>Reads a body, as it is right after an event.</summary>
+    /// <summary>Reads a body, as it is right after an event. Of one that has gone with that very event its properties are still known.</summary>
     internal RuleRead ReadBody(BodyId body, in EventKey after)
     {
         RuleRead read = new() { Kind = RuleReadKind.Body, Body = body };
@@ -33,6 +33,10 @@ internal sealed class RuleView(Scene scene, BodyTable bodies, TimelineStore time
             read.State = paths.StateAt(at, after.Time, scene.Box);
             read.Hold = timelines.HoldOf(at);
             read.Spec = bodies.Spec(slot);
+        }
+        else if (slot >= 0 && after.Body == body && after.Kind is EventKind.Remove or EventKind.Lost)
+        {
+            read.Spec = bodies.Spec(slot); // it has just gone: what it was made of is known here for the last time
         }
 
         return read;

@@ -158,7 +158,10 @@ public sealed class RuleWorld
         return read.State.Motion == MotionLaw.Held;
     }
 
-    /// <summary>The properties of a body that is there; the default for any other.</summary>
+    /// <summary>
+    /// The properties of a body that is there, or of whose going this call tells (<see cref="GameRules.OnRemoved"/>, <see
+    /// cref="GameRules.OnLost"/>), so that another like it can be spawned; the default for any other.
+    /// </summary>
     /// <exception cref="RuleException">The call has read too often.</exception>
     public BodySpec SpecOf(BodyId body) => Read(body).Spec;
 

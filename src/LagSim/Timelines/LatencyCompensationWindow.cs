@@ -139,7 +139,8 @@ public sealed class LatencyCompensationWindow
         int count = 0;
         foreach (SimDuration one in lateness)
         {
-            sorted[count++] = one;
+            sorted[count++] = one >= SimDuration.Zero ? one
+                : throw new ArgumentOutOfRangeException(nameof(lateness), one.ToShortString(), "An event comes at its time or later: zero or more.");
         }
 
         Array.Sort(sorted);

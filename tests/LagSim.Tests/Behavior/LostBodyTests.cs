@@ -113,6 +113,24 @@ public sealed class LostBodyTests
         Assert.Equal([First], older.Removed);
     }
 
+    /// <summary>Of what has gone rules still know what it was made of, so that they spawn another; of what others are not any more they do not.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Rules_ThatSpawnAnotherLikeTheOneLost_FindItsProperties(bool isLost)
+    {
+        Respawning rules = new();
+        ExternalEvent act = isLost ? ExternalEvent.SetFilter(At(0.1), 1, 1, First, Ghost) : ExternalEvent.Remove(At(0.1), 1, 1, First);
+        Simulation world = Run(Planet(rules), 5, [act]);
+        BodyId again = Assert.Single(Enumerable.Range(0, world.BodyCount).Select(world.BodyAt), body => body.Sequence > 0);
+        Assert.Equal(world.SpecOf(First), world.SpecOf(again));
+        Assert.True(world.SpecOf(First).Radius > 0 && rules.SeenLater.Radius == 0);
+        Simulation late = Run(Planet(new Respawning()), 5);
+        late.Submit(act);
+        late.AdvanceTo(At(5));
+        Assert.Equal(world.StateHash(At(5)), late.StateHash(At(5)));
+    }
+
     /// <summary>A scene's own body that cannot take its first step is the scene's fault, and told as before any world begins.</summary>
     [Fact]
     public void Body_ThatCannotBegin_IsRefusedWithTheScene()
@@ -128,6 +146,21 @@ public sealed class LostBodyTests
             .AddStaticSphere("planet", Vector3D.Zero, 0.5).AddBody("stone", new BodySpec(0.1, 1, 0.5, forces: pull), V(0, 2))
             .AddBody("moon", new BodySpec(0.1, 1, 0.5, forces: pull), V(3), V(0, 2.58));
         return (rules is null ? builder : builder.WithRules(rules)).Build();
+    }
+
+    private sealed class Respawning() : GameRules("respawns", 1)
+    {
+        internal BodySpec SeenLater { get; private set; }
+
+        public override bool HearsBodies => true;
+
+        public override void OnRemoved(RuleWorld world, BodyId body)
+        {
+            world.Spawn(world.SpecOf(body), new Vector3D(0, 4, 0));
+            world.SetTimer(1, SimDuration.FromSeconds(0.1));
+        }
+
+        public override void OnTimer(RuleWorld world, int timer) => SeenLater = world.SpecOf(First); // it is not there
     }
 
     private class Listener(string name) : GameRules(name, 1)

@@ -107,7 +107,7 @@ public sealed class PlacingTests
 
     [Fact]
     public void Submit_WithAnUnknownWord_IsRefusedWithASentence() => Assert.Contains(
-        "is 3; it must be 0 (put it there), 1 (do nothing) or 2 (put it beside)",
+        "is 3; it must be Overlap (put it there), Skip (do nothing) or Beside (put it beside)",
         Assert.Throws<SceneException>(() => new Simulation(Two, KeepAll).Submit(Spawn((WhenOccupied)3, V(3)))).Message, StringComparison.Ordinal);
 
     [Fact]

@@ -63,7 +63,7 @@ public sealed class RuleProcessTests
         foreach ((GameRules rules, string says) in new (GameRules, string)[]
         {
             (new Other("goals", 2), "The scene needs the rules 'goals' of version 2; here they are of version 1."),
-            (new Other("chess", 1), "The scene needs the rules 'chess' of version 1, which this peer was not given (ClientOptions.Rules)."),
+            (new Other("chess", 1), "The scene needs the rules 'chess' of version 1, which this peer was not given (ClientOptions.Rules, or for a recording the rules of Recording.Read)."),
         })
         {
             using PeerThread host = PeerThread.Host(new SceneBuilder("board").WithRules(rules).Build());

@@ -167,6 +167,26 @@ public sealed class SnapshotTests
     }
 
     [Fact]
+    public void Simulation_SnapshotOfASceneWithMoreBodies_IsRefused()
+    {
+        Simulation four = Run(Bodies(4), 1);
+        WorldSnapshot snapshot = four.Snapshot(At(0.5));
+        Assert.Contains("has body 0.0.2", Assert.Throws<SceneException>(() => new Simulation(Bodies(2), snapshot)).Message, StringComparison.Ordinal);
+        Assert.Equal(four.StateHash(At(0.5)), new Simulation(Bodies(4), snapshot).StateHash(At(0.5))); // the control
+
+        static Scene Bodies(int count)
+        {
+            SceneBuilder builder = new("some");
+            for (int n = 0; n < count; n++)
+            {
+                builder.AddBody($"{n}", Ball(), V(2 * n));
+            }
+
+            return builder.Build();
+        }
+    }
+
+    [Fact]
     public void Simulation_ContactThatNoImpactHasSolved_IsRefusedByName()
     {
         Simulation world = Run(new SceneBuilder("two").AddPlane("floor", Vector3D.Up, V(0)).AddBody("low", Ball(0.5, 1, 0), V(0, 0.5)).AddBody("high", Ball(0.5, 1, 0), V(0, 1.6)).Build(), 1);

@@ -58,6 +58,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     {
         ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s; slower contacts are not reported
         using SimulationHost host = new(scene, new StopwatchClock(), contacts: contacts);
+        host.Start();
 
         // each frame
         while (contacts.TryRead(out ContactNotice contact))
@@ -81,6 +82,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     {
         LossNotices losses = new();
         using SimulationHost host = new(scene, new StopwatchClock(), losses: losses); // in a session: new HostOptions { Losses = losses }
+        host.Start();
 
         // each frame
         while (losses.TryRead(out LossNotice loss))

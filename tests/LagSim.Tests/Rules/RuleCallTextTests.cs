@@ -37,7 +37,7 @@ public sealed class RuleCallTextTests
             PlayerAction.Command(new GameCommand(5)).Stamp(At(0.125), 2, 2),
             PlayerAction.Remove(new BodyId(2, 1, 0)).Stamp(At(0.75), 2, 3)]));
         Assert.StartsWith("The rules 'given 1' failed at ", failure.Message, StringComparison.Ordinal);
-        Assert.EndsWith(part, failure.Message, StringComparison.Ordinal);
+        Assert.EndsWith($"{part}.", failure.Message, StringComparison.Ordinal);
     }
 
     private static GivenRules Breaking(string which) => new()

@@ -76,6 +76,8 @@ internal sealed class ClientProtocol : ISessionProtocol
         Connection.Close();
     }
 
+    public string WhenFull => "This peer has no more room for what may still change, and left; it can join again.";
+
     public bool TryRenew(SessionEnd by, string why) => Loss.TryRenew(by, why);
 
     public bool TendWorld(SimTime now) => false;

@@ -37,6 +37,9 @@ internal interface ISessionProtocol : IDatagramHandler
     /// <summary>Wipes the keys of all links; nothing can be sent over them any more.</summary>
     void WipeKeys();
 
+    /// <summary>What is said of this peer where its timelines are full and it has no fresh snapshot.</summary>
+    string WhenFull { get; }
+
     /// <summary>Asks for a fresh snapshot to replace an unusable world; false if none is available.</summary>
     bool TryRenew(SessionEnd by, string why);
 }

@@ -54,7 +54,7 @@ internal sealed class SessionLoop
             return; // a fresh snapshot would be useless, and the end was reported already
         }
 
-        string why = isFull ? $"This peer has no more room for what may still change, and left; it can join again. {failure.Message}"
+        string why = isFull ? $"{protocol.WhenFull} {failure.Message}"
             : $"The world cannot be simulated any further. {failure.Message}";
         protocol.Farewell(why);
         parts.Status.End(isFull ? SessionEnd.TimelinesFull : SessionEnd.Failed, why, failure);

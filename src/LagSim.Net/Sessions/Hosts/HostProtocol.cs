@@ -81,6 +81,8 @@ internal sealed class HostProtocol : ISessionProtocol
 
     public void Farewell(string? failure) => Roster.Farewell(failure);
 
+    public string WhenFull => "The world has no more room for what may still change.";
+
     public bool TryRenew(SessionEnd by, string why) => false;
 
     public bool TendWorld(SimTime now) => Enforcer.Tend(now);
