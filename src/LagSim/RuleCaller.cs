@@ -280,5 +280,5 @@ internal class RuleCaller
         new(Sentence(call, why), call.Key.Time, cause);
 
     private string Sentence(RuleCall call, string why) =>
-        $"{RuleCallText.Failed(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger)}: {why}{(why.EndsWith('.') ? "" : ".")}";
+        RuleCallText.Failed(world.Scene, RuleCallText.Method(call.Key.Kind), call.Key, call.Trigger, why);
 }

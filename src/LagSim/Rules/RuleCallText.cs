@@ -21,9 +21,9 @@ internal static class RuleCallText
         _ => nameof(GameRules.OnRemoved),
     };
 
-    /// <summary>The beginning of such a sentence: the rules, the instant, the method and what it was called for.</summary>
-    internal static string Failed(Scene scene, string method, in EventKey key, in RuleTrigger trigger) => FormattableString.Invariant(
-        $"The rules '{scene.Rules}' failed at {key.Time.ToShortString()}, round {key.Round}, in {method}{What(scene, key, trigger)}");
+    /// <summary>A sentence of rules that failed: which, when, in which method, what it was called for and why.</summary>
+    internal static string Failed(Scene scene, string method, in EventKey key, in RuleTrigger trigger, string why) => FormattableString.Invariant(
+        $"The rules '{scene.Rules}' failed at {key.Time.ToShortString()}, round {key.Round}, in {method}{What(scene, key, trigger)}: {why}{(why.EndsWith('.') ? "" : ".")}");
 
     /// <summary>The same of rules that did not fail.</summary>
     internal static string Of(Scene scene, string method, in EventKey key, in RuleTrigger trigger) => FormattableString.Invariant(

@@ -68,5 +68,5 @@ internal sealed class RuleHearing(Scene scene)
     }
 
     private InstantException Failed(string method, in EventKey key, in RuleTrigger trigger, Exception failure) =>
-        new($"{RuleCallText.Failed(scene, method, key, trigger)}: {failure.Message}", key.Time, failure);
+        new(RuleCallText.Failed(scene, method, key, trigger, failure.Message), key.Time, failure);
 }

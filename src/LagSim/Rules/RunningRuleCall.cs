@@ -95,5 +95,5 @@ internal sealed class RunningRuleCall(SimDuration limit)
 
     /// <summary>Which call was given up, and why. For a call that is.</summary>
     internal string Sentence() =>
-        $"{RuleCallText.Failed(scene!, what, key, trigger)}: it has not returned within {limit.ToShortString()}, and was given up.";
+        RuleCallText.Failed(scene!, what, key, trigger, $"it has not returned within {limit.ToShortString()}, and was given up.");
 }

@@ -72,7 +72,7 @@ public sealed class RuleLimitTests
         Scene scene = new SceneBuilder("large").WithGravity(Floating).WithSmallestRadius(0.125).AddBody("ball", Ball(), V(0)).WithRules(rules).Build();
         Simulation world = new(scene, KeepAll);
         SimulationException failure = Assert.Throws<SimulationException>(() => world.AdvanceTo(At(2)));
-        Assert.Matches("the states after the [0-9]+ calls within the history take [0-9]+ bytes, more than 268435456: each that changes something is kept as a copy of all$", failure.Message);
+        Assert.Matches("the states after the [0-9]+ calls within the history take [0-9]+ bytes, more than 268435456: each that changes something is kept as a copy of all[.]$", failure.Message);
     }
 
     /// <summary>What goes on for ever without a chain in one tick: a timer of a tick that sets itself again.</summary>
@@ -82,7 +82,7 @@ public sealed class RuleLimitTests
         GivenRules rules = new() { Start = w => w.SetTimer(1, SimDuration.OneTick), Timer = (w, _) => w.SetTimer(1, SimDuration.OneTick) };
         Scene scene = new SceneBuilder("endless").WithGravity(Vector3D.Zero).WithSmallestRadius(0.5).WithRules(rules).Build();
         SimulationException failure = Assert.Throws<SimulationException>(() => new Simulation(scene, KeepAll).AdvanceTo(At(1)));
-        Assert.EndsWith(": it is one more than the 262144 that may lie within the history", failure.Message, StringComparison.Ordinal);
+        Assert.EndsWith(": it is one more than the 262144 that may lie within the history.", failure.Message, StringComparison.Ordinal);
         Assert.StartsWith("The rules 'given 1' failed at ", failure.Message, StringComparison.Ordinal);
     }
 
@@ -115,7 +115,7 @@ public sealed class RuleLimitTests
         Scene scene = new SceneBuilder("hears").AddPlane("floor", Vector3D.Up, V(0)).AddBody("ball", Ball(0.5), V(0, 1)).AddSensorPlane("low", Vector3D.Up, 0.75).WithRules(rules).Build();
         SimulationException failure = Assert.Throws<SimulationException>(() => new Simulation(scene, KeepAll).AdvanceTo(At(2)));
         Assert.StartsWith("The rules 'given 1' failed at 0.", failure.Message, StringComparison.Ordinal);
-        Assert.EndsWith(": broken", failure.Message, StringComparison.Ordinal);
+        Assert.EndsWith(": broken.", failure.Message, StringComparison.Ordinal);
         Assert.Contains(ofContact ? " in HearsContact for " : " in HearsCrossing for ", failure.Message, StringComparison.Ordinal);
     }
 
