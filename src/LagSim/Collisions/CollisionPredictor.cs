@@ -277,7 +277,8 @@ internal sealed class CollisionPredictor(
     private static SimTime Recheck(SimTime opened, SimTime end, SimDuration wait)
     {
         wait = wait < ContactTime.Soon ? ContactTime.Soon : wait;
-        return end.SecondsSince(opened) < wait.ToSeconds() ? SimTime.MaxValue : opened + wait;
+        ulong left = unchecked((ulong)(end.Ticks - opened.Ticks)); // which is more than a span can be, where neither ends
+        return left < (ulong)wait.Ticks ? SimTime.MaxValue : opened + wait;
     }
 
     /// <summary>

@@ -13,7 +13,10 @@ namespace LagSim.Scenes;
 /// </remarks>
 internal sealed class NearestPlace(StaticSurfaces surfaces)
 {
-    /// <summary>The sine of the least angle between planes that are not taken for parallel: their edge is a million radii away.</summary>
+    /// <summary>
+    /// The sine of the least angle between two planes, and between the edge of two and a third, that are not taken for parallel: an edge is
+    /// a million radii away at most.
+    /// </summary>
     private const double LeastSine = 1e-6;
 
     /// <summary>Finds the place; false if the half-spaces have no point in common, so that there is none between these surfaces.</summary>
@@ -64,7 +67,8 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
         in Vector3D position, in Vector3D tangentAt, double radius, CollisionFilter filter, int count, in Vector3D way, double rounding,
         out HalfSpace deepest)
     {
-        double depth = rounding;
+        double least = rounding + (1e-14 * way.Length); // as what joins a basis is asked for: so no half-space of it joins again
+        double depth = least;
         deepest = default;
         for (int surface = 0; surface < count; surface++)
         {
@@ -84,7 +88,7 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
             }
         }
 
-        return depth > rounding;
+        return depth > least;
     }
 
     /// <summary>What is outside of a plane: ways that go at least so far along its normal.</summary>
@@ -152,6 +156,12 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
             Vector3D b = all[second].Normal;
             double cosine = Vector3D.Dot(a, b);
             Vector3D across = b - (a * cosine);
+            if (across.Length <= LeastSine)
+            {
+                return false;
+            }
+
+            across = across.Direction;
             across = (across - (a * Vector3D.Dot(a, across))).Direction; // once more, since what was left of b may be little
             double sine = Vector3D.Dot(across, b);
             double alongB = (all[second].Needed - (cosine * alongA)) / sine;
@@ -159,7 +169,7 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
             if (size == 2)
             {
                 double pushB = alongB / sine;
-                return sine > LeastSine && pushB >= 0 && alongA - (cosine * pushB) >= 0;
+                return pushB >= 0 && alongA - (cosine * pushB) >= 0;
             }
 
             Vector3D c = all[third].Normal;
@@ -169,7 +179,7 @@ internal sealed class NearestPlace(StaticSurfaces surfaces)
             way += outside * alongC;
             double pushOfC = alongC / onC;
             double pushOfB = (alongB - (onB * pushOfC)) / sine;
-            return sine > LeastSine && Math.Abs(onC) > LeastSine && pushOfC >= 0 && pushOfB >= 0
+            return Math.Abs(onC) > LeastSine && pushOfC >= 0 && pushOfB >= 0
                 && alongA - (cosine * pushOfB) - (onA * pushOfC) >= 0;
         }
     }

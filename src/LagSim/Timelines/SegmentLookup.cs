@@ -34,11 +34,19 @@ internal class SegmentLookup(TimelineStore timelines, RollbackState rollback)
         return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), key) < 0 ? last : timelines.Before(slot, key);
     }
 
+    /// <summary>
+    /// From where on paths are met. Impacts of one round are one instant: while rules are called for the first of them, another of them may
+    /// still be to come, which meets a body on the segment that the first one ends.
+    /// </summary>
+    private protected virtual EventKey Now => rollback.Cursor.Kind == EventKind.Impact
+        ? EventKey.BeforeImpacts(rollback.Cursor.Time, rollback.Cursor.Round) : rollback.Cursor;
+
     /// <summary>The first segment that can still be met of another body that may be ahead, whose newest segment is given.</summary>
     private protected virtual int PastSegmentFrom(int slot, int piece)
     {
         ref readonly EventKey opened = ref timelines.Key(timelines.Last(slot));
-        EventKey from = EventKey.Compare(opened, rollback.Cursor) > 0 ? opened : rollback.Cursor;
+        EventKey now = Now;
+        EventKey from = EventKey.Compare(opened, now) > 0 ? opened : now;
         while (timelines.Serial(piece) <= rollback.LastOld && EventKey.Compare(timelines.Key(piece), from) > 0 && timelines.Previous(piece) != TimelineStore.None)
         {
             piece = timelines.Previous(piece);

@@ -12,6 +12,33 @@ namespace LagSim.Tests.Behavior;
 [Trait("Time", "real")]
 public sealed class EndlessWorkTests
 {
+    /// <summary>
+    /// A row that touches in the first thousand ticks of time itself. What waits there as long as there is time ended a world with an overflow.
+    /// </summary>
+    [Theory]
+    [InlineData(1e-13)]
+    [InlineData(1e-12)]
+    [InlineData(1e-11)]
+    [InlineData(1e-10)]
+    public void Row_ThatIsStruckInTheFirstNanosecond_GoesOn(double gap)
+    {
+        for (int balls = 2; balls < 11; balls++)
+        {
+            for (int restitution = 0; restitution <= 10; restitution++)
+            {
+                SceneBuilder builder = new SceneBuilder("row").AddPlane("floor", Vector3D.Up, 0);
+                for (int n = 0; n < balls; n++)
+                {
+                    builder.AddBody($"{n}", new BodySpec(0.15, 1, restitution / 10.0), V(n * (0.3 + gap), 0.15), n == 0 ? V(0.1) : n == balls - 1 ? V(-0.1) : V(0));
+                }
+
+                Simulation world = new(builder.Build());
+                world.AdvanceTo(At(0.1));
+                Assert.Equal(At(0.1), world.SimulatedTo);
+            }
+        }
+    }
+
     [Fact]
     public void AdvanceTo_Cancelled_StopsBetweenTwoInstantsAndWhatHappenedStands()
     {

@@ -15,6 +15,8 @@ internal sealed class FaultySegmentLookup(TimelineStore timelines, RollbackState
     /// <summary>How far the rollback has come of which it is a view.</summary>
     internal RollbackState Rollback { get; } = rollback;
 
+    private protected override EventKey Now => faults.Has(HealingFault.ForgetsTheRound) ? Rollback.Cursor : base.Now;
+
     private protected override int PastSegmentFrom(int slot, int piece) =>
         faults.Has(HealingFault.ForgetsThePast) || IsOverlooked(timelines.Owner(piece)) ? piece : base.PastSegmentFrom(slot, piece);
 

@@ -79,4 +79,7 @@ internal enum HealingFault
 
     /// <summary>Those stay that were struck with a body, and again in that instant, when the body is cut between the two.</summary>
     LeavesStruckAgain = 524288,
+
+    /// <summary>A path is tested against where others are after the current impact, not before the first of its round.</summary>
+    ForgetsTheRound = 1048576,
 }

@@ -43,6 +43,26 @@ public sealed class NearestPlaceTests
         Assert.Equal(corrects, differing == 0);
     }
 
+    /// <summary>In a cone of four planes, narrow or wide, there is a place at the tip or along an edge: none is said to lack one.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(0.5)]
+    [InlineData(0.1)]
+    [InlineData(0.01)]
+    public void Place_InADrawnConeOfFourPlanes_IsOutsideOfAll(double spread)
+    {
+        for (int seed = 0; seed < 2000; seed++)
+        {
+            Random random = new(seed);
+            StaticPlane[] cone = [.. Enumerable.Range(0, 4).Select(_ => new StaticPlane("side", (Vector3D.Up + (spread * Direction(random))).Direction, 0, 0, 0))];
+            Vector3D from = Direction(random);
+            Assert.True(new NearestPlace(new StaticSurfaces(cone, [])).TryFind(from, Radius, default, out Vector3D place), $"{seed}");
+            Assert.All(cone, plane => Assert.True(plane.Gap(place, Radius) > -1e-13 * (1 + place.Length), $"{seed}: {plane.Gap(place, Radius)}"));
+            Vector3D above = from + (Vector3D.Up * cone.Max(plane => -plane.Gap(from, Radius) / plane.Normal.Y)); // straight up: outside too, and no nearer
+            Assert.True((place - from).Length <= (above - from).Length + 1e-12, $"{seed}");
+        }
+    }
+
     /// <summary>Beside one static sphere it is the nearest, and among several it is outside.</summary>
     [Fact]
     public void Place_AmongDrawnSpheresOnAFloor_IsOutside()
