@@ -32,10 +32,8 @@ internal class Rewinder : ISegmentOpenedObserver
     private readonly Reconvergence reconvergence;
     private readonly EventPredictor predictor;
     private readonly HealingMode mode;
-    private readonly Stack<(int Slot, EventKey Key)> cuts = new();
+    private readonly PendingCuts cuts;
     private readonly List<int> cut = new(); // the bodies cut since the last prediction
-    private StruckAgain[] struck = Array.Empty<StruckAgain>(); // by slot
-    private long cutNumber;
     private HealReport report; // what the current rollback began with
 
     internal Rewinder(
@@ -44,6 +42,7 @@ internal class Rewinder : ISegmentOpenedObserver
     {
         this.bodies = bodies;
         this.timelines = timelines;
+        cuts = new PendingCuts(timelines);
         this.log = log;
         this.scheduler = scheduler;
         this.progress = progress;
@@ -279,20 +278,18 @@ internal class Rewinder : ISegmentOpenedObserver
     private void Cut(int slot, in EventKey key)
     {
         cut.Clear();
-        cutNumber++;
-        cuts.Push((slot, CutsFrom(key)));
+        cuts.Begin(slot, CutsFrom(key));
         log.AddDueFrom(slot, key);
         cut.Add(slot);
         Touch(slot);
-        while (cuts.Count > 0)
+        while (cuts.TryPop(out int body, out EventKey from))
         {
-            (int body, EventKey from) = cuts.Pop();
             bool any = false;
             for (int at = timelines.Last(body); at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) >= 0; at = timelines.Last(body))
             {
                 for (int other = timelines.Together(at); other != at; other = timelines.Together(other))
                 {
-                    cuts.Push((timelines.Owner(other), timelines.Key(other)));
+                    cuts.Push(timelines.Owner(other), timelines.Key(other));
                 }
 
                 Touch(body);
@@ -315,7 +312,7 @@ internal class Rewinder : ISegmentOpenedObserver
                 NoteDependents(Sensors, body, from);
                 while (Sensors.TryTakeDependent(out int dependent, out EventKey crossing))
                 {
-                    cuts.Push((dependent, crossing));
+                    cuts.Push(dependent, crossing);
                 }
             }
 
@@ -334,45 +331,7 @@ internal class Rewinder : ISegmentOpenedObserver
     /// Cuts those that a body was struck with earlier in the instant of a key, and that were struck again in it after the key: whether that
     /// is a collapse depends on who still touches them.
     /// </summary>
-    /// <remarks>Each body is asked once, and again only from an earlier key on: an instant may have very many rounds.</remarks>
-    private protected virtual void CutStruckWith(int body, in EventKey from)
-    {
-        int at = timelines.Last(body);
-        if (at == TimelineStore.None || timelines.Key(at).Time != from.Time || !Struck(body).IsAskedFirst(cutNumber, from))
-        {
-            return;
-        }
-
-        for (; at != TimelineStore.None && timelines.Key(at).Time == from.Time; at = timelines.Previous(at))
-        {
-            for (int other = timelines.Together(at); other != at; other = timelines.Together(other))
-            {
-                int partner = timelines.Owner(other);
-                if (Struck(partner).IsFoundFirst(cutNumber, from) && IsStruckAgain(partner, from))
-                {
-                    cuts.Push((partner, from));
-                }
-            }
-        }
-    }
-
-    /// <summary>Whether a body was struck after a key, in its instant, so late that it may have been a collapse.</summary>
-    private bool IsStruckAgain(int body, in EventKey after)
-    {
-        int last = timelines.At(body, after.Time);
-        return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), after) > 0
-            && timelines.Key(last).Round >= CollisionPredictor.CollapseRound;
-    }
-
-    private ref StruckAgain Struck(int slot)
-    {
-        if (slot >= struck.Length)
-        {
-            Array.Resize(ref struck, Math.Max(slot + 1, bodies.SlotCount));
-        }
-
-        return ref struck[slot];
-    }
+    private protected virtual void CutStruckWith(int body, in EventKey from) => cuts.PushStruckWith(body, from);
 
     /// <summary>Notes the bodies that from a key on cross what a body carries.</summary>
     private protected virtual void NoteDependents(SensorDependencies sensors, int slot, in EventKey from) =>
@@ -424,30 +383,6 @@ internal class Rewinder : ISegmentOpenedObserver
         {
             Touch(slot);
             predictor.Predict(slot);
-        }
-    }
-
-    /// <summary>From which key on a body was asked, and found, in a cut.</summary>
-    private struct StruckAgain
-    {
-        private long askedIn;
-        private long foundIn;
-        private EventKey askedFrom;
-        private EventKey foundFrom;
-
-        internal bool IsAskedFirst(long cut, in EventKey from) => IsFirst(ref askedIn, ref askedFrom, cut, from);
-
-        internal bool IsFoundFirst(long cut, in EventKey from) => IsFirst(ref foundIn, ref foundFrom, cut, from);
-
-        private static bool IsFirst(ref long lastIn, ref EventKey last, long cut, in EventKey from)
-        {
-            if (lastIn == cut && EventKey.Compare(last, from) <= 0)
-            {
-                return false;
-            }
-
-            (lastIn, last) = (cut, from);
-            return true;
         }
     }
 }

@@ -1,0 +1,98 @@
+using System;
+using System.Collections.Generic;
+using LagSim.Collisions;
+using LagSim.Events;
+using LagSim.Timelines;
+
+namespace LagSim.Rollback;
+
+/// <summary>The bodies that a cut has still to reach, each with the key from which on it is cut.</summary>
+internal sealed class PendingCuts(TimelineStore timelines)
+{
+    private readonly Stack<(int Slot, EventKey Key)> pending = new();
+    private Struck[] struck = Array.Empty<Struck>(); // by slot
+    private long number; // of the cut
+
+    /// <summary>A cut begins with a body.</summary>
+    internal void Begin(int slot, in EventKey from)
+    {
+        number++;
+        Push(slot, from);
+    }
+
+    internal void Push(int slot, in EventKey from) => pending.Push((slot, from));
+
+    internal bool TryPop(out int slot, out EventKey from)
+    {
+        bool any = pending.Count > 0;
+        (slot, from) = any ? pending.Pop() : default;
+        return any;
+    }
+
+    /// <summary>
+    /// Those that a body was struck with earlier in the instant of a key, and that were struck again in it after the key, in a round in
+    /// which it may have been a collapse.
+    /// </summary>
+    /// <remarks>Each body is asked once, and again only from an earlier key on: an instant may have very many rounds.</remarks>
+    internal void PushStruckWith(int body, in EventKey from)
+    {
+        int at = timelines.Last(body);
+        if (at == TimelineStore.None || timelines.Key(at).Time != from.Time || !Of(body).IsAskedFirst(number, from))
+        {
+            return;
+        }
+
+        for (; at != TimelineStore.None && timelines.Key(at).Time == from.Time; at = timelines.Previous(at))
+        {
+            for (int other = timelines.Together(at); other != at; other = timelines.Together(other))
+            {
+                int partner = timelines.Owner(other);
+                if (Of(partner).IsFoundFirst(number, from) && IsStruckAgain(partner, from))
+                {
+                    Push(partner, from);
+                }
+            }
+        }
+    }
+
+    private bool IsStruckAgain(int body, in EventKey after)
+    {
+        int last = timelines.At(body, after.Time);
+        return last != TimelineStore.None && EventKey.Compare(timelines.Key(last), after) > 0
+            && timelines.Key(last).Round >= CollisionPredictor.CollapseRound;
+    }
+
+    private ref Struck Of(int slot)
+    {
+        if (slot >= struck.Length)
+        {
+            Array.Resize(ref struck, Math.Max(slot + 1, 2 * struck.Length));
+        }
+
+        return ref struck[slot];
+    }
+
+    /// <summary>From which key on a body was asked, and found, in a cut.</summary>
+    private struct Struck
+    {
+        private long askedIn;
+        private long foundIn;
+        private EventKey askedFrom;
+        private EventKey foundFrom;
+
+        internal bool IsAskedFirst(long cut, in EventKey from) => IsFirst(ref askedIn, ref askedFrom, cut, from);
+
+        internal bool IsFoundFirst(long cut, in EventKey from) => IsFirst(ref foundIn, ref foundFrom, cut, from);
+
+        private static bool IsFirst(ref long lastIn, ref EventKey last, long cut, in EventKey from)
+        {
+            if (lastIn == cut && EventKey.Compare(last, from) <= 0)
+            {
+                return false;
+            }
+
+            (lastIn, last) = (cut, from);
+            return true;
+        }
+    }
+}
