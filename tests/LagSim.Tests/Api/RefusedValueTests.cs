@@ -1,7 +1,6 @@
 using System;
 using LagSim.Hosting;
 using LagSim.Net.Sessions;
-using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
 using Xunit;
