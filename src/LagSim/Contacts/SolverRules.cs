@@ -22,6 +22,9 @@ internal class SolverRules
     /// <summary>Whether a step that is cut short before its middle takes back what forces gave for the time after the cut.</summary>
     internal virtual bool TakesBackForces => true;
 
+    /// <summary>Whether a step that is shorter than the last first gives what forces owe for the last, at the velocity of the last.</summary>
+    internal virtual bool GivesWhatForcesOwe => true;
+
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
     internal virtual bool RefinesNormals => true;
 

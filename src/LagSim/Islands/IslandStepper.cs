@@ -17,11 +17,10 @@ namespace LagSim.Islands;
 /// carry.
 /// </remarks>
 internal sealed class IslandStepper(
-    BodyTable bodies, TimelineStore timelines, in Forces forces, ContactGraph graph, ContactStep step, Partners partners,
+    BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces acting, Partners partners,
     RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, IslandStatics statics, StepMarks marks,
     SolverWork work)
 {
-    private readonly Forces forces = forces;
     private bool[] isLost = Array.Empty<bool>(); // by body of the graph: no step follows the forces on it
 
     private Paths Paths => new(timelines);
@@ -45,7 +44,7 @@ internal sealed class IslandStepper(
         canonical = StepKey();
         graph.Evaluate(canonical.Time, 0);
         SimTime time = canonical.Time;
-        TakeBackForces(time);
+        acting.Begin(time);
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && sleep.MayFallAsleep(canonical.Time) && statics.Holds(canonical.Time, length.ToSeconds()))
@@ -54,11 +53,11 @@ internal sealed class IslandStepper(
         }
         else
         {
-            SolveStep(canonical.Time, length, tolerance);
+            SolveStep(length, tolerance);
             for (double wanted = StepWantedAfter(time); step.Scale.StepFrom(canonical.Time, wanted) < length; wanted = Math.Min(wanted, StepWantedAfter(time)))
             {
                 length = FillStep(canonical.Time, wanted); // a force got strong within it
-                SolveStep(canonical.Time, length, tolerance);
+                SolveStep(length, tolerance);
             }
 
             step.FindHolding(length.ToSeconds());
@@ -134,24 +133,6 @@ internal sealed class IslandStepper(
     }
 
     /// <summary>
-    /// Takes back what forces gave members whose step is cut short before its middle: a velocity is that of the middle. Forces that follow
-    /// from it would else act backwards on the velocities that this step gives, and a drag drive what it should brake.
-    /// </summary>
-    private void TakeBackForces(SimTime tick)
-    {
-        for (int i = 0; i < graph.BodyCount; i++)
-        {
-            int slot = graph.Slots[i];
-            int piece = timelines.Last(slot);
-            if (timelines.Segment(piece).Law == MotionLaw.Constrained && segments.ForcesActedUntil(piece, tick) < timelines.Carried.CentreOf(piece))
-            {
-                double notActed = timelines.Carried.CentreOf(piece).SecondsSince(tick);
-                graph.Velocities[i] -= forces.On(bodies.Id(slot)).At(bodies.Spec(slot), tick, 0, graph.Positions[i], graph.Velocities[i], graph.Spins[i]) * notActed;
-            }
-        }
-    }
-
-    /// <summary>
     /// The longest step of these bodies, in seconds, by where they come from. A body whose forces no step follows takes part without them
     /// once more, and is lost.
     /// </summary>
@@ -194,7 +175,6 @@ internal sealed class IslandStepper(
     {
         SimDuration length = step.Scale.StepFrom(tick, wanted);
         double seconds = length.ToSeconds();
-        SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
         step.Clear();
         for (int i = 0; i < graph.BodyCount; i++)
         {
@@ -208,12 +188,13 @@ internal sealed class IslandStepper(
             {
                 velocity = (Paths.PositionAt(piece, tick + length) - graph.Positions[i]) / seconds;
             }
+            else if (isLost[i])
+            {
+                graph.Accelerations[i] = Vector3D.Zero;
+            }
             else
             {
-                double since = middle.SecondsSince(segments.ForcesActedUntil(piece, tick));
-                graph.Accelerations[i] = isLost[i] ? Vector3D.Zero
-                    : forces.On(bodies.Id(slot)).At(spec, tick, 0, graph.Positions[i], velocity, graph.Spins[i]);
-                gain = graph.Accelerations[i] * since;
+                gain = acting.GainInStep(i, length);
             }
 
             step.AddBody(
@@ -232,70 +213,12 @@ internal sealed class IslandStepper(
         return length;
     }
 
-    private void SolveStep(SimTime tick, SimDuration length, double tolerance)
+    private void SolveStep(SimDuration length, double tolerance)
     {
         step.Solve(length.ToSeconds(), tolerance);
-        IterateForces(tick, length, tolerance);
+        acting.Iterate(tolerance, isLost);
         step.LimitEnergy(length.ToSeconds(), tolerance);
         work.Count(step.Sweeps, step.Problem.ContactCount);
-    }
-
-    /// <summary>
-    /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under
-    /// which a magnetic force makes and takes no speed, and a damper none but what it should. At the velocity that the body came with, a
-    /// force across it would drive away what lies still.
-    /// </summary>
-    private void IterateForces(SimTime tick, SimDuration length, double tolerance)
-    {
-        SimTime middle = tick + SimDuration.FromTicks(length.Ticks / 2);
-        double last = double.PositiveInfinity;
-        double change = 0;
-        for (int n = 0; n < MaxForceIterations && HasForces() && change < last; n++)
-        {
-            last = n == 0 ? double.PositiveInfinity : change;
-            change = 0;
-            for (int i = 0; i < graph.BodyCount; i++)
-            {
-                ref readonly BodySpec spec = ref bodies.Spec(graph.Slots[i]);
-                if (spec.Forces.IsEmpty || isLost[i] || double.IsPositiveInfinity(graph.Masses[i]))
-                {
-                    continue;
-                }
-
-                int piece = timelines.Last(graph.Slots[i]);
-                double since = middle.SecondsSince(segments.ForcesActedUntil(piece, tick));
-                Vector3D mean = (graph.Velocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
-                Vector3D spin = (graph.Spins[i] + step.Problem.Bodies[i].Spin) * 0.5;
-                Vector3D acceleration = forces.On(bodies.Id(graph.Slots[i])).At(spec, tick, 0, graph.Positions[i], mean, spin);
-                change = Math.Max(change, (acceleration - graph.Accelerations[i]).Length * since);
-                graph.Accelerations[i] = acceleration;
-                step.Regain(i, graph.Velocities[i] + (acceleration * since), graph.Spins[i]);
-            }
-
-            if (change == 0)
-            {
-                return;
-            }
-
-            step.SolveAgain(tolerance);
-        }
-    }
-
-    /// <summary>
-    /// The largest number of times that a force is evaluated again for the velocity that it leaves: each time the error halves, or shrinks
-    /// far more.
-    /// </summary>
-    private const int MaxForceIterations = 64;
-
-    private bool HasForces()
-    {
-        bool has = false;
-        for (int i = 0; i < graph.BodyCount && !has; i++)
-        {
-            has = !bodies.Spec(graph.Slots[i]).Forces.IsEmpty;
-        }
-
-        return has;
     }
 
     /// <summary>Has the contacts begin with the impulses that they had in the last step.</summary>
@@ -331,7 +254,7 @@ internal sealed class IslandStepper(
         {
             bool isHeld = double.IsPositiveInfinity(graph.Masses[i]);
             fastest = Math.Max(fastest, graph.Velocities[i].Length);
-            mayRest &= !isHeld && !forces.HasSupplied(bodies.Spec(graph.Slots[i]));
+            mayRest &= !isHeld && !acting.MayChange(i);
         }
 
         return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, step.Scale.FinestSweepSpeed));

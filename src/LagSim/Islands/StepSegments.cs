@@ -10,8 +10,8 @@ namespace LagSim.Islands;
 
 /// <summary>Opens the segments of a contact step that was solved: chords, or the law that a body follows alone.</summary>
 internal sealed class StepSegments(
-    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, MemberFactory members,
-    TrajectoryFactory trajectories, IslandSleep sleep)
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces acting,
+    MemberFactory members, TrajectoryFactory trajectories, IslandSleep sleep)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
@@ -48,8 +48,8 @@ internal sealed class StepSegments(
             }
             else if (!IsHeldTogether(i, out int planeCount))
             {
-                kept = double.IsNaN(kept) ? PartOfPushes(i, isLost, key.Time, length) : kept;
-                Vector3D velocity = LeavingVelocity(i, before, isLost, key.Time, out Vector3D push) + (push * kept);
+                kept = double.IsNaN(kept) ? PartOfPushes(i, isLost, length) : kept;
+                Vector3D velocity = LeavingVelocity(i, before, isLost, out Vector3D push) + (push * kept);
                 trajectories.Flights.Open(slot, key, graph.Positions[i], velocity, spin: graph.Spins[i]);
             }
             else if (planeCount > 0)
@@ -64,15 +64,6 @@ internal sealed class StepSegments(
             }
         }
     }
-
-    /// <summary>
-    /// Until when the velocity with which a body comes to a step contains what forces give: the middle of its step, or the tick where that
-    /// comes before.
-    /// </summary>
-    internal SimTime ForcesActedUntil(int piece, SimTime tick) =>
-        timelines.Segment(piece).Law == MotionLaw.Resting ? tick
-            : step.Rules.TakesBackForces ? SimTime.Min(timelines.Carried.CentreOf(piece), tick)
-            : timelines.Carried.CentreOf(piece);
 
     private void OpenMember(int body, in EventKey key, SimTime end, SimTime centre, SimTime still)
     {
@@ -143,9 +134,8 @@ internal sealed class StepSegments(
     /// </summary>
     /// <param name="first">The first body that leaves.</param>
     /// <param name="isLost">By body: whether it is lost.</param>
-    /// <param name="tick">When.</param>
     /// <param name="length">How long a step is.</param>
-    private double PartOfPushes(int first, Span<bool> isLost, SimTime tick, SimDuration length)
+    private double PartOfPushes(int first, Span<bool> isLost, SimDuration length)
     {
         double room = 0;
         double along = 0;
@@ -158,7 +148,7 @@ internal sealed class StepSegments(
                 continue;
             }
 
-            Vector3D velocity = LeavingVelocity(i, before, isLost, tick, out Vector3D push);
+            Vector3D velocity = LeavingVelocity(i, before, isLost, out Vector3D push);
             double fall = Math.Max(step.Scale.Pull, graph.Accelerations[i].Length) * length.ToSeconds();
             room += graph.Masses[i] * fall * fall;
             along += graph.Masses[i] * Vector3D.Dot(velocity, push);
@@ -175,9 +165,8 @@ internal sealed class StepSegments(
     /// <param name="body">The body.</param>
     /// <param name="piece">Its last segment.</param>
     /// <param name="isLost">By body: whether it is lost.</param>
-    /// <param name="tick">When.</param>
     /// <param name="half">What the contacts of the last step gave in its second half, because until now they have held it, in m/s.</param>
-    private Vector3D LeavingVelocity(int body, int piece, Span<bool> isLost, SimTime tick, out Vector3D half)
+    private Vector3D LeavingVelocity(int body, int piece, Span<bool> isLost, out Vector3D half)
     {
         half = Vector3D.Zero;
         Vector3D velocity = graph.Velocities[body] + (step.Rules.KeepsMomentum ? step.Braked(body) : Vector3D.Zero);
@@ -186,7 +175,6 @@ internal sealed class StepSegments(
             return velocity;
         }
 
-        double since = tick.SecondsSince(ForcesActedUntil(piece, tick));
         Vector3D push = Vector3D.Zero;
         for (int at = timelines.Carried.First(piece); at != TimelineStore.None; at = timelines.Carried.Next(at))
         {
@@ -196,7 +184,7 @@ internal sealed class StepSegments(
         }
 
         half = push * (0.5 / graph.Masses[body]);
-        return velocity + (graph.Accelerations[body] * since);
+        return velocity + acting.GainAtTick(body);
     }
 
     /// <summary>

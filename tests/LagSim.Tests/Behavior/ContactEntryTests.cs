@@ -86,6 +86,37 @@ public sealed class ContactEntryTests
         Assert.InRange(EnergyOfStackAfter(thrown, new FaultyEngineParts { Rules = new FaultySolverRules { ActsBackwards = true } }), thrown.LengthSquared, double.MaxValue); // the control
     }
 
+    /// <summary>
+    /// A throw onto a ball with drag, late in a step: what its drag owes for that step it gives at the velocity of that step, and not at the
+    /// one that the throw gives it.
+    /// </summary>
+    [Fact]
+    public void Throw_OntoABallWithDrag_GainsNothing()
+    {
+        double thrown = V(48.296, -25.882, 83.652).LengthSquared;
+        Assert.InRange(MostAfterAThrowDown(null), 0, thrown);
+        Assert.InRange(MostAfterAThrowDown(new FaultyEngineParts { Rules = new FaultySolverRules { GivesForcesLate = true } }), 100 * thrown, double.MaxValue); // the control
+    }
+
+    private static double MostAfterAThrowDown(FaultyEngineParts? parts)
+    {
+        Scene scene = new SceneBuilder("stack").AddForce(Force.QuadraticDrag("air", 1), out ForceSet air).AddPlane("floor", Vector3D.Up, V(0), 0.8)
+            .AddBody("below", new BodySpec(0.15, 1e-3, 0.5, forces: air, friction: 0.5), V(0, 0.15))
+            .AddBody("above", new BodySpec(0.15, 1e-3, 0.5, forces: air, friction: 0.5), V(0, 0.45)).Build();
+        SimulationOptions options = new(history: SimDuration.MaxValue);
+        Simulation world = new(scene, parts is null ? options : options.WithParts(parts));
+        world.Submit(ExternalEvent.SetVelocity(At(0.1001), 1, 1, Second, V(48.296, -25.882, 83.652)));
+        double most = 0;
+        for (int n = 1; n <= 40; n++)
+        {
+            double time = 0.1001 + (n * 1e-7);
+            world.AdvanceTo(At(time));
+            most = Math.Max(most, Read(world, First, time).Velocity.LengthSquared + Read(world, Second, time).Velocity.LengthSquared);
+        }
+
+        return most;
+    }
+
     /// <summary>In J a kg.</summary>
     private static double EnergyOfStackAfter(Vector3D thrown, FaultyEngineParts? parts)
     {

@@ -20,6 +20,9 @@ internal sealed class FaultySolverRules : SolverRules
     /// <summary>Forces act backwards on what is cut short in its step.</summary>
     internal bool ActsBackwards { get; init; }
 
+    /// <summary>What forces owe for a long step, they give at the velocity of a short one.</summary>
+    internal bool GivesForcesLate { get; init; }
+
     /// <summary>What sweeps do not settle stays unsettled.</summary>
     internal bool SweepsAlone { get; init; }
 
@@ -35,6 +38,8 @@ internal sealed class FaultySolverRules : SolverRules
     internal override bool KeepsMomentum => !LosesMomentum;
 
     internal override bool TakesBackForces => !ActsBackwards;
+
+    internal override bool GivesWhatForcesOwe => !GivesForcesLate;
 
     internal override bool RefinesNormals => !SweepsAlone;
 

@@ -14,8 +14,10 @@ namespace LagSim.Harness.Verification.Hard;
 /// </summary>
 /// <remarks>
 /// An act in the middle of a contact step may make a force far faster than the step follows; where it went on until the step's end, a drag
-/// threw back what it should have stopped. Worlds are drawn: masses from 1e-6 to 1e6 kg, rates from 1 to 2^22 1/s, speeds from 0.1 to
-/// 1000 m/s, one to three balls on a floor, every force and act. All forces take energy or have a potential, so that the sum only falls.
+/// threw back what it should have stopped; and where a force acted on another ball that the act reaches, at the velocity that it gets, for as
+/// long as the step that was cut short. Worlds are drawn: masses from 1e-6 to 1e6 kg and up to 1000 times as heavy on top, rates from 1 to
+/// 2^22 1/s, speeds from 0.1 to 1000 m/s, one to three balls on a floor, every force and act. All forces take energy or have a potential, so
+/// that the sum only falls.
 /// </remarks>
 internal sealed class ContactEntryCase : IHardCase
 {
@@ -24,7 +26,9 @@ internal sealed class ContactEntryCase : IHardCase
     private const double Permitted = 1e6; // 1/s, of forces whose rate is known before
     private const double LongestStep = 1.0 / 64, ShortestStep = 1.0 / (1 << 20);
     private const double StepsOfARate = 16;
+    private const double FastForASlowStep = 1 << 14; // 1/s; far more than the longest step follows
     private const int MostDrawn = 4;
+    private const int Kinds = (int)Medium.Supplied + 1;
 
     public string Name => "contact-entry";
 
@@ -39,14 +43,14 @@ internal sealed class ContactEntryCase : IHardCase
             int read = 0;
             for (int n = 0; read < worlds && n < MostDrawn * worlds; n++)
             {
-                Random random = new(unchecked(((int)context.Seed * 1_000_003) + (((n * 8) + (int)kind) * 1_299_709)));
+                Random random = new(unchecked(((int)context.Seed * 1_000_003) + (((n * Kinds) + (int)kind) * 1_299_709)));
                 if (Gain(context, new Drawn(random, kind)) is double gain)
                 {
                     worst = Worst([worst, gain]);
                     read++;
                 }
 
-                context.Report(((double)kind + ((double)read / worlds)) / 8);
+                context.Report(((double)kind + ((double)read / worlds)) / Kinds);
             }
 
             yield return Row(kind, read, read == worlds ? worst : double.NaN);
@@ -61,12 +65,13 @@ internal sealed class ContactEntryCase : IHardCase
             double worst = 0;
             for (int n = 0; n < 100; n++)
             {
-                Drawn drawn = new(new Random((n * 8) + (int)kind), kind);
+                Drawn drawn = new(new Random((n * Kinds) + (int)kind), kind);
                 double step = Math.Min(Math.Sqrt(2 * drawn.Tolerance / Gravity), LongestStep);
-                Vector3D velocity = drawn.Velocity, late = velocity + (drawn.AccelerationAt(V(0, Radius), velocity) * step);
+                Vector3D velocity = drawn.Velocity, late = velocity + (drawn.AccelerationAt(drawn.Mass, V(0, Radius), velocity) * step);
                 double gain = 0.5 * drawn.Mass * (late.LengthSquared - velocity.LengthSquared);
                 BodyState state = new(V(0, Radius), velocity, MotionLaw.Constrained);
-                worst = Math.Max(worst, gain / drawn.Slack(drawn.Mass, state, drawn.AccelerationAt(V(0, Radius), velocity).Length));
+                double pull = drawn.AccelerationAt(drawn.Mass, V(0, Radius), velocity).Length;
+                worst = Math.Max(worst, gain / drawn.Slack(drawn.Mass, state, pull, pull));
             }
 
             yield return Row(kind, 100, worst) with { Note = "the step goes on as it was" };
@@ -101,10 +106,11 @@ internal sealed class ContactEntryCase : IHardCase
 
         (double first, double firstSlack) = Read(world, drawn);
         double worst = 0;
-        for (int n = 1; n <= 64; n++)
+        for (int n = 1; n <= 80; n++)
         {
             events = 4_000;
-            if (!world.TryAdvanceTo(drawn.At + SimDuration.FromSeconds(0.2 * n * n / 4096), ref events) || world.LostBodies().Count > 0)
+            SimDuration later = SimDuration.FromSeconds(0.2 * Math.Pow(2, (n - 80) * 0.25)); // from 0.2 us on
+            if (!world.TryAdvanceTo(drawn.At + later, ref events) || world.LostBodies().Count > 0)
             {
                 break; // what leaves takes its energy along
             }
@@ -124,9 +130,12 @@ internal sealed class ContactEntryCase : IHardCase
             BodyId body = world.BodyAt(n);
             if (world.TryRead(body, world.SimulatedTo, out BodyState state))
             {
-                double pull = drawn.AccelerationAt(state.Position, state.Velocity, state.Spin).Length;
-                slack += drawn.Slack(world.SpecOf(body).Mass, state, Math.Max(pull, Gravity));
-                slack += 1e-6 * world.SpecOf(body).Mass * ((Gravity * state.Position.Length) + drawn.PotentialAt(state.Position));
+                double mass = world.SpecOf(body).Mass;
+                BodyState began = world.Timeline(body, world.SimulatedTo)[^1].State; // the step's length follows from what pulled there
+                double pull = Math.Max(Gravity, drawn.AccelerationAt(mass, state.Position, state.Velocity, state.Spin).Length);
+                double pulled = Math.Max(Gravity, drawn.AccelerationAt(mass, began.Position, began.Velocity, began.Spin).Length);
+                slack += drawn.Slack(mass, state, pull, Math.Min(pull, pulled));
+                slack += 1e-6 * ((mass * Gravity * state.Position.Length) + drawn.PotentialAt(mass, state.Position));
             }
         }
 
@@ -137,6 +146,7 @@ internal sealed class ContactEntryCase : IHardCase
     {
         LinearDrag,
         QuadraticDrag,
+        StackedDrag, // a throw down onto a ball with quadratic drag, at high rates
         Spring,
         Damper,
         Magnetic,
@@ -158,18 +168,19 @@ internal sealed class ContactEntryCase : IHardCase
             Mass = Log(random, 1e-6, 1e6);
             Tolerance = Log(random, 1e-4, 1e-2);
             double speed = Log(random, 0.1, 1000), friction = random.Next(2) * random.NextDouble();
-            rate = Log(random, 1, kind switch
+            rate = Log(random, kind is Medium.StackedDrag ? FastForASlowStep : 1, kind switch
             {
-                Medium.QuadraticDrag or Medium.Supplied => Fastest,
+                Medium.QuadraticDrag or Medium.StackedDrag or Medium.Supplied => Fastest,
                 Medium.Pull => 100, // stronger, it holds everything in its centre
                 _ => Permitted,
             });
             Vector3D anchor = V(Between(random, -1, 1), Between(random, 0.1, 1.1), Between(random, -1, 1));
             Velocity = Direction(random) * speed;
+            Velocity = kind is Medium.StackedDrag && Velocity.Y > 0 ? -Velocity : Velocity;
             force = kind switch
             {
                 Medium.LinearDrag => Force.LinearDrag("oil", rate * Mass),
-                Medium.QuadraticDrag => Force.QuadraticDrag("air", rate * Mass / (2 * speed)),
+                Medium.QuadraticDrag or Medium.StackedDrag => Force.QuadraticDrag("air", rate * Mass / (2 * speed)),
                 Medium.Spring => Force.Spring("spring", anchor, rate * rate * Mass),
                 Medium.Damper => Force.Spring("damper", anchor, 1e-3 * Mass, rate * Mass),
                 Medium.Magnetic => Force.Magnetic("coil", Direction(random), rate * Mass),
@@ -180,16 +191,18 @@ internal sealed class ContactEntryCase : IHardCase
             BodySpec spec = new(Radius, Mass, random.Next(3) == 0 ? 0 : Between(random, 0, 0.95), forces: ForceSet.Of(0), friction: friction);
             SceneBuilder builder = new SceneBuilder("entry").WithContactTolerance(Tolerance).WithSmallestRadius(Radius).AddForce(force)
                 .AddPlane("floor", Vector3D.Up, Vector3D.Zero, friction: friction).AddBody("a", spec, V(0, Radius));
-            int bodies = 1 + random.Next(3);
-            builder = bodies > 1 ? builder.AddBody("b", spec, V(0, 3 * Radius)) : builder;
-            Scene = (bodies > 2 ? builder.AddBody("c", spec, V(2.1 * Radius, Radius)) : builder).Build();
+            int bodies = kind is Medium.StackedDrag ? 2 : 1 + random.Next(3);
+            double ratio = random.Next(2) == 0 ? 1 : Log(random, 1, 1000);
+            BodySpec other = new(Radius, Mass * ratio, spec.Restitution, forces: random.Next(4) == 0 ? default : spec.Forces, friction: friction);
+            builder = bodies > 1 ? builder.AddBody("b", other, V(0, 3 * Radius)) : builder;
+            Scene = (bodies > 2 ? builder.AddBody("c", other, V(2.1 * Radius, Radius)) : builder).Build();
             double at = Between(random, 0.02, random.Next(2) == 0 ? 0.3 : 1.2); // awake, and mostly asleep
             At = SimTime.FromSeconds(random.Next(3) == 0 ? Math.Round(at * 64) / 64 : at);
-            BodyId body = BodyId.OfScene(random.Next(bodies));
-            Act = random.Next(4) switch
+            BodyId body = BodyId.OfScene(kind is Medium.StackedDrag ? 1 : random.Next(bodies));
+            Act = (kind is Medium.StackedDrag ? 0 : random.Next(4)) switch
             {
                 0 => PlayerAction.SetVelocity(body, Velocity),
-                1 => PlayerAction.Impulse(body, Velocity * Mass),
+                1 => PlayerAction.Impulse(body, Velocity * Scene.Bodies[body.Index].Spec.Mass),
                 2 => PlayerAction.Teleport(body, V(0.5, Radius, 0.5), Velocity),
                 _ => PlayerAction.Spawn(spec, V(0.7, Radius, 0.7), Velocity),
             };
@@ -207,24 +220,30 @@ internal sealed class ContactEntryCase : IHardCase
 
         internal PlayerAction Act { get; }
 
-        internal Vector3D AccelerationAt(in Vector3D place, in Vector3D velocity, in Vector3D spin = default) =>
-            V(0, -Gravity) + force.At(Mass, 0, place, velocity, spin);
+        internal Vector3D AccelerationAt(double mass, in Vector3D place, in Vector3D velocity, in Vector3D spin = default) =>
+            V(0, -Gravity) + force.At(mass, 0, place, velocity, spin);
 
-        /// <summary>What a force keeps at a place, in J for each kg: what roundings of it are of.</summary>
-        internal double PotentialAt(in Vector3D place) => kind is Medium.Spring or Medium.Pull ? 0.5 * rate * rate * (place - force.Vector).LengthSquared : 0;
+        /// <summary>What a force keeps at a place, in J: what roundings of it are of.</summary>
+        internal double PotentialAt(double mass, in Vector3D place) =>
+            (kind is Medium.Spring ? Mass : kind is Medium.Pull ? mass : 0) * 0.5 * rate * rate * (place - force.Vector).LengthSquared;
 
         /// <summary>What the kinetic energy read within a step may be off by, in J.</summary>
-        internal double Slack(double mass, in BodyState state, double pull)
+        /// <param name="mass">Of the body, in kg.</param>
+        /// <param name="state">As it was read.</param>
+        /// <param name="pull">What pulls it there, in m/s².</param>
+        /// <param name="weakest">What pulled it least in the step.</param>
+        internal double Slack(double mass, in BodyState state, double pull, double weakest)
         {
             double speed = state.Velocity.Length;
             double here = kind switch
             {
-                Medium.QuadraticDrag => rate * speed / Velocity.Length,
+                Medium.QuadraticDrag or Medium.StackedDrag => rate * speed / Velocity.Length,
                 Medium.Magnus => rate / 100 * state.Spin.Length,
-                Medium.Supplied => (AccelerationAt(state.Position, V(1)) - AccelerationAt(state.Position, default)).Length,
+                Medium.Supplied => (AccelerationAt(mass, state.Position, V(1)) - AccelerationAt(mass, state.Position, default)).Length,
                 _ => rate,
             };
-            double step = Math.Max(ShortestStep, Math.Min(Math.Min(Math.Sqrt(2 * Tolerance / pull), LongestStep), 1 / (StepsOfARate * here)));
+            here *= kind is Medium.Supplied or Medium.Pull ? 1 : Mass / mass;
+            double step = Math.Max(ShortestStep, Math.Min(Math.Min(Math.Sqrt(2 * Tolerance / weakest), LongestStep), 1 / (StepsOfARate * here)));
             double off = 0.5 * pull * step;
             return mass * ((speed * off) + (0.5 * off * off) + (1e-6 * speed * speed));
         }
