@@ -1,3 +1,4 @@
+using System;
 using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
@@ -6,10 +7,10 @@ using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
-namespace LagSim.Tests.Rules;
+namespace LagSim.Tests.Healing;
 
-/// <summary>Impacts of one round are one instant, also where rules are called for the first while a heal still finds another.</summary>
-public sealed class RuleRoundTests
+/// <summary>Impacts of one round are one instant, also where a heal has met the first of them and still finds another.</summary>
+public sealed class RoundTests
 {
     private static readonly BodyId Pushed = BodyId.OfScene(4);
 
@@ -33,6 +34,45 @@ public sealed class RuleRoundTests
         healed.AdvanceTo(At(0.5));
         Assert.Equal(isSame, (onTime.StateHash(At(0.5)), onTime.EventHash(At(0.5))) == (healed.StateHash(At(0.5)), healed.EventHash(At(0.5))));
     }
+
+    /// <summary>
+    /// Two acts at one tick are taken back, one after the other: a spawned ball lies in two others, and the three meet in one impact, as they
+    /// do where the acts never were. There are no rules; which of the three is looked at first follows from what was taken back.
+    /// </summary>
+    [Theory]
+    [InlineData(HealingFault.None, true)]
+    [InlineData(HealingFault.ForgetsTheRound, false)]
+    internal void Retractions_AtTheTickOfAnImpactOfThree_LeaveItOne(HealingFault fault, bool isSame)
+    {
+        BodySpec ball = new(0.25, 1, 0.8);
+        Scene scene = new SceneBuilder("three").WithGravity(Vector3D.Zero).WithSmallestRadius(0.05)
+            .AddBody("a", ball, V(0, 0.25, 0.5)).AddBody("b", ball, V(0.5, 0.25, 0)).AddBody("c", ball, V(0.5, 0.25, 0.5)).Build();
+        Random random = new(1);
+        bool allSame = true;
+        for (int n = 0; n < 100; n++)
+        {
+            ExternalEvent spawn = PlayerAction.Spawn(ball, V(0.2, 0.25, 0.6) + Draw(random, 0.3, 0.1, 0.2)).Stamp(At(0.25), 3, 1);
+            ExternalEvent hit = PlayerAction.SetVelocity(BodyId.OfScene(2), V(-3, -3, -3) + Draw(random, 6, 6, 6)).Stamp(At(0.25), 2, 2);
+            ExternalEvent push = PlayerAction.Impulse(BodyId.OfScene(1), V(-1, -1, -1) + Draw(random, 2, 2, 2)).Stamp(At(0.25), 1, 3);
+            Simulation never = new(scene, KeepAll);
+            never.Submit(spawn);
+            never.AdvanceTo(At(0.7));
+            Simulation healed = new(scene, KeepAll.WithParts(new FaultyEngineParts { Healing = fault }));
+            healed.Submit(spawn);
+            healed.Submit(push);
+            healed.Submit(hit);
+            healed.AdvanceTo(At(0.3));
+            healed.Retract(hit);
+            healed.Retract(push);
+            healed.AdvanceTo(At(0.7));
+            allSame &= never.EventHash(At(0.7)) == healed.EventHash(At(0.7)) && never.StateHash(At(0.7)) == healed.StateHash(At(0.7));
+        }
+
+        Assert.Equal(isSame, allSame);
+    }
+
+    private static Vector3D Draw(Random random, double x, double y, double z) =>
+        new(x * random.NextDouble(), y * random.NextDouble(), z * random.NextDouble());
 
     private static Scene Row()
     {
