@@ -51,7 +51,8 @@ public sealed class Simulation
 
     /// <summary>Continues from a snapshot of a world of this scene: the same events give the same bits as in the world it was taken
     /// from.</summary>
-    /// <param name="scene">The scene of the snapshot's world.</param>
+    /// <param name="scene">The scene of the snapshot's world. What the snapshot tells of its bodies is checked against it. Walls are not in
+    /// a snapshot, so one of a scene that differs in them alone is accepted; sessions compare <see cref="Scene.Hash"/>.</param>
     /// <param name="snapshot">The snapshot to continue from. Earlier events are in it; they are <see cref="SubmitResult.TooOld"/>.</param>
     /// <param name="options">As for a new world, except <see cref="SimulationOptions.Start"/>, which comes from the snapshot.</param>
     /// <exception cref="ArgumentNullException">The scene or the snapshot is missing.</exception>
@@ -389,8 +390,9 @@ public sealed class Simulation
     /// <summary>Whether an event changed its body, as far as is known now. False while its time is not simulated yet; if it was submitted
     /// and its time has come, it had no effect: the body was not there, or was held (or not held by that hand), or the peer may not
     /// touch it, or there was no room (<see cref="WhenOccupied"/>), or an impulse would have made it faster than a player may make a body, a
-    /// tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A
-    /// late event may change the answer.</summary>
+    /// tenth of <see cref="Scene.SmallestRadius"/> in a tick. Nothing is ever clamped. A late event may change the answer. Events are told
+    /// apart by tick, kind, body, peer and number: two that share all of these have one answer, so give every event a number of its
+    /// own.</summary>
     /// <remarks>Pure, the same on every peer. Cost: the number of the body's segments. Before <see cref="HistoryEdge"/> the answer is no
     /// longer known: false.</remarks>
     public bool TookEffect(in ExternalEvent external) => Engine.Reader.TookEffect(external);

@@ -72,7 +72,7 @@ public sealed class PeerThread : IDisposable
     /// <summary>Raised on the session's thread for each action of <see cref="Do"/> that was refused, with the action and the exception; before
     /// the returned task completes, awaited or not. The host's verdict on a client's event comes by <see cref="Session.Logged"/>.</summary>
     /// <remarks>Not for what the end of the thread left unanswered. Without a handler it goes to <see cref="System.Diagnostics.Trace"/>, and
-    /// the first that nobody awaits either is said on standard error, a second later.</remarks>
+    /// the first refusal that nobody awaits either is written to standard error, a second later.</remarks>
     public event Action<PlayerAction, Exception>? Refused
     {
         add => refused.Add(value);

@@ -325,7 +325,7 @@ public abstract record SessionOptions
         if (MaxSpawned is < 0 or > 1_000_000)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(MaxSpawned), MaxSpawned, "A player may have spawned 0 to 1,000,000 bodies that are there.");
+                nameof(MaxSpawned), MaxSpawned, "The number of spawned bodies that a player may have in the world at once is 0 to 1,000,000.");
         }
     }
 

@@ -2,12 +2,13 @@ using System;
 using System.Collections.Generic;
 using LagSim.Collisions;
 using LagSim.Events;
+using LagSim.Scenes;
 using LagSim.Timelines;
 
 namespace LagSim.Rollback;
 
 /// <summary>The bodies that a cut has still to reach, each with the key from which on it is cut.</summary>
-internal sealed class PendingCuts(TimelineStore timelines)
+internal sealed class PendingCuts(BodyTable bodies, TimelineStore timelines)
 {
     private readonly Stack<(int Slot, EventKey Key)> pending = new();
     private Struck[] struck = Array.Empty<Struck>(); // by slot
@@ -51,6 +52,36 @@ internal sealed class PendingCuts(TimelineStore timelines)
                 {
                     Push(partner, from);
                 }
+            }
+        }
+    }
+
+    /// <summary>
+    /// Where a cut leaves a body asleep: those that it lies on, from what is done to them next. It finds the body asleep now, and wakes it.
+    /// </summary>
+    internal void PushWhatWakes(int body, in EventKey from)
+    {
+        int asleep = timelines.Last(body);
+        if (asleep == TimelineStore.None || timelines.Segment(asleep).Law != MotionLaw.Resting || !timelines.Segment(asleep).IsOfIsland)
+        {
+            return;
+        }
+
+        for (int contact = timelines.Carried.First(asleep); contact != TimelineStore.None; contact = timelines.Carried.Next(contact))
+        {
+            BodyId partner = timelines.Carried.At(contact).Partner;
+            int slot = timelines.Carried.At(contact).Surface == PersistentContact.NoSurface ? bodies.SlotOf(partner) : TimelineStore.None;
+            int first = TimelineStore.None;
+            int at = slot == TimelineStore.None ? TimelineStore.None : timelines.Last(slot);
+            for (; at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) > 0; at = timelines.Previous(at))
+            {
+                ref readonly EventKey key = ref timelines.Key(at);
+                first = key.Body == partner && key.Kind is not (EventKind.Impact or EventKind.StepEnd) ? at : first;
+            }
+
+            if (first != TimelineStore.None)
+            {
+                Push(slot, timelines.Key(first));
             }
         }
     }

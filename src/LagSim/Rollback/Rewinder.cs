@@ -42,7 +42,7 @@ internal class Rewinder : ISegmentOpenedObserver
     {
         this.bodies = bodies;
         this.timelines = timelines;
-        cuts = new PendingCuts(timelines);
+        cuts = new PendingCuts(bodies, timelines);
         this.log = log;
         this.scheduler = scheduler;
         this.progress = progress;
@@ -318,6 +318,7 @@ internal class Rewinder : ISegmentOpenedObserver
 
             if (any)
             {
+                CutWhatWakes(body, from);
                 Redo(body, from);
                 if (body != slot)
                 {
@@ -332,6 +333,9 @@ internal class Rewinder : ISegmentOpenedObserver
     /// is a collapse depends on who still touches them.
     /// </summary>
     private protected virtual void CutStruckWith(int body, in EventKey from) => cuts.PushStruckWith(body, from);
+
+    /// <summary>Cuts those that a body lies on which is left asleep, from what is done to them next: that wakes it.</summary>
+    private protected virtual void CutWhatWakes(int body, in EventKey from) => cuts.PushWhatWakes(body, from);
 
     /// <summary>Notes the bodies that from a key on cross what a body carries.</summary>
     private protected virtual void NoteDependents(SensorDependencies sensors, int slot, in EventKey from) =>

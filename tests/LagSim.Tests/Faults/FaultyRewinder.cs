@@ -42,6 +42,14 @@ internal sealed class FaultyRewinder(
         }
     }
 
+    private protected override void CutWhatWakes(int body, in EventKey from)
+    {
+        if (!faults.Has(HealingFault.LeavesWhatWakes))
+        {
+            base.CutWhatWakes(body, from);
+        }
+    }
+
     private protected override void CutStruckWith(int body, in EventKey from)
     {
         if (!faults.Has(HealingFault.LeavesStruckAgain))

@@ -82,4 +82,7 @@ internal enum HealingFault
 
     /// <summary>A path is tested against where others are after the current impact, not before the first of its round.</summary>
     ForgetsTheRound = 1048576,
+
+    /// <summary>What is done to a body stays as it is when one that lies on it, and was awake, is asleep again.</summary>
+    LeavesWhatWakes = 2097152,
 }
