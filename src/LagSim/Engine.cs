@@ -106,9 +106,10 @@ internal sealed class Engine
         SleepWaker waker = parts.SleepWaker(Bodies, Timelines, view, graph, rewinds, members);
         IslandSleep sleep = new(Bodies, Timelines, graph, Step);
         IslandStatics statics = parts.IslandStatics(Bodies, forces, graph, Step);
-        StepForces acting = new(Bodies, Timelines, forces, graph, Step);
-        StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, acting, members, trajectories, sleep);
-        Stepper = new IslandStepper(Bodies, Timelines, graph, Step, acting, partners, rewinds, members, stepSegments, sleep, statics, marks, work);
+        StepForces stepForces = new(Bodies, Timelines, forces, graph, Step);
+        StepSegments stepSegments = new(scene, Bodies, Timelines, graph, Step, stepForces, members, trajectories, sleep);
+        Stepper = new IslandStepper(
+            Bodies, Timelines, graph, Step, stepForces, partners, rewinds, members, stepSegments, sleep, statics, marks, work);
 
         // The handlers of events.
         CollapseRule collapse = parts.CollapseRule(scene, Bodies, Timelines, graph, strikes);

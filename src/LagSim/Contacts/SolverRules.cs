@@ -22,7 +22,7 @@ internal class SolverRules
     /// <summary>Whether a step that is cut short before its middle takes back what forces gave for the time after the cut.</summary>
     internal virtual bool TakesBackForces => true;
 
-    /// <summary>Whether a step that is shorter than the last first gives what forces owe for the last, at the velocity of the last.</summary>
+    /// <summary>Whether what forces owe for a step is given at its velocity, where the next is shorter.</summary>
     internal virtual bool GivesWhatForcesOwe => true;
 
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>

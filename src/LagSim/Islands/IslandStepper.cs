@@ -17,7 +17,7 @@ namespace LagSim.Islands;
 /// carry.
 /// </remarks>
 internal sealed class IslandStepper(
-    BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces acting, Partners partners,
+    BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces stepForces, Partners partners,
     RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, IslandStatics statics, StepMarks marks,
     SolverWork work)
 {
@@ -44,7 +44,7 @@ internal sealed class IslandStepper(
         canonical = StepKey();
         graph.Evaluate(canonical.Time, 0);
         SimTime time = canonical.Time;
-        acting.Begin(time);
+        stepForces.Begin(time);
         SimDuration length = FillStep(canonical.Time, StepWanted(canonical.Time));
         double tolerance = StepTolerance(out bool mayRest);
         if (mayRest && sleep.MayFallAsleep(canonical.Time) && statics.Holds(canonical.Time, length.ToSeconds()))
@@ -194,7 +194,7 @@ internal sealed class IslandStepper(
             }
             else
             {
-                gain = acting.GainInStep(i, length);
+                gain = stepForces.GainInStep(i, length);
             }
 
             step.AddBody(
@@ -216,7 +216,7 @@ internal sealed class IslandStepper(
     private void SolveStep(SimDuration length, double tolerance)
     {
         step.Solve(length.ToSeconds(), tolerance);
-        acting.Iterate(tolerance, isLost);
+        stepForces.Iterate(tolerance, isLost);
         step.LimitEnergy(length.ToSeconds(), tolerance);
         work.Count(step.Sweeps, step.Problem.ContactCount);
     }
@@ -254,7 +254,7 @@ internal sealed class IslandStepper(
         {
             bool isHeld = double.IsPositiveInfinity(graph.Masses[i]);
             fastest = Math.Max(fastest, graph.Velocities[i].Length);
-            mayRest &= !isHeld && !acting.MayChange(i);
+            mayRest &= !isHeld && !stepForces.MayChange(i);
         }
 
         return Math.Min(step.Scale.SweepSpeed, Math.Max(0.05 * fastest, step.Scale.FinestSweepSpeed));

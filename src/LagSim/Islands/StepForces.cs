@@ -25,9 +25,7 @@ internal sealed class StepForces(BodyTable bodies, TimelineStore timelines, in F
     private const int MaxIterations = 64;
 
     private readonly Forces forces = forces;
-    private SimTime[] actedUntil = Array.Empty<SimTime>(); // by body of the graph
-    private SimTime[] from = Array.Empty<SimTime>(); // by body: since when they act at the mean of both velocities
-    private Vector3D[] owed = Array.Empty<Vector3D>(); // by body: what they give it before that, at the velocity of the last step, in m/s
+    private Acting[] actions = Array.Empty<Acting>(); // by body of the graph
     private SimTime tick;
     private SimTime middle;
 
@@ -35,22 +33,21 @@ internal sealed class StepForces(BodyTable bodies, TimelineStore timelines, in F
     internal void Begin(SimTime tick)
     {
         this.tick = tick;
-        if (actedUntil.Length < graph.BodyCount)
+        if (actions.Length < graph.BodyCount)
         {
-            actedUntil = new SimTime[graph.BodyCount * 2];
-            from = new SimTime[graph.BodyCount * 2];
-            owed = new Vector3D[graph.BodyCount * 2];
+            actions = new Acting[graph.BodyCount * 2];
         }
 
         for (int i = 0; i < graph.BodyCount; i++)
         {
             int piece = timelines.Last(graph.Slots[i]);
-            actedUntil[i] = timelines.Segment(piece).Law == MotionLaw.Constrained ? timelines.Carried.CentreOf(piece) : tick;
-            if (tick < actedUntil[i] && step.Rules.TakesBackForces)
+            ref SimTime until = ref actions[i].Until;
+            until = timelines.Segment(piece).Law == MotionLaw.Constrained ? timelines.Carried.CentreOf(piece) : tick;
+            if (tick < until && step.Rules.TakesBackForces)
             {
-                // forces that follow from the velocity would act backwards on the one that this step gives, and a drag drive what it should brake
-                graph.Velocities[i] -= At(i, graph.Velocities[i], graph.Spins[i]) * actedUntil[i].SecondsSince(tick);
-                actedUntil[i] = tick;
+                // forces that follow from the velocity would act backwards on the one that this step gives: a drag would drive
+                graph.Velocities[i] -= At(i, graph.Velocities[i], graph.Spins[i]) * until.SecondsSince(tick);
+                until = tick;
             }
         }
     }
@@ -59,15 +56,17 @@ internal sealed class StepForces(BodyTable bodies, TimelineStore timelines, in F
     internal Vector3D GainInStep(int body, SimDuration length)
     {
         middle = tick + SimDuration.FromTicks(length.Ticks / 2);
+        ref Acting action = ref actions[body];
         bool mayOwe = HasForces(body) && step.Rules.GivesWhatForcesOwe; // gravity is the same at any velocity
-        from[body] = mayOwe ? SimTime.Max(tick - (middle - tick), actedUntil[body]) : actedUntil[body];
+        action.AtMeanFrom = mayOwe ? SimTime.Max(tick - (middle - tick), action.Until) : action.Until;
         graph.Accelerations[body] = At(body, graph.Velocities[body], graph.Spins[body]);
-        owed[body] = graph.Accelerations[body] * from[body].SecondsSince(actedUntil[body]);
-        return owed[body] + (graph.Accelerations[body] * middle.SecondsSince(from[body]));
+        action.Owed = graph.Accelerations[body] * action.AtMeanFrom.SecondsSince(action.Until);
+        return action.Owed + (graph.Accelerations[body] * middle.SecondsSince(action.AtMeanFrom));
     }
 
     /// <summary>What forces give a body until the tick, once the step is solved.</summary>
-    internal Vector3D GainAtTick(int body) => owed[body] + (graph.Accelerations[body] * tick.SecondsSince(from[body]));
+    internal Vector3D GainAtTick(int body) =>
+        actions[body].Owed + (graph.Accelerations[body] * tick.SecondsSince(actions[body].AtMeanFrom));
 
     /// <summary>
     /// Has forces act at the mean of the velocities before the tick and after it, contacts included: the implicit midpoint rule, under
@@ -89,13 +88,13 @@ internal sealed class StepForces(BodyTable bodies, TimelineStore timelines, in F
                     continue;
                 }
 
-                double since = middle.SecondsSince(from[i]);
+                double since = middle.SecondsSince(actions[i].AtMeanFrom);
                 Vector3D mean = (graph.Velocities[i] + step.Problem.Bodies[i].Velocity) * 0.5;
                 Vector3D spin = (graph.Spins[i] + step.Problem.Bodies[i].Spin) * 0.5;
                 Vector3D acceleration = At(i, mean, spin);
                 change = Math.Max(change, (acceleration - graph.Accelerations[i]).Length * since);
                 graph.Accelerations[i] = acceleration;
-                step.Regain(i, graph.Velocities[i] + owed[i] + (acceleration * since), graph.Spins[i]);
+                step.Regain(i, graph.Velocities[i] + actions[i].Owed + (acceleration * since), graph.Spins[i]);
             }
 
             if (change == 0)
@@ -127,5 +126,18 @@ internal sealed class StepForces(BodyTable bodies, TimelineStore timelines, in F
         }
 
         return has;
+    }
+
+    /// <summary>How forces act on a body in a step.</summary>
+    private struct Acting
+    {
+        /// <summary>Until when they have acted already: the velocity with which it comes contains that.</summary>
+        internal SimTime Until;
+
+        /// <summary>From when on they act at the mean of the velocities before and after the tick.</summary>
+        internal SimTime AtMeanFrom;
+
+        /// <summary>What they give it between the two, at the velocity with which it comes, in m/s.</summary>
+        internal Vector3D Owed;
     }
 }

@@ -10,7 +10,7 @@ namespace LagSim.Islands;
 
 /// <summary>Opens the segments of a contact step that was solved: chords, or the law that a body follows alone.</summary>
 internal sealed class StepSegments(
-    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces acting,
+    Scene scene, BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces stepForces,
     MemberFactory members, TrajectoryFactory trajectories, IslandSleep sleep)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
@@ -184,7 +184,7 @@ internal sealed class StepSegments(
         }
 
         half = push * (0.5 / graph.Masses[body]);
-        return velocity + acting.GainAtTick(body);
+        return velocity + stepForces.GainAtTick(body);
     }
 
     /// <summary>

@@ -69,21 +69,28 @@ internal sealed class PendingCuts(BodyTable bodies, TimelineStore timelines)
 
         for (int contact = timelines.Carried.First(asleep); contact != TimelineStore.None; contact = timelines.Carried.Next(contact))
         {
-            BodyId partner = timelines.Carried.At(contact).Partner;
-            int slot = timelines.Carried.At(contact).Surface == PersistentContact.NoSurface ? bodies.SlotOf(partner) : TimelineStore.None;
-            int first = TimelineStore.None;
-            int at = slot == TimelineStore.None ? TimelineStore.None : timelines.Last(slot);
-            for (; at != TimelineStore.None && EventKey.Compare(timelines.Key(at), from) > 0; at = timelines.Previous(at))
+            ref readonly PersistentContact with = ref timelines.Carried.At(contact);
+            int partner = with.Surface == PersistentContact.NoSurface ? bodies.SlotOf(with.Partner) : -1;
+            int act = partner < 0 ? TimelineStore.None : FirstActOn(partner, from);
+            if (act != TimelineStore.None)
             {
-                ref readonly EventKey key = ref timelines.Key(at);
-                first = key.Body == partner && key.Kind is not (EventKind.Impact or EventKind.StepEnd) ? at : first;
-            }
-
-            if (first != TimelineStore.None)
-            {
-                Push(slot, timelines.Key(first));
+                Push(partner, timelines.Key(act));
             }
         }
+    }
+
+    /// <summary>The first segment of a body after a key that was opened by what was done to it: by all but impacts and steps.</summary>
+    private int FirstActOn(int body, in EventKey after)
+    {
+        BodyId id = bodies.Id(body);
+        int first = TimelineStore.None;
+        for (int at = timelines.Last(body); at != TimelineStore.None && EventKey.Compare(timelines.Key(at), after) > 0; at = timelines.Previous(at))
+        {
+            ref readonly EventKey key = ref timelines.Key(at);
+            first = key.Body == id && key.Kind is not (EventKind.Impact or EventKind.StepEnd) ? at : first;
+        }
+
+        return first;
     }
 
     private bool IsStruckAgain(int body, in EventKey after)

@@ -35,8 +35,8 @@ internal class SegmentLookup(TimelineStore timelines, RollbackState rollback)
     }
 
     /// <summary>
-    /// From where on paths are met. Impacts of one round are one instant: when the first of them is met, by a heal or by rules that are called
-    /// for it, another may still be to come, which meets a body on the segment that the first one ends.
+    /// From where on paths are met. Impacts of one round are one instant: when a heal meets the first of them, or rules are called for it,
+    /// another may still be to come, which meets a body on the segment that the first one ends.
     /// </summary>
     private protected virtual EventKey Now => rollback.Cursor.Kind == EventKind.Impact
         ? EventKey.BeforeImpacts(rollback.Cursor.Time, rollback.Cursor.Round) : rollback.Cursor;

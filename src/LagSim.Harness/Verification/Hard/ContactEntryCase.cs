@@ -14,10 +14,10 @@ namespace LagSim.Harness.Verification.Hard;
 /// </summary>
 /// <remarks>
 /// An act in the middle of a contact step may make a force far faster than the step follows; where it went on until the step's end, a drag
-/// threw back what it should have stopped; and where a force acted on another ball that the act reaches, at the velocity that it gets, for as
-/// long as the step that was cut short. Worlds are drawn: masses from 1e-6 to 1e6 kg and up to 1000 times as heavy on top, rates from 1 to
-/// 2^22 1/s, speeds from 0.1 to 1000 m/s, one to three balls on a floor, every force and act. All forces take energy or have a potential, so
-/// that the sum only falls.
+/// threw back what it should have stopped. So it did where it acted on another ball, which the act reaches, at its new velocity for as long as
+/// the step that was cut short. Worlds are drawn: masses from 1e-6 to 1e6 kg, others up to 1000 times as heavy, rates from 1 to 2^22 1/s,
+/// speeds from 0.1 to 1000 m/s, one to three balls on a floor, every force and act. All forces take energy or have a potential, so that the
+/// sum only falls.
 /// </remarks>
 internal sealed class ContactEntryCase : IHardCase
 {
