@@ -424,8 +424,11 @@ public sealed class Simulation
         if (time < HistoryEdge || time > SimulatedTo || time <= Start)
         {
             throw new ArgumentOutOfRangeException(
-                nameof(time), time.ToShortString(), $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to"
-                    + $" {SimulatedTo.ToShortString()}, up to where the world is simulated.");
+                nameof(time),
+                time.ToShortString(),
+                SimulatedTo <= Start ? $"A snapshot is of an instant after the start, {Start.ToShortString()}, and nothing is simulated yet: advance the world first."
+                    : $"A snapshot can be taken from {SimTime.Max(HistoryEdge, Start + SimDuration.OneTick).ToShortString()} to"
+                        + $" {SimulatedTo.ToShortString()}, up to where the world is simulated.");
         }
 
         return Engine.Reader.Snapshot(time);

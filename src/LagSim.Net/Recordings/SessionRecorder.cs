@@ -39,9 +39,10 @@ public sealed class SessionRecorder : IDisposable
     /// Failing to create it is a <see cref="Failure"/> like any other.
     /// </param>
     /// <param name="length">Committed states later than this after the session's start are left out; null includes all.</param>
+    /// <exception cref="ArgumentException">The path is empty, or only white space.</exception>
     /// <exception cref="InvalidOperationException">The session has a world already: earlier events would be missing.</exception>
     public SessionRecorder(Session session, string path, SimDuration? length = null)
-        : this(session, length, Opener(path ?? throw new ArgumentNullException(nameof(path))))
+        : this(session, length, Opener(path))
     {
     }
 
@@ -98,11 +99,19 @@ public sealed class SessionRecorder : IDisposable
         Close();
     }
 
-    private static Func<int, (Stream Stream, string? File)> Opener(string path) => number =>
+    private static Func<int, (Stream Stream, string? File)> Opener(string path)
     {
-        string file = number == 1 ? path : Path.ChangeExtension(path, FormattableString.Invariant($"{number}{Path.GetExtension(path)}"));
-        return (RecordingFileStream.Open(file), file);
-    };
+        if (string.IsNullOrWhiteSpace(path ?? throw new ArgumentNullException(nameof(path))))
+        {
+            throw new ArgumentException("The path of a recording names a file; it may not be empty.", nameof(path));
+        }
+
+        return number =>
+        {
+            string file = number == 1 ? path : Path.ChangeExtension(path, FormattableString.Invariant($"{number}{Path.GetExtension(path)}"));
+            return (RecordingFileStream.Open(file), file);
+        };
+    }
 
     private void OnRenewed(string why)
     {

@@ -23,8 +23,8 @@ public sealed class PlayerBudget
     /// <exception cref="ArgumentOutOfRangeException">A value is out of range.</exception>
     public PlayerBudget(double workPerSecond = 100_000, double workAtOnce = 120_000)
     {
-        WorkPerSecond = Checked(workPerSecond, nameof(workPerSecond));
-        WorkAtOnce = Checked(workAtOnce, nameof(workAtOnce));
+        WorkPerSecond = Checked(workPerSecond, "per second", nameof(workPerSecond));
+        WorkAtOnce = Checked(workAtOnce, "at once", nameof(workAtOnce));
     }
 
     /// <summary>The work per second of real time, in units of about a microsecond.</summary>
@@ -33,6 +33,6 @@ public sealed class PlayerBudget
     /// <summary>The work at once, after a quiet period.</summary>
     public double WorkAtOnce { get; }
 
-    private static double Checked(double value, string name) => value is >= 1 and <= 1e9 ? value
-        : throw new ArgumentOutOfRangeException(name, value, FormattableString.Invariant($"A player's budget is 1 to 1e9 units of work; {value:R} is none."));
+    private static double Checked(double value, string when, string name) => value is >= 1 and <= 1e9 ? value
+        : throw new ArgumentOutOfRangeException(name, value, $"What a player may cost {when} is 1 to 1e9 units of work, of about a microsecond each.");
 }

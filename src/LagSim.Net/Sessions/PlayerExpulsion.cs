@@ -47,4 +47,7 @@ public sealed class PlayerExpulsion
 
     /// <summary>All of it as a sentence, for a log.</summary>
     public string Sentence { get; }
+
+    /// <inheritdoc cref="Sentence"/>
+    public override string ToString() => Sentence;
 }

@@ -261,9 +261,12 @@ public abstract record SessionOptions
         Range(RejoinTime, 0, 3600, nameof(RejoinTime));
         Range(Timeout, 0.1, 600, nameof(Timeout));
         Range(ResendInterval, 0.001, 1, nameof(ResendInterval));
-        if (keepAlive is SimDuration given)
+        if (keepAlive is SimDuration given && (given < SimDuration.FromSeconds(0.01) || given > Timeout / 3))
         {
-            Range(given, 0.01, Timeout.ToSeconds() / 3, nameof(KeepAlive));
+            throw new ArgumentOutOfRangeException(
+                nameof(KeepAlive),
+                given.ToShortString(),
+                $"The longest pause between datagrams is 10 ms to a third of the timeout of {Timeout.ToShortString()}.");
         }
 
         Range(RuleTimeout, RuleWatchdog.MinLimit.ToSeconds(), RuleWatchdog.MaxLimit.ToSeconds(), nameof(RuleTimeout));
@@ -313,13 +316,13 @@ public abstract record SessionOptions
         if (!(MaxHandForce >= 0))
         {
             throw new ArgumentOutOfRangeException(
-                nameof(MaxHandForce), MaxHandForce, "The greatest force of a player's hand is above 0 N, or 0 for what a hand has by default.");
+                nameof(MaxHandForce), MaxHandForce, "The greatest force of a player's hand is a number above 0 N, infinity too, or 0 for what a hand has by default.");
         }
 
         if (!(MaxHandPower >= 0))
         {
             throw new ArgumentOutOfRangeException(
-                nameof(MaxHandPower), MaxHandPower, "The greatest power of a player's hand is above 0 W, or 0 for what a hand has by default.");
+                nameof(MaxHandPower), MaxHandPower, "The greatest power of a player's hand is a number above 0 W, infinity too, or 0 for what a hand has by default.");
         }
 
         if (MaxSpawned is < 0 or > 1_000_000)

@@ -48,6 +48,55 @@ public sealed class RefusedValueTests
         Assert.Equal(isRefused ? 0 : 1, sender.KeyframesSent);
     }
 
+    [Fact]
+    public void Snapshot_OfAWorldThatNothingIsSimulatedOf_SaysSo()
+    {
+        Simulation world = new(Drop(1, 0.5));
+        Refuses(true, "advance the world first", () => _ = world.Snapshot(world.Start));
+        world.AdvanceTo(At(0.1));
+        Refuses(true, "can be taken from", () => _ = world.Snapshot(world.Start));
+        Refuses(false, "", () => _ = world.Snapshot(At(0.1)));
+    }
+
+    [Theory]
+    [InlineData(double.NaN, true)]
+    [InlineData(-1, true)]
+    [InlineData(0, false)]
+    [InlineData(double.PositiveInfinity, false)]
+    public void HandOfAPlayer_WhoseBoundIsNoNumber_IsRefused(double bound, bool isRefused)
+    {
+        Refuses(isRefused, "a number above 0 N", () => new HostOptions { MaxHandForce = bound }.Check());
+        Refuses(isRefused, "a number above 0 W", () => new HostOptions { MaxHandPower = bound }.Check());
+    }
+
+    [Theory]
+    [InlineData(0.009, true)]
+    [InlineData(0.01, false)]
+    [InlineData(1, false)]
+    [InlineData(1.001, true)]
+    public void KeepAlive_BeyondAThirdOfTheTimeout_SaysOfWhat(double seconds, bool isRefused) => Refuses(
+        isRefused, "a third of the timeout of 3s", () => new HostOptions { Timeout = SimDuration.FromSeconds(3), KeepAlive = SimDuration.FromSeconds(seconds) }.Check());
+
+    [Theory]
+    [InlineData(double.NaN, true)]
+    [InlineData(0.5, true)]
+    [InlineData(1, false)]
+    public void Budget_OutOfRange_SaysWhichOfTheTwo(double work, bool isRefused)
+    {
+        Refuses(isRefused, "per second", () => _ = new PlayerBudget(work, 1));
+        Refuses(isRefused, "at once", () => _ = new PlayerBudget(1, work));
+    }
+
+    [Theory]
+    [InlineData(-2, true)]
+    [InlineData(0, false)]
+    [InlineData(2.2e9, true)]
+    public void WaitUntilRunning_OfATimeThatIsNone_IsRefused(double milliseconds, bool isRefused)
+    {
+        using PeerThread host = PeerThread.Host(Drop(1, 0.5));
+        Refuses(isRefused, "0 s to 24 days", () => host.WaitUntilRunning(TimeSpan.FromMilliseconds(milliseconds)));
+    }
+
     private static void Refuses(bool isRefused, string word, Action act)
     {
         if (isRefused)

@@ -226,6 +226,7 @@ public sealed class SessionRecorderTests
         Assert.Contains("from its beginning on", Assert.Throws<InvalidOperationException>(() => new SessionRecorder(group.Host, "x.lagsim")).Message, StringComparison.Ordinal);
         Assert.Throws<ArgumentNullException>(() => new SessionRecorder(null!, "x.lagsim"));
         Assert.Throws<ArgumentNullException>(() => new SessionRecorder(group.Host, (string)null!));
+        Assert.Contains("names a file", Assert.Throws<ArgumentException>(() => new SessionRecorder(group.Host, " ")).Message, StringComparison.Ordinal);
     }
 
     /// <summary>A recording without one of its entries; those behind it move up.</summary>
