@@ -28,6 +28,7 @@ internal static class CheckCommand
             Description = "How many single worlds to play too, without a network: late, shuffled, doubled and retracted events, and promises about their"
                 + " physics. Without --sessions no session is played.",
             HelpName = "N",
+            CustomParser = result => CommonOptions.ParseWhole(result, "--worlds", 1, 10_000_000),
         };
         Option<string> peers = new("--peers")
         {
@@ -56,7 +57,7 @@ internal static class CheckCommand
         command.SetAction(parsed =>
         {
             (int from, int to) = Peers(parsed.GetValue(peers)!);
-            int? single = Worlds(parsed.GetValue(worlds));
+            int? single = parsed.GetValue(worlds);
             bool isOfWorldsAlone = single is not null && parsed.GetResult(sessions)?.Implicit != false;
             CheckOptions options = new()
             {
@@ -142,10 +143,6 @@ internal static class CheckCommand
             : throw new UsageException($"--peers is '{text}'; it must be a number from {CheckOptions.FewestPeers} to {CheckOptions.MaxPeers}, or a range of"
                 + " them such as 2-8.");
     }
-
-    private static int? Worlds(int? number) => number is null or >= 1 and <= 10_000_000
-        ? number
-        : throw new UsageException(FormattableString.Invariant($"--worlds is '{number}'; it must be a whole number from 1 to 10000000."));
 
     private static LinkProfile? Profile(string name) =>
         name == All ? null : LinkProfiles.TryGet(name, out LinkProfile? found, out string? error) ? found : throw new UsageException(error);

@@ -186,17 +186,20 @@ internal sealed class CommonOptions
         Description = $"{description} ({least} to {most})",
         DefaultValueFactory = _ => byDefault,
         HelpName = "N",
-        CustomParser = result =>
-        {
-            if (int.TryParse(Token(result), NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int value) && value >= least && value <= most)
-            {
-                return value;
-            }
-
-            result.AddError($"{Typed(result, name)} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
-            return byDefault;
-        },
+        CustomParser = result => ParseWhole(result, name, least, most),
     };
+
+    /// <summary>Parses an option's only argument as a whole number. An error names the option and its range.</summary>
+    internal static int ParseWhole(ArgumentResult result, string name, int least, int most)
+    {
+        if (int.TryParse(Token(result), NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int value) && value >= least && value <= most)
+        {
+            return value;
+        }
+
+        result.AddError($"{Typed(result, name)} is '{Token(result)}'; it must be a whole number between {least} and {most}.");
+        return least;
+    }
 
     /// <summary>Parses an option's only argument as a number. An error names the option and its range.</summary>
     internal static double ParseNumber(ArgumentResult result, string name, double least, double most)

@@ -359,7 +359,7 @@ internal sealed class SessionRun
 
         internal bool HasEnded => Session.State == SessionState.Ended;
 
-        internal string State => HasEnded ? $"out: {Session.EndReason}" : Session.State.ToString().ToLowerInvariant();
+        internal string State => HasEnded ? $"out: {Session.EndReason?.TrimEnd('.')}" : Session.State.ToString().ToLowerInvariant();
 
         internal PlayerResult ToResult(PortTraffic traffic) =>
             new(Player.Number, Link, Session, traffic, Frames, StalledFrames, Session is ClientSession ? Trace.Lost : 0);

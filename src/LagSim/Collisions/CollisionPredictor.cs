@@ -148,12 +148,7 @@ internal sealed class CollisionPredictor(
         int lastB = ordered ? piece : mine;
         ref readonly MotionSegment segmentA = ref timelines.Segment(lastA);
         scoped ref readonly MotionSegment segmentB = ref timelines.Segment(lastB);
-        if (segmentA.Law == segmentB.Law && (segmentA.Law == MotionLaw.Resting || segmentA.Law == MotionLaw.Held))
-        {
-            return false;
-        }
-
-        if (members.IsCovered(a, lastA, b, lastB))
+        if ((segmentA.Law == MotionLaw.Held && segmentB.Law == MotionLaw.Held) || members.IsCovered(a, lastA, b, lastB))
         {
             return false;
         }
@@ -173,6 +168,11 @@ internal sealed class CollisionPredictor(
             contact = ContactTime.At(opened);
             round = Math.Max(paths.RoundAfter(lastA, opened), paths.RoundAfter(lastB, opened));
             return true;
+        }
+
+        if (segmentA.Law == MotionLaw.Resting && segmentB.Law == MotionLaw.Resting)
+        {
+            return false;
         }
 
         SimTime from = opened;

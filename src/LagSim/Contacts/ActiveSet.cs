@@ -12,6 +12,8 @@ namespace LagSim.Contacts;
 internal sealed class ActiveSet
 {
     private const double Tolerance = 1e-12;
+    private const double SamePush = 1e-6; // less of a row than that is none of it, as in the basis
+    private const double Met = 1e3; // times the least: less than that is missing of a demand that is met
 
     private readonly ContactBasis basis = new(); // of the contacts in the set, by their places in it
     private int[] active = Array.Empty<int>();
@@ -63,25 +65,68 @@ internal sealed class ActiveSet
             }
 
             active[count] = worst;
-            if (!basis.TryAdd(contacts[worst], count, masses))
+            isActive[worst] = true;
+            if (basis.TryAdd(contacts[worst], count, masses))
             {
+                count++;
+            }
+            else if (!(gap > Met * least && TryExchange(contacts, masses, impulse, ref count)))
+            {
+                isActive[worst] = false;
                 dependent[worst] = true; // its normal is a combination of those already active: it pushes nothing that they do not
                 continue;
             }
 
-            isActive[worst] = true;
-            count = Retreat(contacts, masses, demand, impulse, change, count + 1);
+            count = Retreat(contacts, masses, demand, impulse, change, count);
             Array.Clear(dependent, 0, n);
         }
 
         for (int i = 0; i < n; i++)
         {
-            if (!isActive[i] && Missing(contacts[i], demand[i], change) > 1e3 * least)
+            if (!isActive[i] && Missing(contacts[i], demand[i], change) > Met * least)
             {
                 return false;
             }
         }
 
+        return true;
+    }
+
+    /// <summary>
+    /// Has a contact whose row is a combination of active ones push in place of one of them: as much of the same push as that one has left.
+    /// So what it demands can be met, though together with all of them it could push nothing that they do not. False if none pushes the
+    /// same way: then they keep the demand from being met.
+    /// </summary>
+    /// <remarks>A step of the dual method of Goldfarb and Idnani 1983 (Math. Program. 27, 1-33) where no step in velocities is left.</remarks>
+    private bool TryExchange(Span<ContactPoint> contacts, Span<double> masses, Span<double> impulse, ref int count)
+    {
+        int entering = active[count];
+        basis.Combine(count, trial);
+        int leaving = -1;
+        double most = double.PositiveInfinity;
+        for (int k = 0; k < count; k++)
+        {
+            if (trial[k] > SamePush && impulse[active[k]] < most * trial[k])
+            {
+                leaving = k;
+                most = impulse[active[k]] / trial[k];
+            }
+        }
+
+        if (leaving < 0)
+        {
+            return false;
+        }
+
+        for (int k = 0; k < count; k++)
+        {
+            impulse[active[k]] = k == leaving ? 0 : Math.Max(0, impulse[active[k]] - (most * trial[k]));
+        }
+
+        isActive[active[leaving]] = false;
+        impulse[entering] = most;
+        Array.Copy(active, leaving + 1, active, leaving, count - leaving); // and the one that enters, at the end
+        count = Readd(contacts, masses, impulse, leaving, count);
         return true;
     }
 
@@ -139,8 +184,14 @@ internal sealed class ActiveSet
             }
         }
 
-        int row = intact;
-        for (int k = intact; k < kept; k++)
+        return Readd(contacts, masses, impulse, intact, kept);
+    }
+
+    /// <summary>Makes the rows of the active set again from one on; how many there are.</summary>
+    private int Readd(Span<ContactPoint> contacts, Span<double> masses, Span<double> impulse, int from, int count)
+    {
+        int row = from;
+        for (int k = from; k < count; k++)
         {
             int i = active[k];
             active[row] = i;

@@ -58,7 +58,7 @@ internal sealed class ContactBasis
 
     /// <summary>
     /// Makes the basis row of a contact: its own row less what it shares with the rows before, twice, so that rounding leaves nothing of
-    /// them. False if nothing is left.
+    /// them. False if nothing is left: at a body that the contact has no part in, rounding may leave something that was never larger.
     /// </summary>
     internal bool TryAdd(in ContactPoint contact, int row, Span<double> masses)
     {
@@ -85,12 +85,16 @@ internal sealed class ContactBasis
         }
 
         weight[row] = Product(mine, mine, masses);
+        double left = 0;
+        double largest = 0;
         for (int b = 0; b < bodies; b++)
         {
             extent[(row * bodies) + b] = mine[b].Length;
+            left = Math.Max(left, mine[b].Length);
+            largest = Math.Max(largest, size[b]);
         }
 
-        return weight[row] > 0;
+        return left > Cancelled * largest;
     }
 
     /// <summary>Makes nothing of the parts that have cancelled; whether there were any.</summary>
@@ -159,12 +163,21 @@ internal sealed class ContactBasis
             along[r] = rest / weight[r];
         }
 
+        OfContacts(along, count, trial);
+    }
+
+    /// <summary>How much of each row before a row that nothing was left of is made, <paramref name="row"/> of them.</summary>
+    internal void Combine(int row, Span<double> parts) => OfContacts(share.AsSpan(row * stride, row), row, parts);
+
+    /// <summary>From parts of the basis rows to parts of the contacts' own.</summary>
+    private void OfContacts(Span<double> ofBasis, int count, Span<double> ofContacts)
+    {
         for (int r = count - 1; r >= 0; r--)
         {
-            trial[r] = along[r];
+            ofContacts[r] = ofBasis[r];
             for (int k = r + 1; k < count; k++)
             {
-                trial[r] -= share[(k * stride) + r] * trial[k];
+                ofContacts[r] -= share[(k * stride) + r] * ofContacts[k];
             }
         }
     }

@@ -131,6 +131,9 @@ internal class ContactScale
     /// <summary>The closing speed that the sweeps of a step may leave at contacts, in m/s.</summary>
     internal double SweepSpeed { get; }
 
+    /// <summary>How far from touching, in metres, the sweeps of a step may leave a contact that holds.</summary>
+    internal double SweepGap => SweepSpeed * Step.ToSeconds();
+
     /// <summary>The closing speed that impacts within a step may leave at contacts that hold, in m/s.</summary>
     internal double ImpactSpeed => ImpactPart * Length / Step.ToSeconds();
 

@@ -112,6 +112,9 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
         }
     }
 
+    /// <summary>Whether a contact lasts that is solved without its rebound.</summary>
+    internal bool KeepsWhatDoesNotRebound => step.Rules.KeepsWhatDoesNotRebound;
+
     /// <summary>
     /// Has each hand give no more in all its contacts together than it may; true if one would have given more, and the impact was solved again.
     /// </summary>

@@ -16,6 +16,9 @@ internal class SolverRules
     /// <summary>Whether overlap is pushed out, and what is struck rebounds, only as far as that makes no energy.</summary>
     internal virtual bool LimitsEnergy => true;
 
+    /// <summary>Whether a contact that would rebound, but is solved without since that makes energy, lasts.</summary>
+    internal virtual bool KeepsWhatDoesNotRebound => true;
+
     /// <summary>Whether what two give each other acts on both, also where one of them leaves.</summary>
     internal virtual bool KeepsMomentum => true;
 
@@ -24,6 +27,9 @@ internal class SolverRules
 
     /// <summary>Whether what forces owe for a step is given at its velocity, where the next is shorter.</summary>
     internal virtual bool GivesWhatForcesOwe => true;
+
+    /// <summary>Whether a body leaves an island for the planes that alone hold it only once it touches them.</summary>
+    internal virtual bool LeavesWhereItTouches => true;
 
     /// <summary>Whether <see cref="NormalRefinement"/> solves the normals where sweeps alone do not converge.</summary>
     internal virtual bool RefinesNormals => true;

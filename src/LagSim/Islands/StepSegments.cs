@@ -103,8 +103,8 @@ internal sealed class StepSegments(
     }
 
     /// <summary>
-    /// Whether something pushes a body in the step. If that is static planes alone, on which a closed form carries it,
-    /// <paramref name="planes"/> is their number.
+    /// Whether something pushes a body in the step. If that is static planes alone, which it touches and on which a closed form carries it,
+    /// <paramref name="planes"/> is their number. Off them, or in them, a closed form would carry it for good: the step brings it there first.
     /// </summary>
     private bool IsHeldTogether(int body, out int planes)
     {
@@ -118,7 +118,7 @@ internal sealed class StepSegments(
             if (c.Second == ContactPoint.Static && c.Holds)
             {
                 isHeld = true;
-                needsSteps |= !surfaces.IsPlane(c.Surface) || c.Impulse == 0;
+                needsSteps |= !surfaces.IsPlane(c.Surface) || c.Impulse == 0 || (step.Rules.LeavesWhereItTouches && Math.Abs(c.Gap) > step.Scale.SweepGap);
                 rubs |= c.Friction > 0;
                 planes++;
             }

@@ -164,13 +164,17 @@ internal sealed class IslandImpact(
         return isJammed;
     }
 
-    /// <summary>Contacts that a hand presses with all it may give persist, and so do those that they are pressed against.</summary>
+    /// <summary>
+    /// Contacts that a hand presses with all it may give persist, and so do those that they are pressed against. So do contacts that were
+    /// to rebound and do not, since that would have made energy.
+    /// </summary>
     private void KeepPressed(bool presses)
     {
         for (int i = 0; i < graph.ContactCount; i++)
         {
             ref readonly SolverContact c = ref impact.Problem.Contacts[i];
-            graph.Contacts[i].Lasts |= graph.IsByHand(graph.Contacts[i]) && c.Impulse >= c.Most;
+            bool isDropped = impact.KeepsWhatDoesNotRebound && graph.Contacts[i].Target > 0 && c.Target <= 0 && c.Impulse > 0 && graph.RestitutionOf(graph.Contacts[i]) < 1;
+            graph.Contacts[i].Lasts |= isDropped || (graph.IsByHand(graph.Contacts[i]) && c.Impulse >= c.Most);
         }
 
         for (int i = graph.ContactCount; i < impact.Problem.ContactCount && presses; i++)

@@ -11,15 +11,14 @@ public sealed class EnergyOfIslandsTests
 {
     /// <summary>
     /// A ball that spins fast and strikes a heap and its walls without a loss; rebound and friction of several contacts at once
-    /// make energy if they may: by more than 0.004 of it in 3 of 1,500 drawn worlds, of which this is the one with most, 3.4 times all that
-    /// there was; with the rule it is 0.0011. What is read within a step is off by some thousandths, since velocities are those of its middle.
+    /// make energy if they may: by more than 0.004 of it in 1 of 120 drawn worlds, which is this one, by 0.02; with the rule it is 0.0006. What is read within a step is off by some thousandths, since velocities are those of its middle.
     /// </summary>
     [Theory]
     [InlineData(false)]
     [InlineData(true)]
     public void Impact_OfASpinningBallOnAHeap_GainsNone(bool gains)
     {
-        Random random = new(910);
+        Random random = new(925);
         SceneBuilder builder = new SceneBuilder("pit").WithContactTolerance(1e-3).AddPlane("floor", Vector3D.Up, 0.0)
             .AddPlane("west", V(1), -0.3).AddPlane("east", V(-1), -0.3)
             .AddPlane("back", V(0, 0, 1), -0.3).AddPlane("front", V(0, 0, -1), -0.3);

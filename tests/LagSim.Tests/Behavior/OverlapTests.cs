@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
@@ -101,6 +102,29 @@ public sealed class OverlapTests
         Assert.All(Bodies(world), body => Assert.InRange(Read(world, body, 3).Position.Y, -Radius, gravity > 0 ? 4 * Radius : 6 * Radius));
     }
 
+    /// <summary>
+    /// Balls of unequal masses that are put at exactly one point, above one that they just touch, end as a column. Their contacts are
+    /// combinations of one another, and an impact on the one below is solved without rebound, again and again, where that one does not join them.
+    /// </summary>
+    [Theory]
+    [InlineData(0, new[] { 1.0, 5, 4, 1 }, new[] { 0.1, 0.3, 0.1, 0.3 })]
+    [InlineData(0.5, new[] { 1.0, 5, 4, 1 }, new[] { 0.1, 0.3, 0.1, 0.3 })]
+    [InlineData(0.5, new[] { 1.24, 180, 2.08 }, new[] { 0.1, 0.2, 0.2 })]
+    [InlineData(0, new[] { 0.206, 0.215, 0.888, 0.148 }, new[] { 0.1, 0.2, 0.1, 0.3 })]
+    public void UnequalBodiesAtOnePoint_AboveOneThatTheyTouch_EndAsAColumn(double restitution, double[] masses, double[] radii)
+    {
+        Scene scene = new SceneBuilder("column").WithContactTolerance(1e-3).WithSmallestRadius(0.1).AddPlane("floor", Vector3D.Up, 0)
+            .AddBody("below", new BodySpec(radii[0], masses[0], restitution, friction: 0.5), V(0, radii[0])).Build();
+        Simulation world = Column(scene, restitution, masses, radii, SolverRules.Usual);
+        Assert.True(MinGap(world, At(8)) >= -1e-3);
+        Assert.All(Bodies(world), body => Assert.Equal(MotionLaw.Resting, Read(world, body, 8).Motion));
+
+        // The control: where what does not rebound counts as bounced off, the heavy ball stays in the light one.
+        bool stays = restitution > 0 && masses[1] == 180;
+        Simulation bounced = Column(scene, restitution, masses, radii, new FaultySolverRules { DropsWhatDoesNotRebound = true });
+        Assert.Equal(stays, MinGap(bounced, At(8)) < -0.1);
+    }
+
     /// <summary>In a periodic box nothing pushes (docs/LIMITS.md): what rests in another stays there, what moves out of it parts, and what is
     /// put beside it was never in it.</summary>
     [Theory]
@@ -114,6 +138,18 @@ public sealed class OverlapTests
         world.Submit(PlayerAction.Spawn(new BodySpec(Radius, 1, 0.5), V(6 - Depth, 5, 5), V(speed), whenOccupied: when).Stamp(At(0), 0, 1));
         world.AdvanceTo(At(50));
         Assert.Equal(stays ? Depth : 0, Math.Max(0, DepthAt(world, 50)), 9);
+    }
+
+    private static Simulation Column(Scene scene, double restitution, double[] masses, double[] radii, SolverRules rules)
+    {
+        Simulation world = new(scene, KeepAll.WithParts(new FaultyEngineParts { Rules = rules }));
+        for (int n = 1; n < masses.Length; n++)
+        {
+            world.Submit(PlayerAction.Spawn(new BodySpec(radii[n], masses[n], restitution, friction: 0.5), V(0, 0.5)).Stamp(At(1), 0, (uint)n));
+        }
+
+        world.AdvanceTo(At(8));
+        return world;
     }
 
     private static Simulation WithOverlap(double gravity, double tolerance, bool sleeps = false, bool isSlow = false)

@@ -14,6 +14,9 @@ internal sealed class FaultySolverRules : SolverRules
     /// <summary>Overlap is pushed out, and what is struck rebounds, whatever energy that makes.</summary>
     internal bool GainsEnergy { get; init; }
 
+    /// <summary>What is solved without its rebound counts as if it had rebounded.</summary>
+    internal bool DropsWhatDoesNotRebound { get; init; }
+
     /// <summary>What leaves keeps pushes that the other does not feel, and does not feel what slows the other down.</summary>
     internal bool LosesMomentum { get; init; }
 
@@ -22,6 +25,9 @@ internal sealed class FaultySolverRules : SolverRules
 
     /// <summary>What forces owe for a long step, they give at the velocity of a short one.</summary>
     internal bool GivesForcesLate { get; init; }
+
+    /// <summary>What planes alone hold leaves for them where it is, above them or in them.</summary>
+    internal bool LeavesInTheAir { get; init; }
 
     /// <summary>What sweeps do not settle stays unsettled.</summary>
     internal bool SweepsAlone { get; init; }
@@ -35,11 +41,15 @@ internal sealed class FaultySolverRules : SolverRules
 
     internal override bool LimitsEnergy => !GainsEnergy;
 
+    internal override bool KeepsWhatDoesNotRebound => !DropsWhatDoesNotRebound;
+
     internal override bool KeepsMomentum => !LosesMomentum;
 
     internal override bool TakesBackForces => !ActsBackwards;
 
     internal override bool GivesWhatForcesOwe => !GivesForcesLate;
+
+    internal override bool LeavesWhereItTouches => !LeavesInTheAir;
 
     internal override bool RefinesNormals => !SweepsAlone;
 

@@ -20,7 +20,7 @@ internal abstract class WorldPromise
     internal static IReadOnlyList<WorldPromise> All(WorldScene world) =>
     [
         new PlacePromise(), new SpeedPromise(world), new EnergyPromise(world), new MomentumPromise(world), new DepthPromise(world),
-            new RestPromise(),
+            new RestPromise(), new CarryPromise(),
         new ReboundPromise(),
     ];
 
