@@ -62,7 +62,7 @@ public sealed class PeerLog
     private void Take(RuleEvent told)
     {
         bool isGoal = told.Notice.Code == (int)Told.Goal;
-        Open += told.Kind switch { NoticeKind.Predicted => 1, NoticeKind.Confirmed or NoticeKind.Retracted => -1, _ => 0 };
+        Open += told.Kind switch { NoticeKind.Predicted => 1, NoticeKind.Confirmed or NoticeKind.Retracted or NoticeKind.Unresolved => -1, _ => 0 };
         GoalsTakenBack += isGoal && told.Kind == NoticeKind.Retracted ? 1 : 0;
         if (told.Kind == NoticeKind.Confirmed)
         {

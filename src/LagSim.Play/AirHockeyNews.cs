@@ -129,6 +129,11 @@ internal sealed class AirHockeyNews(RuleNotices notices, int players, Func<int, 
             told.RemoveAt(at);
         }
 
+        if (next.Kind == NoticeKind.Unresolved)
+        {
+            return; // the score says what happened
+        }
+
         if (next.Kind != NoticeKind.Retracted || line.WasShown)
         {
             told.Add(line); // what nobody has seen is not taken back before them

@@ -30,7 +30,7 @@ internal sealed class BodyRoster(
         LossReason loss = timelines.Segment(timelines.Last(slot)).Loss;
         if (loss != LossReason.None)
         {
-            throw new SimulationException(trajectories.Failures.OfLoss(slot, progress.Start, loss, body.Position, body.Velocity));
+            throw new SimulationException(trajectories.Failures.OfLoss(slot, progress.Start, loss, body.Position, body.Velocity, body.Spin));
         }
     }
 

@@ -192,9 +192,10 @@ internal sealed class EventLoop(
             rollback.Cursor = key;
         }
 
-        caller!.Process();
+        long made = caller!.Made;
+        caller.Process();
         progress.EventsProcessed++;
-        return meter.Observer?.OnCall() ?? WorkVerdict.GoOn;
+        return meter.TellCall(key, caller.Made > made);
     }
 
     /// <summary>Not before the first instant that is kept: nothing could be read then.</summary>

@@ -38,6 +38,7 @@ internal sealed class LossReader(BodyTable bodies, TimelineStore timelines, Forc
         int before = timelines.Previous(last);
         Vector3D position = before == TimelineStore.None ? Vector3D.Zero : timelines.Segment(before).Position;
         Vector3D velocity = before == TimelineStore.None ? Vector3D.Zero : timelines.Segment(before).Velocity;
-        return new LostBody(bodies.Id(slot), key.Time, reason, position, velocity, texts.OfLoss(slot, key.Time, reason, position, velocity));
+        Vector3D spin = before == TimelineStore.None ? Vector3D.Zero : timelines.SpinOf(before).AtEpoch;
+        return new LostBody(bodies.Id(slot), key.Time, reason, position, velocity, texts.OfLoss(slot, key.Time, reason, position, velocity, spin));
     }
 }

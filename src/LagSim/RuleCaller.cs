@@ -16,8 +16,9 @@ internal class RuleCaller
     /// there.</summary>
     internal const int MaxCalls = 1 << 18;
 
-    /// <summary>How many bytes the states after the calls within the history may take: 2^28. A state of three kilobytes, such as that of a
-    /// hundred bodies, may so change 80,000 times within it, and one of the largest size 240 times.</summary>
+    /// <summary>How many bytes the states after the calls within the history may take: 2^28. Of a state that changes the pages
+    /// count that do (<see cref="StatePage"/>): one of a hundred bodies may change in one of them 250,000 times within it, and one of the largest
+    /// size 26,000 times.</summary>
     internal const long MaxStateBytes = 1L << 28;
 
     private readonly GameRules rules;
@@ -231,7 +232,7 @@ internal class RuleCaller
         {
             throw Failed(
                 call, $"the states after the {log.Heard} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}:"
-                    + " each that changes something is kept as a copy of all", null);
+                    + $" of each that changes something the parts are kept that differ, by {StatePage.Size} bytes", null);
         }
     }
 

@@ -1,6 +1,7 @@
 using System;
 using LagSim.Contacts;
 using LagSim.Events;
+using LagSim.Scenes;
 using LagSim.Timelines;
 
 namespace LagSim.Handlers;
@@ -19,6 +20,12 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     /// </summary>
     private const double WorkAgain = 4;
 
+    /// <summary>
+    /// The cost of a call of rules that do nothing in it: it was measured at 5, for a ball that bounces 29,000 times a second with and without
+    /// rules that hear it. A call that stands was not made.
+    /// </summary>
+    private const double WorkPerCall = 5;
+
     /// <summary>Notified of every event that is processed; null, the default, costs nothing.</summary>
     internal IWorkObserver? Observer { get; set; }
 
@@ -36,9 +43,38 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
         bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         Span<int> alone = stackalloc int[1] { slot };
         Span<int> who = isOfMany ? graph.Slots : alone;
-        bool isAgain = rollback.IsActive && key.Time <= rollback.Horizon;
+        bool isAgain = IsAgain(key);
         return Observer?.OnWork(key, who, WorkOf(who.Length, isAgain), isAgain, bodies) ?? WorkVerdict.GoOn;
     }
+
+    /// <summary>Rules were called for an event, or that call stands: reports it to the observer.</summary>
+    /// <returns>The observer's verdict.</returns>
+    internal WorkVerdict TellCall(in EventKey key, bool isMade)
+    {
+        if (Observer is null)
+        {
+            return WorkVerdict.GoOn;
+        }
+
+        Span<int> who = stackalloc int[2];
+        int count = 0;
+        if (key.Kind is not (EventKind.Command or EventKind.Timer or EventKind.Start))
+        {
+            count = Add(who, 0, key.Body);
+            count = key.Other == key.Body ? count : Add(who, count, key.Other);
+        }
+
+        return Observer.OnCall(key, who.Slice(0, count), isMade ? WorkPerCall : 1, IsAgain(key), bodies);
+    }
+
+    private int Add(Span<int> who, int count, BodyId body)
+    {
+        int slot = bodies.SlotOf(body);
+        who[count] = Math.Max(0, slot);
+        return slot < 0 ? count : count + 1;
+    }
+
+    private bool IsAgain(in EventKey key) => rollback.IsActive && key.Time <= rollback.Horizon;
 
     /// <summary>
     /// The cost of an event by its number of bodies, in units of about a microsecond on a core of the 2020s. Events of contact solvers

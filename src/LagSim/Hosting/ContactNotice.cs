@@ -35,7 +35,7 @@ public readonly struct ContactNotice : IEquatable<ContactNotice>, INotice<Contac
         this.stamp = stamp;
     }
 
-    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed, retracted or unresolved.</summary>
     public NoticeKind Kind => stamp.Kind;
 
     /// <summary>

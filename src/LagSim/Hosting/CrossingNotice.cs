@@ -27,7 +27,7 @@ public readonly struct CrossingNotice : IEquatable<CrossingNotice>, INotice<Cros
         Crossing = crossing;
     }
 
-    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed, retracted or unresolved.</summary>
     public NoticeKind Kind => stamp.Kind;
 
     /// <summary>

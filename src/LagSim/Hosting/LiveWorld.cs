@@ -94,6 +94,10 @@ public sealed class LiveWorld
             simulation.Engine.Rules?.Listen();
         }
 
+        contacts?.Begin(simulation.HistoryEdge);
+        crossings?.Begin(simulation.HistoryEdge);
+        notices?.Begin(simulation.HistoryEdge);
+        losses?.Begin(simulation.HistoryEdge);
         Simulation = simulation;
         Contacts = contacts;
         Crossings = crossings;
@@ -167,8 +171,8 @@ public sealed class LiveWorld
     private long EventsAStep => Math.Max(MinEvents, Effort / (Math.Min(Simulation.BodyCount, AdaptiveBroadPhase.UsualCandidates) + 8));
 
     /// <summary>
-    /// Gives the notices free for the world that takes this one's place; what was predicted and not confirmed is retracted. Not to be
-    /// stepped again.
+    /// Gives the notices free for the world that takes this one's place; what was predicted and not confirmed is in doubt until that world
+    /// has it too, or does not. Not to be stepped again.
     /// </summary>
     public void Retire()
     {

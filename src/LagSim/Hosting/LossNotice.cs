@@ -28,7 +28,7 @@ public readonly struct LossNotice : IEquatable<LossNotice>, INotice<LossNotice>
         Velocity = velocity;
     }
 
-    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed, retracted or unresolved.</summary>
     public NoticeKind Kind => stamp.Kind;
 
     /// <summary>

@@ -88,6 +88,9 @@ public sealed class LossNotices : ILossObserver
     /// <inheritdoc cref="NoticeLedger{T}.Restart"/>
     internal void Restart() => ledger.Restart();
 
+    /// <inheritdoc cref="NoticeLedger{T}.Begin"/>
+    internal void Begin(SimTime from) => ledger.Begin(from);
+
     /// <inheritdoc cref="NoticeLedger{T}.Tell"/>
     internal void Tell(Simulation simulation) => ledger.Tell(simulation);
 

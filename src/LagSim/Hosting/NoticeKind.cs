@@ -2,8 +2,8 @@ namespace LagSim.Hosting;
 
 /// <summary>The kind of a notice: of a contact, of a crossing, of a lost body, or of what rules told.</summary>
 /// <remarks>
-/// Of each thing that is told the first notice is <see cref="Predicted"/> and the last <see cref="Confirmed"/> or <see cref="Retracted"/>,
-/// each once. Between them are any number of <see cref="Moved"/> and <see cref="InDoubt"/>. All of them carry the same <c>Id</c>.
+/// Of each thing that is told the first notice is <see cref="Predicted"/> and the last <see cref="Confirmed"/>, <see cref="Retracted"/> or, after a
+/// rejoin, <see cref="Unresolved"/>, each once. Between them are any number of <see cref="Moved"/> and <see cref="InDoubt"/>. All of them carry the same <c>Id</c>.
 /// </remarks>
 public enum NoticeKind
 {
@@ -35,4 +35,10 @@ public enum NoticeKind
     /// and <see cref="Retracted"/> once it cannot.
     /// </summary>
     InDoubt = 5,
+
+    /// <summary>
+    /// Whether it happened is not known here: a fresh copy of the world took the place of the one that predicted it, as when a client joins
+    /// again, and the copy is of a later instant. The state of the world and of its rules is right all the same.
+    /// </summary>
+    Unresolved = 6,
 }

@@ -93,25 +93,40 @@ internal sealed class NoticeLedger<T>
         isFollowing = true;
     }
 
-    /// <summary>Lets go of a world that another takes the place of: what it predicted and did not confirm is retracted.</summary>
+    /// <summary>
+    /// Lets go of a world that another takes the place of: what it predicted and did not confirm is in doubt until that one has it too.
+    /// </summary>
     internal void Restart()
     {
         changes.Clear();
         settledChanges = 0;
         for (; confirmed < standing.Count; confirmed++)
         {
-            doubtful.Add(standing[confirmed]);
+            doubtful.Add(Emit(NoticeKind.InDoubt, standing[confirmed]));
         }
 
-        foreach (T known in doubtful)
-        {
-            Emit(NoticeKind.Retracted, known);
-        }
-
-        doubtful.Clear();
         standing.Clear();
         confirmed = 0;
         isFollowing = false;
+    }
+
+    /// <summary>The world that it follows begins there: of what lies before, nobody can say here whether it happened.</summary>
+    internal void Begin(SimTime from)
+    {
+        int kept = 0;
+        for (int n = 0; n < doubtful.Count; n++)
+        {
+            if (doubtful[n].Key.Time < from)
+            {
+                Emit(NoticeKind.Unresolved, doubtful[n]);
+            }
+            else
+            {
+                doubtful[kept++] = doubtful[n];
+            }
+        }
+
+        doubtful.RemoveRange(kept, doubtful.Count - kept);
     }
 
     /// <summary>
@@ -350,7 +365,7 @@ internal sealed class NoticeLedger<T>
         number++;
         T stamped = notice.As(new NoticeStamp(kind, number, kind == NoticeKind.Predicted ? number : told.Id, told.Key.Time));
         Noticed?.Invoke(stamped);
-        bool isLast = kind is NoticeKind.Confirmed or NoticeKind.Retracted;
+        bool isLast = kind is NoticeKind.Confirmed or NoticeKind.Retracted or NoticeKind.Unresolved;
         if (!queue.TryWrite(stamped, isLast ? queue.Capacity : queue.Capacity / 2))
         {
             Volatile.Write(ref lost, lost + 1); // no other thread writes it

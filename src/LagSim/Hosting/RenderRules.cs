@@ -73,7 +73,7 @@ internal sealed class RenderRules
 
     private sealed class Entry
     {
-        internal StateVersion State { get; } = new();
+        internal RenderState State { get; } = new();
 
         internal SimTime From { get; set; }
     }

@@ -26,7 +26,7 @@ public readonly struct RuleEvent : IEquatable<RuleEvent>, INotice<RuleEvent>
         Notice = notice;
     }
 
-    /// <summary>Whether it is predicted, moved, in doubt, confirmed or retracted.</summary>
+    /// <summary>Whether it is predicted, moved, in doubt, confirmed, retracted or unresolved.</summary>
     public NoticeKind Kind => stamp.Kind;
 
     /// <summary>Counts those of this peer from 1, lost ones included; see <see cref="RuleNotices.Lost"/>.</summary>

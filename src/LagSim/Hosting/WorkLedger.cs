@@ -210,35 +210,7 @@ public sealed class WorkLedger : IWorkObserver
             owner = entry.Owner == Nobody ? owner : entry.Owner;
         }
 
-        double mine = amount;
-        if (isAgain && healedFor.Count > 0)
-        {
-            mine = owner == Nobody ? 0 : amount / 2;
-            goesOn &= ChargeLateEvent(amount - mine, key.Time);
-        }
-
-        if (isShared)
-        {
-            sharing.Clear();
-            foreach (int slot in bodies)
-            {
-                byte one = entries[slot].Owner;
-                if (one != Nobody && !sharing.Contains(one))
-                {
-                    sharing.Add(one);
-                }
-            }
-
-            foreach (byte one in sharing)
-            {
-                goesOn &= Charge(one, mine / sharing.Count, key.Time, isAgain);
-            }
-        }
-        else
-        {
-            goesOn &= Charge(owner, mine, key.Time, isAgain);
-        }
-
+        goesOn &= Charge(bodies, owner, isShared, amount, key.Time, isAgain, out double mine);
         if (owner != Nobody)
         {
             Note(bodies, owner, key.Time, mine / bodies.Length);
@@ -248,13 +220,60 @@ public sealed class WorkLedger : IWorkObserver
     }
 
     /// <inheritdoc/>
-    /// <remarks>It is nobody's: what rules compute is the game's own. But it is work of this step.</remarks>
-    WorkVerdict IWorkObserver.OnCall()
+    /// <remarks>
+    /// What rules compute in a call is the game's own, and nobody's. That there is a call is charged like the event for which it is made: to
+    /// the player of a command, or whose bodies took part.
+    /// </remarks>
+    WorkVerdict IWorkObserver.OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {
-        double amount = Math.Max(1, Measure());
-        Total += amount;
-        thisStep += amount;
-        return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : WorkVerdict.GoOn;
+        double took = Math.Max(amount, Measure());
+        Total += took;
+        thisStep += took;
+        byte owner = key.Kind == EventKind.Command ? key.Peer : Nobody;
+        bool isShared = false;
+        foreach (int slot in bodies)
+        {
+            ref Entry entry = ref EntryOf(slot, key.Time, table);
+            isShared |= entry.Owner != Nobody && owner != Nobody && entry.Owner != owner;
+            owner = entry.Owner == Nobody ? owner : entry.Owner;
+        }
+
+        bool goesOn = Charge(bodies, owner, isShared, amount, key.Time, isAgain, out _);
+        return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
+    }
+
+    /// <summary>Charges what some bodies took part in, to their owners and to those whose late events are healed; whether all may go on.</summary>
+    private bool Charge(Span<int> bodies, byte owner, bool isShared, double amount, SimTime at, bool isAgain, out double mine)
+    {
+        bool goesOn = true;
+        mine = amount;
+        if (isAgain && healedFor.Count > 0)
+        {
+            mine = owner == Nobody ? 0 : amount / 2;
+            goesOn &= ChargeLateEvent(amount - mine, at);
+        }
+
+        if (!isShared)
+        {
+            return Charge(owner, mine, at, isAgain) && goesOn;
+        }
+
+        sharing.Clear();
+        foreach (int slot in bodies)
+        {
+            byte one = entries[slot].Owner;
+            if (one != Nobody && !sharing.Contains(one))
+            {
+                sharing.Add(one);
+            }
+        }
+
+        foreach (byte one in sharing)
+        {
+            goesOn &= Charge(one, mine / sharing.Count, at, isAgain);
+        }
+
+        return goesOn;
     }
 
     private void Note(Span<int> bodies, byte struckBy, SimTime at, double each)

@@ -44,7 +44,7 @@ internal sealed class StepSegments(
             ref readonly SolverBody solved = ref step.Problem.Bodies[i];
             if (isLost[i])
             {
-                trajectories.Loss.Lose(slot, key, graph.Positions[i], graph.Velocities[i], LossReason.TooStiff);
+                trajectories.Loss.Lose(slot, key, graph.Positions[i], graph.Velocities[i], LossReason.TooStiff, graph.Spins[i]);
             }
             else if (!IsHeldTogether(i, out int planeCount))
             {

@@ -33,7 +33,7 @@ internal class RuleLog : IRuleTriggers
     {
         hearing = new RuleHearing(scene);
         this.start = start;
-        first = versions.Add(state);
+        first = versions.Add(state, null);
         versions.Replace(ref current, first);
         versions.Replace(ref beforeRollback, first);
     }
@@ -106,12 +106,12 @@ internal class RuleLog : IRuleTriggers
     {
         bool isKept = Position < calls.Count;
         key = isKept ? calls[Position].Key : default;
-        if (StateLayout.Timers(current!.Bytes) == 0)
+        if (StateLayout.Timers(current!.Head) == 0)
         {
             return isKept;
         }
 
-        EventKey timer = KeyOf(StateLayout.Timer(current.Bytes, 0));
+        EventKey timer = KeyOf(StateLayout.Timer(current.Head, 0));
         if (!isKept || EventKey.Compare(timer, key) < 0)
         {
             key = timer;
@@ -123,7 +123,7 @@ internal class RuleLog : IRuleTriggers
     /// <summary>The call that is next, at the position: made for a timer that is due, if it is not kept already.</summary>
     internal RuleCall Next()
     {
-        EventKey timer = StateLayout.Timers(current!.Bytes) > 0 ? KeyOf(StateLayout.Timer(current.Bytes, 0)) : default;
+        EventKey timer = StateLayout.Timers(current!.Head) > 0 ? KeyOf(StateLayout.Timer(current.Head, 0)) : default;
         bool isDue = timer.Kind == EventKind.Timer;
         if (isDue && (Position == calls.Count || EventKey.Compare(timer, calls[Position].Key) < 0))
         {
@@ -204,18 +204,18 @@ internal class RuleLog : IRuleTriggers
         RuleCall call = calls[Position];
         call.IsMade = true;
         versions.Replace(ref call.StateBefore, current);
-        if (state.SequenceEqual(current!.Bytes))
+        if (current!.IsSameAs(state))
         {
             versions.Replace(ref call.StateAfter, current);
         }
-        else if (call.StateAfter is not null && state.SequenceEqual(call.StateAfter.Bytes))
+        else if (call.StateAfter is not null && call.StateAfter.IsSameAs(state))
         {
             // as the last time that it was made
         }
         else
         {
             versions.Replace(ref call.StateAfter, null);
-            call.StateAfter = versions.Add(state);
+            call.StateAfter = versions.Add(state, current);
         }
 
         Stand();

@@ -2,34 +2,53 @@ using System;
 
 namespace LagSim.Rules;
 
-/// <summary>The state of rules after a call, in its one encoding. Calls that change nothing share it.</summary>
-internal sealed class StateVersion
+/// <summary>The state of rules after a call, in its one encoding. Calls that change nothing share it, and others share its pages.</summary>
+internal sealed class StateVersion(StateVersions owner)
 {
-    private byte[] bytes = Array.Empty<byte>();
-    private int length;
-
     /// <summary>How many keep it.</summary>
     internal int Uses { get; set; }
 
-    /// <summary>The encoded state.</summary>
-    internal ReadOnlySpan<byte> Bytes => bytes.AsSpan(0, length);
-
     /// <summary>A number that no other state of this world ever has; 0 before the first.</summary>
-    internal long Serial { get; private set; }
+    internal long Serial { get; set; }
 
-    /// <summary>Takes the place of another state that nobody keeps.</summary>
-    internal void Set(ReadOnlySpan<byte> state, long serial)
-    {
-        Serial = serial;
-        if (bytes.Length < state.Length)
-        {
-            bytes = new byte[Math.Max(state.Length, 2 * bytes.Length)];
-        }
+    /// <summary>How many bytes the encoded state has.</summary>
+    internal int Length { get; set; }
 
-        state.CopyTo(bytes);
-        length = state.Length;
-    }
+    /// <summary>Its pages, of which the first <see cref="PageCount"/> are in use.</summary>
+    internal StatePage[] Pages { get; set; } = Array.Empty<StatePage>();
+
+    internal int PageCount => (Length + StatePage.Size - 1) / StatePage.Size;
+
+    /// <summary>The encoded state's first bytes, with the head and the first timer.</summary>
+    internal ReadOnlySpan<byte> Head => Part(0);
+
+    /// <summary>The encoded state; valid until that of another version is asked for.</summary>
+    internal ReadOnlySpan<byte> Bytes => owner.Whole(this);
+
+    /// <summary>The bytes of a page.</summary>
+    internal ReadOnlySpan<byte> Part(int page) => Pages[page].Bytes.AsSpan(0, Math.Min(StatePage.Size, Length - (page * StatePage.Size)));
 
     /// <summary>Whether it is the same state, to the bit.</summary>
-    internal bool IsSameAs(StateVersion other) => ReferenceEquals(this, other) || Bytes.SequenceEqual(other.Bytes);
+    internal bool IsSameAs(StateVersion other)
+    {
+        bool isSame = Length == other.Length;
+        for (int page = 0; page < PageCount && isSame && !ReferenceEquals(this, other); page++)
+        {
+            isSame = ReferenceEquals(Pages[page], other.Pages[page]) || Part(page).SequenceEqual(other.Part(page));
+        }
+
+        return isSame;
+    }
+
+    /// <summary>The same for an encoded state.</summary>
+    internal bool IsSameAs(ReadOnlySpan<byte> state)
+    {
+        bool isSame = Length == state.Length;
+        for (int page = 0; page < PageCount && isSame; page++)
+        {
+            isSame = Part(page).SequenceEqual(state.Slice(page * StatePage.Size, Part(page).Length));
+        }
+
+        return isSame;
+    }
 }

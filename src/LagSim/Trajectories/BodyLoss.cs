@@ -24,7 +24,7 @@ internal sealed class BodyLoss(BodyTable bodies, TimelineStore timelines, StateL
         return isAllowed;
     }
 
-    /// <summary>The body can be followed no further than to a state.</summary>
-    internal void Lose(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, LossReason why) =>
-        timelines.Append(slot, bodies.Id(slot), key, MotionSegment.Lost(key.Time, position, velocity, why), default);
+    /// <summary>The body can be followed no further than to a state; its spin counts where forces on it do.</summary>
+    internal void Lose(int slot, in EventKey key, in Vector3D position, in Vector3D velocity, LossReason why, in Vector3D spin = default) =>
+        timelines.Append(slot, bodies.Id(slot), key, MotionSegment.Lost(key.Time, position, velocity, why), default, spin: new Spin(spin));
 }

@@ -33,7 +33,7 @@ internal sealed class FlightFactory(
             MotionSegment piece = PieceOfFlight(slot, key.Time, x, v, spin, out DenseOutput dense, out LossReason why);
             if (why != LossReason.None)
             {
-                loss.Lose(slot, key, x, v, why);
+                loss.Lose(slot, key, x, v, why, spin);
             }
             else
             {

@@ -28,10 +28,10 @@ internal sealed class ForceFailures(Scene scene, BodyTable bodies, TimelineStore
     }
 
     /// <summary>Why a body can be followed no further, as a sentence.</summary>
-    internal string OfLoss(int slot, SimTime time, LossReason reason, in Vector3D x, in Vector3D v)
+    internal string OfLoss(int slot, SimTime time, LossReason reason, in Vector3D x, in Vector3D v, in Vector3D spin)
     {
         string names = bodies.Spec(slot).Forces.NamesAmong(scene.ForceArray);
-        string rates = RatesOn(slot, x, v, Vector3D.Zero);
+        string rates = RatesOn(slot, x, v, spin);
         string there = rates.Length > 0 ? $": there {rates}" : "";
         string why = reason switch
         {

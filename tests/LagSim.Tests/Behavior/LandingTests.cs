@@ -3,7 +3,6 @@ using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Tests.Faults;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

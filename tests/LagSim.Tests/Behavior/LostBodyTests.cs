@@ -15,6 +15,20 @@ public sealed class LostBodyTests
 {
     private static readonly CollisionFilter Ghost = new(1, 0);
 
+    /// <summary>A force that follows the spin is told at the rate that the spin gives it, not at none.</summary>
+    [Fact]
+    public void BallUnderTheMagnusForce_ThatGlancesOffARoughWall_IsToldWithItsRate()
+    {
+        Scene scene = new SceneBuilder("lift").WithGravity(Vector3D.Zero).AddForce(Force.Magnus("lift", 0.5), out ForceSet lift).AddPlane("wall", Vector3D.Up, 0)
+            .AddBody("ball", new BodySpec(0.1, 1e-6, 0.5, friction: 0.5, forces: lift), V(0, 0.5)).Build();
+        Simulation world = new(scene);
+        world.Submit(PlayerAction.SetVelocity(First, V(100, -100)).Stamp(At(0.01), 1, 1));
+        world.AdvanceTo(At(1));
+        LostBody lost = Assert.Single(world.LostBodies());
+        Assert.Equal(LossReason.TooStiff, lost.Reason);
+        Assert.Matches(@"'lift' \(Magnus\) acts at [1-9][0-9]{6,} 1/s", lost.ToString());
+    }
+
     /// <summary>A player lets a stone fall through the planet, into the centre of its pull.</summary>
     [Fact]
     public void Filter_ThatLetsAStoneFallIntoTheCentreOfAPull_TakesOutTheStoneAlone()

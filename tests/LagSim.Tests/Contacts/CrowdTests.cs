@@ -150,7 +150,7 @@ public sealed class CrowdTests
             return WorkVerdict.GoOn;
         }
 
-        public WorkVerdict OnCall() => WorkVerdict.GoOn;
+        public WorkVerdict OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => WorkVerdict.GoOn;
     }
 
     private static ContactStep Solved(int bodies, double spread, SolverRules rules)

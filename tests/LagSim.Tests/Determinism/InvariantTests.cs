@@ -388,9 +388,9 @@ public sealed class InvariantTests
     /// <summary>Stops advances where it is told to.</summary>
     private sealed class Stops(Func<bool> isToStop) : IWorkObserver
     {
-        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => OnCall();
+        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => OnCall(key, bodies, amount, isAgain, table);
 
-        public WorkVerdict OnCall() => isToStop() ? WorkVerdict.StopNow : WorkVerdict.GoOn;
+        public WorkVerdict OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => isToStop() ? WorkVerdict.StopNow : WorkVerdict.GoOn;
     }
 
     private static void AssertNone(int block, Func<RandomWorld, Simulation> onTime, Func<RandomWorld, int, Simulation> late)

@@ -68,7 +68,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
                 case NoticeKind.Predicted or NoticeKind.Moved:
                     PlaySound(contact.Id, contact.Position, contact.ClosingSpeed, at: contact.Time); // one sound an Id: what has begun goes on
                     break;
-                case NoticeKind.InDoubt or NoticeKind.Retracted:
+                case NoticeKind.InDoubt or NoticeKind.Retracted or NoticeKind.Unresolved:
                     StopSound(contact.Id); // what has not begun does not begin
                     break;
                 case NoticeKind.Confirmed:

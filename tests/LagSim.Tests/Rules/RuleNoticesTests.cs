@@ -147,6 +147,6 @@ public sealed class RuleNoticesTests
 
         Assert.Equal((40, 8, 32L, 40), (heard, read, notices.Lost, notices.Pending)); // predictions take half of the queue
         world.Retire();
-        Assert.Equal((80, 0), (heard, notices.Pending)); // all are retracted
+        Assert.Equal((80, 40), (heard, notices.Pending)); // all are in doubt
     }
 }

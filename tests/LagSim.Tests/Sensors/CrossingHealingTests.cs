@@ -171,9 +171,9 @@ public sealed class CrossingHealingTests
     {
         private int count;
 
-        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => OnCall();
+        public WorkVerdict OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => OnCall(key, bodies, amount, isAgain, table);
 
-        public WorkVerdict OnCall() => ++count < most ? WorkVerdict.GoOn : WorkVerdict.StopNow;
+        public WorkVerdict OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table) => ++count < most ? WorkVerdict.GoOn : WorkVerdict.StopNow;
     }
 
     private static RandomWorld World(int seed) => new(seed, hands: seed % 5 == 0, forced: seed % 3 == 0, filters: seed % 4 == 0, sensors: true);

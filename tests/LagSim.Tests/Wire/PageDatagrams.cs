@@ -8,15 +8,10 @@ using System.Text.RegularExpressions;
 using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
-using LagSim.Harness.Verification.Check;
-using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
-using LagSim.Tests.Determinism;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
-using static LagSim.Tests.TestWorlds;
 using static LagSim.Tests.Wire.LayoutPage;
 
 namespace LagSim.Tests.Wire;

@@ -1,21 +1,15 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using System.IO;
 using System.Linq;
-using System.Text;
-using System.Text.RegularExpressions;
-using FsCheck;
 using FsCheck.Fluent;
 using LagSim.Events;
 using LagSim.Harness.Verification.Check;
-using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Tests.Determinism;
 using LagSim.Time;
 using LagSim.Timelines;
-using Xunit;
 using static LagSim.Tests.TestWorlds;
 using static LagSim.Tests.Wire.LayoutPage;
 
