@@ -175,12 +175,6 @@ public sealed class PeerThread : IDisposable
     public bool WaitUntilRunning(TimeSpan timeout)
     {
         ThrowIfOwn(nameof(WaitUntilRunning));
-        if (timeout != Timeout.InfiniteTimeSpan && (timeout < TimeSpan.Zero || timeout.TotalMilliseconds > int.MaxValue))
-        {
-            throw new ArgumentOutOfRangeException(
-                nameof(timeout), timeout, "A wait lasts 0 s to 24 days, or for as long as it takes: Timeout.InfiniteTimeSpan.");
-        }
-
         decided.Wait(timeout);
         return State == SessionState.Running;
     }

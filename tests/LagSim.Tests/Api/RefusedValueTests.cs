@@ -87,16 +87,6 @@ public sealed class RefusedValueTests
         Refuses(isRefused, "at once", () => _ = new PlayerBudget(1, work));
     }
 
-    [Theory]
-    [InlineData(-2, true)]
-    [InlineData(0, false)]
-    [InlineData(2.2e9, true)]
-    public void WaitUntilRunning_OfATimeThatIsNone_IsRefused(double milliseconds, bool isRefused)
-    {
-        using PeerThread host = PeerThread.Host(Drop(1, 0.5));
-        Refuses(isRefused, "0 s to 24 days", () => host.WaitUntilRunning(TimeSpan.FromMilliseconds(milliseconds)));
-    }
-
     private static void Refuses(bool isRefused, string word, Action act)
     {
         if (isRefused)
