@@ -266,7 +266,7 @@ public abstract record SessionOptions
             throw new ArgumentOutOfRangeException(
                 nameof(KeepAlive),
                 given.ToShortString(),
-                $"The longest pause between datagrams is 10 ms to a third of the timeout of {Timeout.ToShortString()}.");
+                $"{nameof(KeepAlive)} must lie between 10 ms and a third of the timeout of {Timeout.ToShortString()}.");
         }
 
         Range(RuleTimeout, RuleWatchdog.MinLimit.ToSeconds(), RuleWatchdog.MaxLimit.ToSeconds(), nameof(RuleTimeout));

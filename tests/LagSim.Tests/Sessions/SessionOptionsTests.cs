@@ -171,7 +171,7 @@ public sealed class SessionOptionsTests
         HostOptions options = new() { Timeout = SimDuration.FromMilliseconds(100), KeepAlive = SimDuration.FromSeconds(1) };
         ArgumentException refused = Assert.ThrowsAny<ArgumentException>(() =>
             _ = new HostSession(ScriptedActions.Box(), port, new VirtualClock(), options, 1));
-        Assert.Contains("10 ms to a third of the timeout of 0.1s", refused.Message, StringComparison.Ordinal);
+        Assert.Contains("between 10 ms and a third of the timeout of 0.1s", refused.Message, StringComparison.Ordinal);
     }
 
     [Fact]
