@@ -18,7 +18,7 @@ internal class RuleCaller
 
     /// <summary>How many bytes the states after the calls within the history may take: 2^28. Of a state that changes the pages
     /// count that do (<see cref="StatePage"/>): one of a hundred bodies may change in one of them 250,000 times within it, and one of the largest
-    /// size 26,000 times.</summary>
+    /// size 27,000 times.</summary>
     internal const long MaxStateBytes = 1L << 28;
 
     private readonly GameRules rules;

@@ -12,7 +12,6 @@ namespace LagSim.Contacts;
 internal sealed class ActiveSet
 {
     private const double Tolerance = 1e-12;
-    private const double SamePush = 1e-6; // less of a row than that is none of it, as in the basis
     private const double Met = 1e3; // times the least: less than that is missing of a demand that is met
 
     private readonly ContactBasis basis = new(); // of the contacts in the set, by their places in it
@@ -106,7 +105,7 @@ internal sealed class ActiveSet
         double most = double.PositiveInfinity;
         for (int k = 0; k < count; k++)
         {
-            if (trial[k] > SamePush && impulse[active[k]] < most * trial[k])
+            if (trial[k] > ContactBasis.Cancelled && impulse[active[k]] < most * trial[k])
             {
                 leaving = k;
                 most = impulse[active[k]] / trial[k];

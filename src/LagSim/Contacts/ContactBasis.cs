@@ -21,7 +21,7 @@ internal sealed class ContactBasis
     /// The remainder of a row's part at one body counts as zero below this share of what was subtracted: normals that differ by less than a
     /// microradian are one. So a light body squeezed between two such is held, and not shot out sideways at a million times their speed.
     /// </summary>
-    private const double Cancelled = 1e-6;
+    internal const double Cancelled = 1e-6;
 
     private Vector3D[] basis = Array.Empty<Vector3D>(); // row by row: the orthogonal rows, a part for each body
     private double[] extent = Array.Empty<double>(); // the lengths of those parts

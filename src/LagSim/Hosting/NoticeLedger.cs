@@ -111,23 +111,7 @@ internal sealed class NoticeLedger<T>
     }
 
     /// <summary>The world that it follows begins there: of what lies before, nobody can say here whether it happened.</summary>
-    internal void Begin(SimTime from)
-    {
-        int kept = 0;
-        for (int n = 0; n < doubtful.Count; n++)
-        {
-            if (doubtful[n].Key.Time < from)
-            {
-                Emit(NoticeKind.Unresolved, doubtful[n]);
-            }
-            else
-            {
-                doubtful[kept++] = doubtful[n];
-            }
-        }
-
-        doubtful.RemoveRange(kept, doubtful.Count - kept);
-    }
+    internal void Begin(SimTime from) => GiveUp(from, SimDuration.Zero, NoticeKind.Unresolved);
 
     /// <summary>
     /// Reports what a step changed and what can no longer change. While a heal is under way it waits: most of what a heal undoes it makes
@@ -146,7 +130,7 @@ internal sealed class NoticeLedger<T>
             Emit(NoticeKind.Confirmed, standing[confirmed++]);
         }
 
-        Retract(simulation.HistoryEdge);
+        GiveUp(simulation.HistoryEdge, pairing.Within, NoticeKind.Retracted); // all that it could have moved to lies before the edge
         if (confirmed > FewChanges && confirmed > standing.Count / 2)
         {
             standing.RemoveRange(0, confirmed);
@@ -314,16 +298,16 @@ internal sealed class NoticeLedger<T>
         pairing.Gone.Clear();
     }
 
-    /// <summary>Reports of what is in doubt what cannot come again: all that it could have moved to lies before the edge.</summary>
-    private void Retract(SimTime edge)
+    /// <summary>Reports of what is in doubt, and lies before an instant by more than some time, that it is given up.</summary>
+    private void GiveUp(SimTime before, SimDuration by, NoticeKind kind)
     {
         int kept = 0;
         for (int n = 0; n < doubtful.Count; n++)
         {
             T known = doubtful[n];
-            if (known.Key.Time < edge && edge - known.Key.Time > pairing.Within)
+            if (known.Key.Time < before && before - known.Key.Time > by)
             {
-                Emit(NoticeKind.Retracted, known);
+                Emit(kind, known);
             }
             else
             {

@@ -193,24 +193,15 @@ public sealed class WorkLedger : IWorkObserver
         amount = Math.Max(amount, Measure());
         Total += amount;
         thisStep += amount;
-        bool goesOn = true;
-        bool isAct = EventKinds.IsOfPlayers(key.Kind);
-        byte owner = Nobody;
-        bool isShared = false;
-        foreach (int slot in bodies)
+        for (int n = 0; n < bodies.Length && EventKinds.IsOfPlayers(key.Kind); n++)
         {
-            ref Entry entry = ref EntryOf(slot, key.Time, table);
-            if (isAct)
-            {
-                entry.Charged = 0;
-                entry.Give(key.Peer, key.Time + TouchedFor, key.Time + StruckFor);
-            }
-
-            isShared |= entry.Owner != Nobody && owner != Nobody && entry.Owner != owner;
-            owner = entry.Owner == Nobody ? owner : entry.Owner;
+            ref Entry entry = ref EntryOf(bodies[n], key.Time, table);
+            entry.Charged = 0;
+            entry.Give(key.Peer, key.Time + TouchedFor, key.Time + StruckFor);
         }
 
-        goesOn &= Charge(bodies, owner, isShared, amount, key.Time, isAgain, out double mine);
+        byte owner = OwnerOf(bodies, key.Time, table, Nobody, out bool isShared);
+        bool goesOn = Charge(bodies, owner, isShared, amount, key.Time, isAgain, out double mine);
         if (owner != Nobody)
         {
             Note(bodies, owner, key.Time, mine / bodies.Length);
@@ -229,17 +220,23 @@ public sealed class WorkLedger : IWorkObserver
         double took = Math.Max(amount, Measure());
         Total += took;
         thisStep += took;
-        byte owner = key.Kind == EventKind.Command ? key.Peer : Nobody;
-        bool isShared = false;
-        foreach (int slot in bodies)
-        {
-            ref Entry entry = ref EntryOf(slot, key.Time, table);
-            isShared |= entry.Owner != Nobody && owner != Nobody && entry.Owner != owner;
-            owner = entry.Owner == Nobody ? owner : entry.Owner;
-        }
-
+        byte owner = OwnerOf(bodies, key.Time, table, key.Kind == EventKind.Command ? key.Peer : Nobody, out bool isShared);
         bool goesOn = Charge(bodies, owner, isShared, amount, key.Time, isAgain, out _);
         return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
+    }
+
+    /// <summary>On whose account bodies are, of which the last counts; another's where they are on none. Whether they are on several.</summary>
+    private byte OwnerOf(Span<int> bodies, SimTime at, BodyTable table, byte other, out bool isShared)
+    {
+        isShared = false;
+        foreach (int slot in bodies)
+        {
+            byte its = EntryOf(slot, at, table).Owner;
+            isShared |= its != Nobody && other != Nobody && its != other;
+            other = its == Nobody ? other : its;
+        }
+
+        return other;
     }
 
     /// <summary>Charges what some bodies took part in, to their owners and to those whose late events are healed; whether all may go on.</summary>

@@ -1,8 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Events;
-using LagSim.Hosting;
 using LagSim.Rules;
 using LagSim.Scenes;
 using Xunit;
@@ -10,7 +8,7 @@ using static LagSim.Tests.TestWorlds;
 
 namespace LagSim.Tests.Rules;
 
-/// <summary>States of rules are kept by the pages that differ, and read as they were; calls are charged to whose bodies cause them.</summary>
+/// <summary>States of rules are kept by the pages that differ, and read as they were.</summary>
 public sealed class StateVersionsTests
 {
     /// <summary>Versions that are kept and given back at random, of states that change a little, grow and shrink, are the states that were added.</summary>
@@ -107,33 +105,5 @@ public sealed class StateVersionsTests
         world.AdvanceTo(At(1.2));
         Assert.True(world.TryReadRules(BodyId.OfScene(0), At(1.2), out GivenState struck));
         Assert.InRange(struck.Count, 7900, 8100);
-    }
-
-    /// <summary>What rules hear of because of a player's ball is charged to that player; without rules it is charged for the impacts alone.</summary>
-    [Theory]
-    [InlineData(true, 5)]
-    [InlineData(false, 0)]
-    public void Calls_ForContactsOfAPlayersBall_AreChargedToThatPlayer(bool hears, double each)
-    {
-        double charged = ChargedFor(hears, out long impacts), alone = ChargedFor(false, out long same);
-        Assert.Equal(same, impacts);
-        Assert.InRange(impacts, 1000, 10_000);
-        Assert.InRange((charged - alone) / impacts, each - 0.1, each + 0.1);
-    }
-
-    private static double ChargedFor(bool hears, out long impacts)
-    {
-        GivenRules rules = new() { Hears = (_, _, _) => hears };
-        Scene scene = new SceneBuilder("gap").WithGravity(Floating).AddPlane("floor", Vector3D.Up, 0).AddPlane("roof", V(0, -1), -0.203)
-            .AddBody("ball", new BodySpec(0.1, 1, 1), V(0, 0.1)).WithRules(rules).Build();
-        LiveWorld world = new(scene, new SimulationOptions()) { Work = new WorkLedger() };
-        world.Submit(PlayerAction.SetVelocity(First, V(0, 20)).Stamp(At(0.1), 3, 1));
-        for (double t = 0.01; t < 0.5; t += 0.01)
-        {
-            world.Step(At(t));
-        }
-
-        impacts = world.Simulation.ImpactsProcessed;
-        return world.Work.ChargedTo(3);
     }
 }
