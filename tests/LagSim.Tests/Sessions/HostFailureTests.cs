@@ -88,6 +88,27 @@ public sealed class HostFailureTests
         Assert.IsType<TimeoutException>(Assert.IsAssignableFrom<SimulationException>(failure.InnerException).InnerException);
     }
 
+    /// <summary>What ends only the world that the session is compared with is told as that, not as a fault of what players did.</summary>
+    [Fact]
+    public void SessionTest_WhoseCheckEnds_SaysSo()
+    {
+        bool isOver = false;
+        GivenRules onceMore = new()
+        {
+            Start = _ =>
+            {
+                if (isOver)
+                {
+                    throw new TimeoutException("once more");
+                }
+            },
+        };
+        SessionTest test = new SessionTest(With(onceMore)).At(0.9, player: 0, _ => isOver = true);
+        Assert.Matches(
+            "^The session cannot be checked: its world, played once more without delay and with all of it as history, ended\\. .*The rules .given 1. failed at .*: once more",
+            Assert.Throws<SessionTestException>(() => test.Run(1, TestContext.Current.CancellationToken)).Message);
+    }
+
     private static Scene Scene() => With(rules);
 
     private static Scene With(GivenRules rules) => new SceneBuilder("failing").AddPlane("floor", Vector3D.Up, V(0)).AddBody("one", Ball(0.5), V(0, 3)).AddBody("two", Ball(0.5), V(3, 3))
