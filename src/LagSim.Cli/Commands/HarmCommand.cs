@@ -85,9 +85,10 @@ internal static class HarmCommand
                 },
                 console.Stop));
         HarmOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.LateSeconds).ThenBy(o => o.Case.Seed)];
-        IReadOnlyList<HarmProcessOutcome> played = again == 0 || outcomes.Count < options.Attacks ? [] : PlayAgain(console, [.. ranked.Take(again)], tool ?? StallsCommand.ThisTool());
+        HarmOutcome[] toReplay = outcomes.Count < options.Attacks ? [] : [.. ranked.Where(o => o.Case.Scene.Rules is null).Take(again)]; // the tool has no rules
+        IReadOnlyList<HarmProcessOutcome> played = toReplay.Length == 0 ? [] : PlayAgain(console, toReplay, tool ?? StallsCommand.ThisTool());
         IReadOnlyList<HonestCost> costs = honest ? PlayHonest(console, options) : [];
-        bool isStopped = outcomes.Count < options.Attacks || played.Count < again || (honest && costs.Count < HonestPlay.Scenes.Count);
+        bool isStopped = outcomes.Count < options.Attacks || played.Count < toReplay.Length || (honest && costs.Count < HonestPlay.Scenes.Count);
         if (json)
         {
             HarmJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, costs, isStopped);

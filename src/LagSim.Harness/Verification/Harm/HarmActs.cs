@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using LagSim.Events;
+using LagSim.Harness.Verification.Check;
 using LagSim.Harness.Verification.Worlds;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
@@ -15,9 +16,27 @@ internal static class HarmActs
     /// <summary>Any acts, as often as the host accepts, in one of the single worlds of <c>check</c>.</summary>
     internal static Scene DrawActs(SeededRandom random, List<HarmAction> actions)
     {
-        // Rules would have to be those of every peer.
-        ulong kind = (ulong)random.NextInt(WorldScenes.Kinds - 1);
+        ulong kind = (ulong)random.NextInt(WorldScenes.Kinds - 1); // the last has rules
         WorldScene world = WorldScenes.Draw(kind, random.Fork(1));
+        DrawActs(random, world, actions);
+        return world.Scene;
+    }
+
+    /// <summary>What makes rules be called as often as can be: balls that just fit, or any acts among balls that they hear.</summary>
+    internal static Scene DrawRules(SeededRandom random, ulong seed, List<HarmAction> actions)
+    {
+        if (random.IsLucky(50))
+        {
+            return DrawFit(random, actions).With(new DrawnRules(seed), seed);
+        }
+
+        WorldScene world = WorldScenes.DrawRuled(random.Fork(1), seed);
+        DrawActs(random, world, actions);
+        return world.Scene;
+    }
+
+    private static void DrawActs(SeededRandom random, WorldScene world, List<HarmAction> actions)
+    {
         double every = random.Pick(0.0025, 0.01, 0.05);
         int spawns = 0, bodies = world.Scene.Bodies.Count;
         for (double at = 0; at < HarmCase.Seconds; at += every)
@@ -32,8 +51,6 @@ internal static class HarmActs
             actions.Add(new HarmAction(at, act, spawn, body, place, act is EventKind.SetVelocity or EventKind.Spawn ? velocity : default));
             spawns += act == EventKind.Spawn ? 1 : 0;
         }
-
-        return world.Scene;
     }
 
     /// <summary>Balls at one point, and more of them there again and again.</summary>

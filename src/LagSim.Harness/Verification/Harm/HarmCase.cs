@@ -22,6 +22,7 @@ public sealed class HarmCase
     private const double MaxSpeed = 999;
     private const double KeyframeSeconds = 0.1;
     private const double PercentOfActs = 30;
+    private const double PercentOfRules = 10;
 
     /// <summary>A mass in kg whose hand, at 1000 N for each kg, does not yield to anything else in the room.</summary>
     private const double AnvilMass = 1e8;
@@ -50,16 +51,19 @@ public sealed class HarmCase
         isStrong = Kind is HarmKind.Gap or HarmKind.Row or HarmKind.ShakenHeap && new SeededRandom(seed).Fork(0x4A13).IsLucky(70);
         SeededRandom acts = new SeededRandom(seed).Fork(0x4A14); // a stream of its own, so that all other attacks stay the same
         Kind = acts.IsLucky(PercentOfActs) ? acts.Pick(HarmKind.Acts, HarmKind.Acts, HarmKind.Crowd, HarmKind.Fit) : Kind;
+        SeededRandom ruled = new SeededRandom(seed).Fork(0x4A15); // so too
+        Kind = ruled.IsLucky(PercentOfRules) ? HarmKind.Rules : Kind;
         Scene = Kind switch
         {
             HarmKind.Acts => HarmActs.DrawActs(acts, actions),
             HarmKind.Crowd => HarmActs.DrawCrowd(acts, actions),
             HarmKind.Fit => HarmActs.DrawFit(acts, actions),
+            HarmKind.Rules => HarmActs.DrawRules(ruled, seed, actions),
             _ => random.IsLucky(25) ? BuiltIn() : Room(),
         };
         switch (Kind)
         {
-            case HarmKind.Acts or HarmKind.Crowd or HarmKind.Fit:
+            case HarmKind.Acts or HarmKind.Crowd or HarmKind.Fit or HarmKind.Rules:
                 break;
             case HarmKind.Gap:
                 DrawGaps();

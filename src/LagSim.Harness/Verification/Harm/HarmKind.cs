@@ -29,4 +29,7 @@ public enum HarmKind
 
     /// <summary>Elastic balls that just fit between a floor and a ceiling are thrown up.</summary>
     Fit,
+
+    /// <summary>Any acts, or balls thrown up where they just fit, in scenes with rules that hear of it and keep states.</summary>
+    Rules,
 }

@@ -62,7 +62,7 @@ internal sealed class HarmRun
                 peer == 0
                     ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed)
                     : new ClientSession(
-                        null, port, own, ClientOptions.From(chosen), PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
+                        drawn.Scene.Rules is null ? null : drawn.Scene, port, own, ClientOptions.From(chosen), PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
                 port);
         }
 

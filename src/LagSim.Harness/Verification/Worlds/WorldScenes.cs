@@ -30,7 +30,7 @@ internal static class WorldScenes
         WorldKind.UnequalMasses => WorldHeaps.Unequal(random),
         WorldKind.Filters => Filtered(random),
         WorldKind.Sensors => Sensed(random),
-        _ => Ruled(random, seed),
+        _ => DrawRuled(random, seed),
     };
 
     /// <summary>Adds a floor and four walls, and a ceiling where it is closed: a room from its floor up, around the origin.</summary>
@@ -152,7 +152,8 @@ internal static class WorldScenes
         return Room(WorldKind.Sensors, builder.Build(), DrawSpec);
     }
 
-    private static WorldScene Ruled(SeededRandom random, ulong seed)
+    /// <summary>A room of balls, with the rules of a seed.</summary>
+    internal static WorldScene DrawRuled(SeededRandom random, ulong seed)
     {
         double restitution = random.Pick(0.3, 0.8, 1);
         BodySpec DrawSpec(SeededRandom from) => new(from.NextDouble(0.1, 0.2), from.NextDouble(0.5, 2), restitution, friction: 0.2);
