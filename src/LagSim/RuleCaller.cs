@@ -16,9 +16,11 @@ internal class RuleCaller
     /// there.</summary>
     internal const int MaxCalls = 1 << 18;
 
-    /// <summary>How many bytes the states after the calls within the history may take: 2^28. Of a state that changes the pages
-    /// count that do (<see cref="StatePage"/>): one of a hundred bodies may change in one of them 250,000 times within it, and one of the largest
-    /// size 27,000 times.</summary>
+    /// <summary>
+    /// How many bytes the states after the calls within the history may take: 2^28. A call that changes the state counts the pages that
+    /// differ (<see cref="StatePage"/>), and a reference to each of the others. So rules with states of a hundred bodies may change one of them
+    /// 250,000 times, and rules with the largest state 27,000 times.
+    /// </summary>
     internal const long MaxStateBytes = 1L << 28;
 
     private readonly GameRules rules;
@@ -232,7 +234,7 @@ internal class RuleCaller
         {
             throw Failed(
                 call, $"the states after the {log.Heard} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}:"
-                    + $" of each that changes something the parts are kept that differ, by {StatePage.Size} bytes", null);
+                    + $" of each that changes something the parts are kept that differ, by up to {StatePage.Most} bytes", null);
         }
     }
 

@@ -80,7 +80,7 @@ public sealed class Simulation
     /// <para>Not a <see langword="const"/>: that would be copied into assemblies built against the library, and could name another build
     /// than the one that runs.</para>
     /// </remarks>
-    public static int FoldVersion => 15;
+    public static int FoldVersion => 16;
 
     /// <summary>The scene at the start.</summary>
     public Scene Scene => Engine.Scene;

@@ -18,10 +18,8 @@ internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, St
     /// </summary>
     internal const double CollapseSpeed = 1e-6;
 
-    private const int StrikesKnown = 64; // a power of two
-
     private readonly Paths paths = new(timelines);
-    private KnownStrikes[]? knownStrikes;
+    private readonly StrikeTable known = new();
 
     /// <summary>
     /// How many impacts of this instant were on a body while it did not part from a surface that it touches; two where it is more.
@@ -33,27 +31,25 @@ internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, St
             return 0;
         }
 
-        ref KnownStrikes known = ref Known(timelines.Owner(piece), ~surface);
+        ref StrikeTable.Entry last = ref known.Find(timelines.Owner(piece), ~surface, time);
         ContactTime tick = ContactTime.At(time);
         int at = piece;
         int strikes = 0;
         while (strikes < 2 && timelines.Key(at).Time == time && timelines.Previous(at) != TimelineStore.None)
         {
-            if (known.First == timelines.Serial(at) && known.Second == ~surface)
+            if (last.First == timelines.Serial(at))
             {
-                strikes += known.Strikes;
+                strikes += last.Strikes;
                 break;
             }
 
             bool isImpact = timelines.Key(at).Kind == EventKind.Impact;
             at = timelines.Previous(at);
-            Vector3D normal = surfaces.Normal(surface, paths.PositionAt(at, tick));
-            strikes += isImpact && Vector3D.Dot(normal, paths.VelocityAt(at, tick)) <= CollapseSpeed ? 1 : 0;
+            strikes += isImpact && ClosesOn(at, surface, tick) ? 1 : 0;
         }
 
-        strikes = Math.Min(strikes, 2);
-        known = new KnownStrikes(timelines.Serial(piece), ~surface, strikes);
-        return strikes;
+        last.Note(timelines.Serial(piece), ~surface, Math.Min(strikes, 2));
+        return last.Strikes;
     }
 
     /// <summary>
@@ -71,7 +67,7 @@ internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, St
             (first, second) = (second, first);
         }
 
-        ref KnownStrikes known = ref Known(timelines.Owner(first), timelines.Owner(second));
+        ref StrikeTable.Entry last = ref known.Find(timelines.Owner(first), timelines.Owner(second), time);
         ContactTime tick = ContactTime.At(time);
         int a = first;
         int b = second;
@@ -79,9 +75,9 @@ internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, St
         while (strikes < 2 && timelines.Key(a).Time == time && timelines.Key(b).Time == time
             && timelines.Previous(a) != TimelineStore.None && timelines.Previous(b) != TimelineStore.None)
         {
-            if (known.First == timelines.Serial(a) && known.Second == timelines.Serial(b))
+            if (last.First == timelines.Serial(a) && last.Second == timelines.Serial(b))
             {
-                strikes += known.Strikes;
+                strikes += last.Strikes;
                 break;
             }
 
@@ -89,34 +85,19 @@ internal sealed class StrikeCounts(TimelineStore timelines, BodyTable bodies, St
             bool isImpact = order == 0 && timelines.Key(a).Kind == EventKind.Impact;
             a = order >= 0 ? timelines.Previous(a) : a;
             b = order <= 0 ? timelines.Previous(b) : b;
-            Vector3D normal = box.Nearest(paths.PositionAt(a, tick) - paths.PositionAt(b, tick)).Direction;
-            strikes += isImpact && Vector3D.Dot(normal, paths.VelocityAt(a, tick) - paths.VelocityAt(b, tick)) <= CollapseSpeed ? 1 : 0;
+            strikes += isImpact && Close(a, b, tick) ? 1 : 0;
         }
 
-        strikes = Math.Min(strikes, 2);
-        known = new KnownStrikes(timelines.Serial(first), timelines.Serial(second), strikes);
-        return strikes;
+        last.Note(timelines.Serial(first), timelines.Serial(second), Math.Min(strikes, 2));
+        return last.Strikes;
     }
 
-    /// <summary>The place of what was last found out about two.</summary>
-    private ref KnownStrikes Known(int first, int second)
+    private bool ClosesOn(int piece, int surface, in ContactTime tick) =>
+        Vector3D.Dot(surfaces.Normal(surface, paths.PositionAt(piece, tick)), paths.VelocityAt(piece, tick)) <= CollapseSpeed;
+
+    private bool Close(int a, int b, in ContactTime tick)
     {
-        knownStrikes ??= new KnownStrikes[StrikesKnown];
-        return ref knownStrikes[((first * 31) + second) & (StrikesKnown - 1)];
-    }
-
-    /// <summary>
-    /// The cached result for two segments, at which a walk back through an instant ends. It only saves time: the same two segments always
-    /// give the same. Without it the cost of an instant grows with the square of its rounds.
-    /// </summary>
-    private readonly struct KnownStrikes(long first, long second, int strikes)
-    {
-        /// <summary>The serial number of the first segment. Serial numbers begin at 0, so 0 and 0 is no pair.</summary>
-        internal readonly long First = first;
-
-        /// <summary>That of the second, or the complement of the surface.</summary>
-        internal readonly long Second = second;
-
-        internal readonly int Strikes = strikes;
+        Vector3D normal = box.Nearest(paths.PositionAt(a, tick) - paths.PositionAt(b, tick)).Direction;
+        return Vector3D.Dot(normal, paths.VelocityAt(a, tick) - paths.VelocityAt(b, tick)) <= CollapseSpeed;
     }
 }

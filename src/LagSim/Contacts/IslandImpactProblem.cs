@@ -10,6 +10,7 @@ namespace LagSim.Contacts;
 internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
 {
     private NormalRefinement? normals; // made when an impact needs it
+    private PlasticImpact? plastic; // so too
     private bool[] isReached = Array.Empty<bool>(); // whether the impulse has gone on from a body to those that it holds
     private Vector3D[] velocitiesBefore = Array.Empty<Vector3D>();
     private Vector3D[] spinsBefore = Array.Empty<Vector3D>();
@@ -110,6 +111,13 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
             Problem.DropFriction();
             SolveAnew(tolerance);
         }
+    }
+
+    /// <summary>What closes after all that gets one velocity.</summary>
+    internal void JoinWhatCloses(double speed)
+    {
+        plastic ??= new PlasticImpact();
+        plastic.Apply(Problem, speed);
     }
 
     /// <summary>Whether a contact lasts that is solved without its rebound.</summary>

@@ -88,20 +88,20 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     }
 
     /// <summary>
-    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts that are not deep, from which
-    /// impacts take no energy,
-    /// unless there is a hand, which gives and takes. And they are contacts past which the two move so fast that within the step the
+    /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts, from which impacts take no energy,
+    /// unless there is a hand, which gives and takes, or one of the two is deep in something: pushing it out does so too. And they are contacts past which the two move so fast that within the step the
     /// surfaces curve away by more than the tolerance: then the gap along the line between them does not show whether they touch.
     /// </summary>
     /// <param name="seconds">The length of the step.</param>
     internal void DropImpacts(double seconds)
     {
         bool hasHand = problem.HasHand();
+        MarkSunk();
         int kept = 0;
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref problem.Contacts[i];
-            if (c.Held || !((c.IsElastic && !hasHand && c.Gap >= -scale.Length) || (c.Gap > 0 && CurvesAway(c, seconds))))
+            if (c.Held || !((c.IsElastic && !hasHand && !IsOfSunk(c)) || (c.Gap > 0 && CurvesAway(c, seconds))))
             {
                 problem.Contacts[kept++] = c;
             }
@@ -113,6 +113,27 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
 
         problem.Keep(kept);
     }
+
+    /// <summary>Marks the bodies that are deeper than the tolerance in something.</summary>
+    private void MarkSunk()
+    {
+        for (int b = 0; b < problem.BodyCount; b++)
+        {
+            members[b].IsSunk = false;
+        }
+
+        for (int i = 0; i < problem.ContactCount; i++)
+        {
+            ref readonly SolverContact c = ref problem.Contacts[i];
+            if (c.Gap < -scale.Length)
+            {
+                members[c.First].IsSunk = true;
+                members[c.Second == ContactPoint.Static ? c.First : c.Second].IsSunk = true;
+            }
+        }
+    }
+
+    private bool IsOfSunk(in SolverContact c) => members[c.First].IsSunk || (c.Second != ContactPoint.Static && members[c.Second].IsSunk);
 
     private void FindSurfaces(int i, double seconds)
     {
@@ -302,6 +323,7 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
     {
         internal Vector3D Position;
         internal bool MayMeet;
+        internal bool IsSunk;
         internal double Friction;
         internal double Lever;
         internal double Restitution;

@@ -32,6 +32,7 @@ internal sealed class NoticeLedger<T>
     private long number;
     private long lost;
     private bool isFollowing;
+    private SimTime begun = SimTime.MinValue; // the world that is followed, where it is not the first
 
     /// <summary>An account of nothing yet.</summary>
     /// <param name="capacity">How many notices may wait to be read.</param>
@@ -111,7 +112,11 @@ internal sealed class NoticeLedger<T>
     }
 
     /// <summary>The world that it follows begins there: of what lies before, nobody can say here whether it happened.</summary>
-    internal void Begin(SimTime from) => GiveUp(from, SimDuration.Zero, NoticeKind.Unresolved);
+    internal void Begin(SimTime from)
+    {
+        begun = from;
+        GiveUp(from, SimDuration.Zero);
+    }
 
     /// <summary>
     /// Reports what a step changed and what can no longer change. While a heal is under way it waits: most of what a heal undoes it makes
@@ -130,7 +135,7 @@ internal sealed class NoticeLedger<T>
             Emit(NoticeKind.Confirmed, standing[confirmed++]);
         }
 
-        GiveUp(simulation.HistoryEdge, pairing.Within, NoticeKind.Retracted); // all that it could have moved to lies before the edge
+        GiveUp(simulation.HistoryEdge, pairing.Within); // all that it could have moved to lies before the edge
         if (confirmed > FewChanges && confirmed > standing.Count / 2)
         {
             standing.RemoveRange(0, confirmed);
@@ -298,8 +303,11 @@ internal sealed class NoticeLedger<T>
         pairing.Gone.Clear();
     }
 
-    /// <summary>Reports of what is in doubt, and lies before an instant by more than some time, that it is given up.</summary>
-    private void GiveUp(SimTime before, SimDuration by, NoticeKind kind)
+    /// <summary>
+    /// Reports of what is in doubt, and lies before an instant by more than some time, that it is given up: it does not happen, or may have
+    /// moved to before the world began, where nobody knows.
+    /// </summary>
+    private void GiveUp(SimTime before, SimDuration by)
     {
         int kept = 0;
         for (int n = 0; n < doubtful.Count; n++)
@@ -307,7 +315,7 @@ internal sealed class NoticeLedger<T>
             T known = doubtful[n];
             if (known.Key.Time < before && before - known.Key.Time > by)
             {
-                Emit(kind, known);
+                Emit(known.Key.Time < begun + pairing.Within ? NoticeKind.Unresolved : NoticeKind.Retracted, known);
             }
             else
             {

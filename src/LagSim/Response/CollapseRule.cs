@@ -47,7 +47,13 @@ internal class CollapseRule(
     /// Whether what is solved together gives back what it was pressed with. Sweeps over an island leave some of that; where the instant goes
     /// on for it as long again, nothing is given back, and what members do not bounce off holds.
     /// </summary>
-    internal static bool GivesBack(in EventKey key) => IsLong(key) && key.Round < 2 * LongRound;
+    internal static bool GivesBack(in EventKey key) => IsLong(key) && !IsOverlong(key);
+
+    /// <summary>
+    /// Whether it goes on in spite of that, so that what an island's sweeps leave closing is joined (<see cref="PlasticImpact"/>). A light body between
+    /// heavy ones passes on in a sweep only as much as it weighs, and would be struck as often as its mass is contained in theirs.
+    /// </summary>
+    internal static bool IsOverlong(in EventKey key) => key.Round >= 2 * LongRound;
 
     /// <summary>
     /// Whether the current impact strikes a contact that can lose energy and that was struck in this instant already, and infinitely many

@@ -79,6 +79,11 @@ internal sealed class IslandImpact(
         notifier.Tell(key);
         impact.ShareHands(scale.SweepSpeed);
         impact.DropReboundsThatGain(scale.SweepSpeed);
+        if (CollapseRule.IsOverlong(key))
+        {
+            impact.JoinWhatCloses(StrikeCounts.CollapseSpeed);
+        }
+
         KeepPressed(isNear);
         segments.Open(key, residual);
         return ImpactOutcome.Done;

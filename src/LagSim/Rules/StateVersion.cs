@@ -14,27 +14,36 @@ internal sealed class StateVersion(StateVersions owner)
     /// <summary>How many bytes the encoded state has.</summary>
     internal int Length { get; set; }
 
-    /// <summary>Its pages, of which the first <see cref="PageCount"/> are in use.</summary>
+    /// <summary>Its pages, of which the first <see cref="PageCount"/> are in use; one after the other they are the state.</summary>
     internal StatePage[] Pages { get; set; } = Array.Empty<StatePage>();
 
-    internal int PageCount => (Length + StatePage.Size - 1) / StatePage.Size;
+    internal int PageCount { get; set; }
 
     /// <summary>The encoded state's first bytes, with the head and the first timer.</summary>
-    internal ReadOnlySpan<byte> Head => Part(0);
+    internal ReadOnlySpan<byte> Head => Pages[0].Bytes;
 
     /// <summary>The encoded state; valid until that of another version is asked for.</summary>
     internal ReadOnlySpan<byte> Bytes => owner.Whole(this);
 
-    /// <summary>The bytes of a page.</summary>
-    internal ReadOnlySpan<byte> Part(int page) => Pages[page].Bytes.AsSpan(0, Math.Min(StatePage.Size, Length - (page * StatePage.Size)));
-
     /// <summary>Whether it is the same state, to the bit.</summary>
     internal bool IsSameAs(StateVersion other)
     {
-        bool isSame = Length == other.Length;
-        for (int page = 0; page < PageCount && isSame && !ReferenceEquals(this, other); page++)
+        if (ReferenceEquals(this, other) || Length != other.Length)
         {
-            isSame = ReferenceEquals(Pages[page], other.Pages[page]) || Part(page).SequenceEqual(other.Part(page));
+            return Length == other.Length;
+        }
+
+        bool isSame = true;
+        int mine = 0, its = 0; // pages
+        int from = 0, start = 0; // within them
+        while (isSame && mine < PageCount && its < other.PageCount)
+        {
+            StatePage a = Pages[mine];
+            StatePage b = other.Pages[its];
+            int count = Math.Min(a.Length - from, b.Length - start);
+            isSame = (ReferenceEquals(a, b) && from == start) || a.Bytes.Slice(from, count).SequenceEqual(b.Bytes.Slice(start, count));
+            (mine, from) = from + count == a.Length ? (mine + 1, 0) : (mine, from + count);
+            (its, start) = start + count == b.Length ? (its + 1, 0) : (its, start + count);
         }
 
         return isSame;
@@ -46,7 +55,8 @@ internal sealed class StateVersion(StateVersions owner)
         bool isSame = Length == state.Length;
         for (int page = 0; page < PageCount && isSame; page++)
         {
-            isSame = Part(page).SequenceEqual(state.Slice(page * StatePage.Size, Part(page).Length));
+            isSame = state.StartsWith(Pages[page].Bytes);
+            state = state.Slice(Pages[page].Length);
         }
 
         return isSame;

@@ -7,12 +7,19 @@ namespace LagSim.Rules;
 /// Lends versions of the state, and their pages, and takes back those that nobody keeps any more, so that no memory is asked for after a
 /// while.
 /// </summary>
-/// <remarks>A version has the pages of the one before it where they are the same. Cost of one more: its bytes compared, and what changed copied.</remarks>
+/// <remarks>
+/// A version has the pages of the one before it up to the first byte that differs, and after the last, wherever these have moved to: a timer
+/// that is set, or a body that gets a state, moves all that is behind it. Cost of one more: its bytes compared, and what changed copied.
+/// </remarks>
 internal sealed class StateVersions
 {
+    /// <summary>What a reference to a page counts, on any machine.</summary>
+    private const int ReferenceBytes = 8;
+
+    private const int LeastRoom = 16; // a power of two
+
     private readonly Stack<StateVersion> free = new();
-    private readonly Stack<StatePage> freePages = new(); // whole ones
-    private readonly Stack<StatePage> freeEnds = new();
+    private readonly Stack<StatePage>[] freePages = new Stack<StatePage>[7]; // by room: 16 bytes, and twice that up to the most
     private byte[] whole = Array.Empty<byte>(); // the bytes of the version that was asked for last
     private long wholeSerial;
     private long lastSerial;
@@ -23,23 +30,55 @@ internal sealed class StateVersions
     /// <summary>A version of this state, kept once, with the pages that it shares with another; null if there is none.</summary>
     internal StateVersion Add(ReadOnlySpan<byte> state, StateVersion? like)
     {
-        StateVersion version = free.Count > 0 ? free.Pop() : new StateVersion(this);
-        version.Serial = ++lastSerial;
-        version.Length = state.Length;
-        version.Uses = 1;
-        if (version.Pages.Length < version.PageCount)
+        int known = like?.PageCount ?? 0;
+        int first = 0; // that many pages are shared from the front, to here
+        int from = 0;
+        while (first < known && CanShare(like!.Pages[first]) && state.Slice(from).StartsWith(like.Pages[first].Bytes))
         {
-            version.Pages = new StatePage[Math.Max(version.PageCount, 2 * version.Pages.Length)];
+            from += like.Pages[first++].Length;
         }
 
-        Bytes += version.PageCount * IntPtr.Size;
+        int last = known; // and from that one on, from here
+        int to = state.Length;
+        while (last > first && CanShare(like!.Pages[last - 1]) && state.Slice(from, to - from).EndsWith(like.Pages[last - 1].Bytes))
+        {
+            to -= like.Pages[--last].Length;
+        }
+
+        while (from < to && to - from < StatePage.Least && (first > 0 || last < known))
+        {
+            if (first > 0)
+            {
+                from -= like!.Pages[--first].Length;
+            }
+            else
+            {
+                to += like!.Pages[last++].Length;
+            }
+        }
+
+        int made = (to - from + StatePage.Most - 1) / StatePage.Most;
+        StateVersion version = Take(state.Length, first + made + known - last);
+        for (int page = 0; page < first; page++)
+        {
+            version.Pages[page] = like!.Pages[page];
+        }
+
+        for (int n = 0; n < made; n++)
+        {
+            int at = from + (int)((long)(to - from) * n / made);
+            int end = from + (int)((long)(to - from) * (n + 1) / made);
+            version.Pages[first + n] = Take(state.Slice(at, end - at));
+        }
+
+        for (int page = last; page < known; page++)
+        {
+            version.Pages[first + made + page - last] = like!.Pages[page];
+        }
+
         for (int page = 0; page < version.PageCount; page++)
         {
-            ReadOnlySpan<byte> part = state.Slice(page * StatePage.Size, Math.Min(StatePage.Size, state.Length - (page * StatePage.Size)));
-            bool isShared = page < like?.PageCount && like.Part(page).SequenceEqual(part);
-            StatePage its = isShared ? like!.Pages[page] : Take(part);
-            its.Uses++;
-            version.Pages[page] = its;
+            version.Pages[page].Uses++;
         }
 
         return version;
@@ -71,9 +110,11 @@ internal sealed class StateVersions
                 whole = new byte[Math.Max(version.Length, 2 * whole.Length)];
             }
 
+            int at = 0;
             for (int page = 0; page < version.PageCount; page++)
             {
-                version.Part(page).CopyTo(whole.AsSpan(page * StatePage.Size));
+                version.Pages[page].Bytes.CopyTo(whole.AsSpan(at));
+                at += version.Pages[page].Length;
             }
 
             wholeSerial = version.Serial;
@@ -82,33 +123,64 @@ internal sealed class StateVersions
         return whole.AsSpan(0, version.Length);
     }
 
-    private StatePage Take(ReadOnlySpan<byte> part)
+    /// <summary>Whether a page is long enough to be one of several: the only one of a short state is not.</summary>
+    private static bool CanShare(StatePage page) => page.Length >= StatePage.Least;
+
+    private StateVersion Take(int length, int pages)
     {
-        Stack<StatePage> of = part.Length == StatePage.Size ? freePages : freeEnds;
-        StatePage page = of.Count > 0 ? of.Pop() : new StatePage();
-        if (page.Bytes.Length < part.Length)
+        StateVersion version = free.Count > 0 ? free.Pop() : new StateVersion(this);
+        version.Serial = ++lastSerial;
+        version.Length = length;
+        version.PageCount = pages;
+        version.Uses = 1;
+        if (version.Pages.Length < pages)
         {
-            page.Bytes = new byte[part.Length];
+            version.Pages = new StatePage[Math.Max(pages, 2 * version.Pages.Length)];
         }
 
-        part.CopyTo(page.Bytes);
-        Bytes += page.Bytes.Length;
+        Bytes += pages * ReferenceBytes;
+        return version;
+    }
+
+    private StatePage Take(ReadOnlySpan<byte> part)
+    {
+        int room = LeastRoom;
+        int size = 0;
+        for (; room < part.Length; size++)
+        {
+            room *= 2;
+        }
+
+        Stack<StatePage> of = freePages[size] ??= new Stack<StatePage>();
+        StatePage page = of.Count > 0 ? of.Pop() : new StatePage(room);
+        page.Set(part);
+        Bytes += room;
         return page;
+    }
+
+    private void Free(StatePage page)
+    {
+        Bytes -= page.Room;
+        int size = 0;
+        for (int room = LeastRoom; room < page.Room; room *= 2)
+        {
+            size++;
+        }
+
+        freePages[size].Push(page);
     }
 
     private void Free(StateVersion version)
     {
         for (int page = 0; page < version.PageCount; page++)
         {
-            StatePage its = version.Pages[page];
-            if (--its.Uses == 0)
+            if (--version.Pages[page].Uses == 0)
             {
-                Bytes -= its.Bytes.Length;
-                (its.Bytes.Length == StatePage.Size ? freePages : freeEnds).Push(its);
+                Free(version.Pages[page]);
             }
         }
 
-        Bytes -= version.PageCount * IntPtr.Size;
+        Bytes -= version.PageCount * ReferenceBytes;
         free.Push(version);
     }
 }

@@ -125,6 +125,36 @@ public sealed class OverlapTests
         Assert.Equal(stays, MinGap(bounced, At(8)) < -0.1);
     }
 
+    /// <summary>
+    /// Elastic bodies at one place part, however unlike their masses are. A light one that was left to impacts would bounce between the floor and the
+    /// heavy one without end, and what a step pushes out would never get anywhere. The control: elastic ones that are not in one another bounce on.
+    /// </summary>
+    [Theory]
+    [InlineData(1e-3, new[] { 100.0, 1 }, new[] { 0.3, 0.2 })]
+    [InlineData(1e-2, new[] { 100.0, 1 }, new[] { 0.3, 0.2 })]
+    [InlineData(1e-3, new[] { 20.0, 1 }, new[] { 0.3, 0.2 })]
+    [InlineData(1e-2, new[] { 10.0, 1 }, new[] { 0.2, 0.3 })]
+    [InlineData(1e-3, new[] { 50.0, 1, 50 }, new[] { 0.2, 0.2, 0.3 })]
+    public void ElasticBodiesOfUnlikeMasses_AtOnePlace_Part(double tolerance, double[] masses, double[] radii)
+    {
+        Scene scene = new SceneBuilder("elastic").WithContactTolerance(tolerance).WithSmallestRadius(0.1).AddPlane("floor", Vector3D.Up, 0)
+            .AddBody("far", new BodySpec(0.1, 1, 1), V(9, 0.6)).Build();
+        Simulation world = new(scene, KeepAll);
+        for (int n = 0; n < masses.Length; n++)
+        {
+            world.Submit(PlayerAction.Spawn(new BodySpec(radii[n], masses[n], 1), V(0, 0.3)).Stamp(At(1), 0, (uint)n + 1));
+        }
+
+        world.AdvanceTo(At(6));
+        foreach (double time in new[] { 3.0, 4, 5, 6 })
+        {
+            Assert.True(MinGap(world, At(time)) >= -2 * tolerance, $"{MinGap(world, At(time))} at {time} s");
+        }
+
+        BodyState far = Read(world, First, 6);
+        Near(9.81 * 0.6, (0.5 * far.Velocity.LengthSquared) + (9.81 * far.Position.Y), 1e-9);
+    }
+
     /// <summary>In a periodic box nothing pushes (docs/LIMITS.md): what rests in another stays there, what moves out of it parts, and what is
     /// put beside it was never in it.</summary>
     [Theory]

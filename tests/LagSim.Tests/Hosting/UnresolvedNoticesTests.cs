@@ -11,7 +11,7 @@ namespace LagSim.Tests.Hosting;
 
 /// <summary>
 /// A world goes on as a copy of a committed state, as a client's does that joins again: what the former world had predicted is confirmed
-/// with its identity where the copy has it to come, and unresolved where the copy is of after it. None of it is retracted.
+/// with its identity where the copy has it to come, and unresolved where it may have happened before the copy. None of that is retracted.
 /// </summary>
 public sealed class UnresolvedNoticesTests
 {
@@ -19,7 +19,7 @@ public sealed class UnresolvedNoticesTests
     [InlineData(1.55, true)] // the copy is of before the bounces that were predicted and not confirmed
     [InlineData(1.9, true)] // of between them
     [InlineData(3.0, true)] // of after all of them
-    [InlineData(1.9, false)] // the control: the copy has another course, so that nothing comes again
+    [InlineData(1.6, false)] // the control: the copy has another course, so that nothing comes again
     public void Retire_AndGoOnAsACopy_RetractsOnlyWhatDoesNotHappen(double copied, bool isSame)
     {
         ContactNotices contacts = new();
@@ -50,12 +50,13 @@ public sealed class UnresolvedNoticesTests
             Assert.Equal(1, one.Count(notice => notice.Kind == NoticeKind.Predicted));
             Assert.Equal(NoticeKind.Predicted, one.First().Kind);
             Assert.True(isSame ? last.Kind != NoticeKind.Retracted : last.Kind != NoticeKind.Confirmed || last.Time < At(1.5), $"{last.Kind} at {last.Time}");
-            Assert.True(last.Kind != NoticeKind.Unresolved || last.Time < At(copied));
+            Assert.True(last.Kind != NoticeKind.Unresolved || last.Time < At(copied + 0.5));
+            Assert.True(last.Kind != NoticeKind.Retracted || last.Time >= At(copied + 0.5)); // what is sooner may have moved to before the copy
             unresolved += last.Kind == NoticeKind.Unresolved ? 1 : 0;
             again += last.Kind == NoticeKind.Confirmed && one.Any(notice => notice.Kind == NoticeKind.InDoubt) ? 1 : 0;
         }
 
-        Assert.Equal(copied > 1.6, unresolved > 0);
+        Assert.Equal(copied > 1.6 || !isSame, unresolved > 0);
         Assert.Equal(copied < 2.5 && isSame, again > 0);
         Assert.Equal(isSame, told.All(notice => notice.Kind != NoticeKind.Retracted));
     }

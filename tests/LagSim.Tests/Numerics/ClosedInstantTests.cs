@@ -36,6 +36,26 @@ public sealed class ClosedInstantTests
         Assert.Throws<TimelinesFullException>(() => new Simulation(Packed(1, V(3, -2, 1)), options).AdvanceTo(At(0.1)));
     }
 
+    /// <summary>
+    /// Balls of 1 kg and of a nanogram in turn that are put at one point: sweeps pass on to a light one between heavy ones only what it weighs, so
+    /// an instant would have as many rounds as one weighs more than the other. It ends, and so does the next.
+    /// </summary>
+    [Fact]
+    public void CrowdOfUnlikeMasses_EndsItsInstants()
+    {
+        Simulation simulation = new(new SceneBuilder("crowd").AddPlane("floor", Vector3D.Up, V(0)).AddPlane("wall", V(1), V(-2))
+            .AddBody("a", new BodySpec(0.2, 1, 0.5), V(0, 0.2)).WithSmallestRadius(0.1).Build());
+        for (uint n = 0; n < 64; n++)
+        {
+            BodySpec spec = new(0.1 + (0.001 * (n % 7)), n % 2 == 0 ? 1e-9 : 1, 0, friction: 0.5);
+            simulation.Submit(PlayerAction.Spawn(spec, V(0, 0.2), V(n % 3)).Stamp(At(0.5), 1, n + 1));
+        }
+
+        simulation.AdvanceTo(At(1.2));
+        Assert.InRange(simulation.ImpactsClosed, 1, 8 * 1024);
+        Assert.InRange(simulation.ImpactsProcessed, 1, 16 * 1024);
+    }
+
     /// <summary>A late event that takes a ball out before the instant, or one that puts one in, gives the bits of a world that knew it.</summary>
     [Theory]
     [InlineData(0.45)]
