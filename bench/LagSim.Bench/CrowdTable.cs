@@ -19,7 +19,7 @@ internal static class CrowdTable
         Console.WriteLine($"n balls of 0.2 m spawned 1 m above a floor at one tick; {ThreadClock.Name} of the thread");
         Console.WriteLine("| spawned | of | n | longest instant, ms | per ball, us | first second, ms | per ball, us | events |");
         Console.WriteLine("|---|---|---|---|---|---|---|---|");
-        foreach ((double within, double restitution, double light) in new[] { (0, 0.5, 1), (0.2, 0.5, 1), (0, 1, 1), (0, 1, 0.01), (0, 0.5, 1e-6) })
+        foreach ((double within, double restitution, double light) in new (double, double, double)[] { (0, 0.5, 1), (0.2, 0.5, 1), (0, 1, 1), (0, 1, 0.01), (0, 0.5, 1e-6) })
         {
             string of = string.Create(CultureInfo.InvariantCulture, $"e = {restitution}, 1 kg{(light < 1 ? $" and {light:0.######} kg in turn" : "")}");
             Run(32, within, restitution, light); // so that nothing is measured that the compiler has not finished with

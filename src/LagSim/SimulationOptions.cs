@@ -33,8 +33,8 @@ public sealed class SimulationOptions
     /// <see cref="TimelinesFullException"/>, which names the body with most of them.
     /// </param>
     /// <param name="cancellation">
-    /// Ends the simulation's current call, from any thread, with an <see cref="OperationCanceledException"/>: between two instants, in a
-    /// session within one too.
+    /// Ends the simulation's current call, from any thread, with an <see cref="OperationCanceledException"/>: between two events, also of
+    /// one instant.
     /// </param>
     /// <param name="healing">How an event before the simulated time is brought in. It has no influence on the result, to the bit.</param>
     /// <exception cref="ArgumentOutOfRangeException">
