@@ -89,18 +89,25 @@ internal sealed class StepContacts(StaticSurfaces surfaces, ContactScale scale, 
 
     /// <summary>
     /// Leaves out contacts that did not hold before and are left to impacts. These are elastic contacts, from which impacts take no energy,
-    /// unless there is a hand, which gives and takes, or one of the two is deep in something: pushing it out does so too. And they are contacts past which the two move so fast that within the step the
-    /// surfaces curve away by more than the tolerance: then the gap along the line between them does not show whether they touch.
+    /// unless there is a hand, which gives and takes, or one of the two is deep in something: pushing it out does so too. And they are
+    /// contacts past which the two move so fast that within the step the surfaces curve away by more than the tolerance: then the gap along
+    /// the line between them does not show whether they touch.
     /// </summary>
     /// <param name="seconds">The length of the step.</param>
     internal void DropImpacts(double seconds)
     {
         bool hasHand = problem.HasHand();
-        MarkSunk();
+        bool isMarked = false;
         int kept = 0;
         for (int i = 0; i < problem.ContactCount; i++)
         {
             ref readonly SolverContact c = ref problem.Contacts[i];
+            if (c.IsElastic && !isMarked)
+            {
+                MarkSunk();
+                isMarked = true;
+            }
+
             if (c.Held || !((c.IsElastic && !hasHand && !IsOfSunk(c)) || (c.Gap > 0 && CurvesAway(c, seconds))))
             {
                 problem.Contacts[kept++] = c;

@@ -70,8 +70,13 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     private int Add(Span<int> who, int count, BodyId body)
     {
         int slot = bodies.SlotOf(body);
-        who[count] = Math.Max(0, slot);
-        return slot < 0 ? count : count + 1;
+        if (slot < 0)
+        {
+            return count; // it has gone
+        }
+
+        who[count] = slot;
+        return count + 1;
     }
 
     private bool IsAgain(in EventKey key) => rollback.IsActive && key.Time <= rollback.Horizon;

@@ -225,18 +225,24 @@ public sealed class WorkLedger : IWorkObserver
         return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
     }
 
-    /// <summary>On whose account bodies are, of which the last counts; another's where they are on none. Whether they are on several.</summary>
-    private byte OwnerOf(Span<int> bodies, SimTime at, BodyTable table, byte other, out bool isShared)
+    /// <summary>Whose account bodies are on: of several that of the last, and if they are on none the one that is given.</summary>
+    /// <param name="bodies">The places of the bodies.</param>
+    /// <param name="at">When.</param>
+    /// <param name="table">Names the bodies.</param>
+    /// <param name="otherwise">The account if they are on none.</param>
+    /// <param name="isShared">Whether they are on several.</param>
+    private byte OwnerOf(Span<int> bodies, SimTime at, BodyTable table, byte otherwise, out bool isShared)
     {
         isShared = false;
+        byte owner = otherwise;
         foreach (int slot in bodies)
         {
             byte its = EntryOf(slot, at, table).Owner;
-            isShared |= its != Nobody && other != Nobody && its != other;
-            other = its == Nobody ? other : its;
+            isShared |= its != Nobody && owner != Nobody && its != owner;
+            owner = its == Nobody ? owner : its;
         }
 
-        return other;
+        return owner;
     }
 
     /// <summary>Charges what some bodies took part in, to their owners and to those whose late events are healed; whether all may go on.</summary>
