@@ -25,6 +25,13 @@ internal static class CheckJson
             }
 
             json.WriteEndArray();
+            json.WriteStartArray("unfinished_session_seeds");
+            foreach (ulong seed in report.UnfinishedSeeds)
+            {
+                json.WriteNumberValue(seed);
+            }
+
+            json.WriteEndArray();
             json.WriteNumber("events", report.Events);
             json.WriteNumber("external_events", report.ExternalEvents);
             json.WriteNumber("tied_events", report.Outcomes.Sum(o => (long)o.TiedEvents));

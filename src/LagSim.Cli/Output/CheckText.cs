@@ -36,6 +36,11 @@ internal static class CheckText
             + $" {report.Outcomes.Count(o => o.HasStops):N0} with a stop; {Count(report.Outcomes.Sum(o => o.Copies), "fresh copy", "fresh copies")};"
             + $" lost {report.LostEvents:N0}"));
         output.WriteLine(string.Create(culture, $"differing bits {report.DifferingBits:N0}; failing seeds {report.Failures.Count:N0}"));
+        if (report.UnfinishedSeeds.Any())
+        {
+            output.WriteLine(string.Create(culture, $"unfinished, of more than {options.MaxEvents:N0} events: seeds {string.Join(", ", report.UnfinishedSeeds)}"));
+        }
+
         if (Shrunk(report) is string shrunk)
         {
             output.WriteLine(shrunk);

@@ -41,6 +41,9 @@ internal sealed class VirtualSteps
     /// </summary>
     public Action<int>? AfterStep { get; set; }
 
+    /// <summary>Called between the steps of a session whose world is not where it should be yet; what it throws ends the run.</summary>
+    public Action? BetweenSteps { get; set; }
+
     /// <summary>
     /// The virtual time that a step takes if it leaves a world behind. With the default, none, machines are as fast as needed, and a
     /// session is stepped until its world is there; on a slow machine its port is served meanwhile.
@@ -137,6 +140,7 @@ internal sealed class VirtualSteps
                 SimDuration wait = sessions[number].Step();
                 while (IsBehind(sessions[number]) && BusyStep == SimDuration.Zero && WorkPerSecond == 0)
                 {
+                    BetweenSteps?.Invoke();
                     wait = sessions[number].Step();
                 }
 

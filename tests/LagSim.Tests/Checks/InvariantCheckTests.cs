@@ -58,6 +58,20 @@ public sealed class InvariantCheckTests
     public void Run_ClientWhoseCopyBeginsWhileAHandPresses_HasTheSameBits() =>
         Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = 6_628, ShrinkingPlays = 0 }).Failures);
 
+    /// <summary>A session that takes more events than it may is named, and no failure; the control may take them.</summary>
+    [Fact]
+    public void Run_SessionOfTooManyEvents_IsUnfinished()
+    {
+        CheckOptions options = new() { Sessions = 2, Seed = 1, ShrinkingPlays = 0, MaxEvents = 300 };
+        CheckReport report = Run(options);
+        Assert.Equal([1UL, 2UL], report.UnfinishedSeeds);
+        Assert.Empty(report.Failures);
+        Assert.Equal(0, report.Outcomes.Sum(o => o.Compared));
+        CheckReport control = Run(options with { MaxEvents = 1_000_000 });
+        Assert.Empty(control.UnfinishedSeeds);
+        Assert.True(control.Outcomes.All(o => o.Compared > 0));
+    }
+
     [Fact]
     public void Run_OneAtATimeOrTwo_IsTheSame()
     {

@@ -48,6 +48,12 @@ public sealed record CheckOptions
     public IReadOnlyList<int>? Events { get; init; }
 
     /// <summary>
+    /// The most events in all worlds of a session, re-simulated ones included; one that needs more counts as unfinished, and is no failure. Default
+    /// two million, some 3 GB while it lasts; the mean is 14,000.
+    /// </summary>
+    public long MaxEvents { get; init; } = 2_000_000;
+
+    /// <summary>
     /// The number of sessions played at a time, at least 1; default the number of processors. It changes only the time taken.
     /// </summary>
     public int Workers { get; init; } = Environment.ProcessorCount;

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
+using LagSim.Harness.Verification.Worlds;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
@@ -39,6 +40,8 @@ internal sealed class CheckPlay
         this.options = options;
         this.cancellation = cancellation;
         run = new VirtualRun(Origin, drawn.Seed, cancellation);
+        run.Steps.BeforeStep = _ => ThrowIfTooMany();
+        run.Steps.BetweenSteps = ThrowIfTooMany;
         spawned = new BodyId?[drawn.Actions.Count];
     }
 
@@ -51,6 +54,7 @@ internal sealed class CheckPlay
     private HostSession Host => (HostSession)members[0].Session;
 
     /// <summary>Plays everything. Returns a sentence if something did not finish.</summary>
+    /// <exception cref="WorldBudgetException">It would take more events than it may.</exception>
     internal string? Run(IReadOnlyList<CheckStep> plan)
     {
         int expectedClients = drawn.Players.Skip(1).Count(p => p.AsksAtSeconds is null);
@@ -83,6 +87,20 @@ internal sealed class CheckPlay
         return members.Find(m => m.Session.State != SessionState.Running && !m.HasGone) is CheckMember ended
             ? $"Peer {ended.Peer} is {ended.Session.State}: {ended.Session.EndReason}"
             : null;
+    }
+
+    private void ThrowIfTooMany()
+    {
+        long events = 0;
+        foreach (CheckMember member in members)
+        {
+            events += member.Session.World?.Simulation.EventsProcessed ?? 0;
+        }
+
+        if (events > options.MaxEvents)
+        {
+            throw new WorldBudgetException();
+        }
     }
 
     private void Take(CheckStep step)

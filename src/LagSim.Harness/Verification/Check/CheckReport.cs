@@ -16,6 +16,9 @@ public sealed record CheckReport(IReadOnlyList<CheckOutcome> Outcomes, IReadOnly
     /// </summary>
     public IReadOnlyList<ulong> StoppedSeeds { get; init; } = [];
 
+    /// <summary>The seeds of the sessions that would have taken more events than they may, ascending.</summary>
+    public IEnumerable<ulong> UnfinishedSeeds => Outcomes.Where(o => o.IsUnfinished).Select(o => o.Seed);
+
     /// <summary>Whether the check was stopped before all sessions were done.</summary>
     public bool IsStopped => Outcomes.Count < AskedFor;
 

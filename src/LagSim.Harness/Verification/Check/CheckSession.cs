@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Harness.Verification.Worlds;
 
 namespace LagSim.Harness.Verification.Check;
 
@@ -24,6 +25,10 @@ internal static class CheckSession
             {
                 return CheckJudgement.Of(outcome, drawn, play.Members, play.Log, options, stop.Token);
             }
+        }
+        catch (WorldBudgetException)
+        {
+            return outcome with { IsUnfinished = true, Peers = play.Members.Count };
         }
         catch (Exception thrown) when (thrown is not OperationCanceledException and not OutOfMemoryException)
         {
