@@ -32,7 +32,8 @@ internal sealed class NoticeLedger<T>
     private long number;
     private long lost;
     private bool isFollowing;
-    private SimTime begun = SimTime.MinValue; // the world that is followed, where it is not the first
+    private SimTime begun = SimTime.MinValue; // the world that is followed
+    private long former; // the last notice of the world before it
 
     /// <summary>An account of nothing yet.</summary>
     /// <param name="capacity">How many notices may wait to be read.</param>
@@ -115,6 +116,7 @@ internal sealed class NoticeLedger<T>
     internal void Begin(SimTime from)
     {
         begun = from;
+        former = number;
         GiveUp(from, SimDuration.Zero);
     }
 
@@ -304,8 +306,8 @@ internal sealed class NoticeLedger<T>
     }
 
     /// <summary>
-    /// Reports of what is in doubt, and lies before an instant by more than some time, that it is given up: it does not happen, or may have
-    /// moved to before the world began, where nobody knows.
+    /// Reports of what is in doubt, and lies before an instant by more than some time, that it is given up: it does not happen, or a former
+    /// world predicted it, and it may have moved to before this one began, where nobody knows.
     /// </summary>
     private void GiveUp(SimTime before, SimDuration by)
     {
@@ -315,7 +317,7 @@ internal sealed class NoticeLedger<T>
             T known = doubtful[n];
             if (known.Key.Time < before && before - known.Key.Time > by)
             {
-                Emit(known.Key.Time < begun + pairing.Within ? NoticeKind.Unresolved : NoticeKind.Retracted, known);
+                Emit(known.Id <= former && known.Key.Time < begun + pairing.Within ? NoticeKind.Unresolved : NoticeKind.Retracted, known);
             }
             else
             {
