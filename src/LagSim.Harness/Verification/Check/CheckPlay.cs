@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using LagSim.Events;
-using LagSim.Harness.Verification.Worlds;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Strategies;
@@ -54,7 +53,7 @@ internal sealed class CheckPlay
     private HostSession Host => (HostSession)members[0].Session;
 
     /// <summary>Plays everything. Returns a sentence if something did not finish.</summary>
-    /// <exception cref="WorldBudgetException">It would take more events than it may.</exception>
+    /// <exception cref="TooManyEventsException">It would take more events than it may.</exception>
     internal string? Run(IReadOnlyList<CheckStep> plan)
     {
         int expectedClients = drawn.Players.Skip(1).Count(p => p.AsksAtSeconds is null);
@@ -99,7 +98,7 @@ internal sealed class CheckPlay
 
         if (events > options.MaxEvents)
         {
-            throw new WorldBudgetException();
+            throw new TooManyEventsException();
         }
     }
 

@@ -1,6 +1,5 @@
 using System;
 using System.Threading;
-using LagSim.Harness.Verification.Worlds;
 
 namespace LagSim.Harness.Verification.Check;
 
@@ -26,7 +25,7 @@ internal static class CheckSession
                 return CheckJudgement.Of(outcome, drawn, play.Members, play.Log, options, stop.Token);
             }
         }
-        catch (WorldBudgetException)
+        catch (TooManyEventsException)
         {
             return outcome with { IsUnfinished = true, Peers = play.Members.Count };
         }
