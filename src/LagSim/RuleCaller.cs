@@ -18,8 +18,8 @@ internal class RuleCaller
 
     /// <summary>
     /// How many bytes the states after the calls within the history may take: 2^28. A call that changes the state counts the pages that
-    /// differ (<see cref="StatePage"/>), and a reference to each of the others. So rules with states of a hundred bodies may change one of them
-    /// 250,000 times, and rules with the largest state 27,000 times.
+    /// differ (<see cref="StatePage"/>), and a reference to each. So rules with states of a hundred bodies may change one of them 250,000
+    /// times, and rules with the largest state 27,000 times.
     /// </summary>
     internal const long MaxStateBytes = 1L << 28;
 
@@ -234,7 +234,7 @@ internal class RuleCaller
         {
             throw Failed(
                 call, $"the states after the {log.Heard} calls within the history take {log.StateBytes} bytes, more than {MaxStateBytes}:"
-                    + $" of each that changes something the parts are kept that differ, by up to {StatePage.Most} bytes", null);
+                    + $" of each that changes something the parts are kept that differ, by up to {StatePage.MostBytes} bytes", null);
         }
     }
 

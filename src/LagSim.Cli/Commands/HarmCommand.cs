@@ -85,7 +85,8 @@ internal static class HarmCommand
                 },
                 console.Stop));
         HarmOutcome[] ranked = [.. outcomes.OrderBy(o => o.IsGood).ThenByDescending(o => o.LateSeconds).ThenBy(o => o.Case.Seed)];
-        HarmOutcome[] toReplay = outcomes.Count < options.Attacks ? [] : [.. ranked.Where(o => o.Case.Scene.Rules is null).Take(again)]; // the tool has no rules
+        HarmOutcome[] toReplay = outcomes.Count < options.Attacks ? []
+            : [.. ranked.Where(o => o.Case.Scene.Rules is null).Take(again)]; // the tool has no rules
         IReadOnlyList<HarmProcessOutcome> played = toReplay.Length == 0 ? [] : PlayAgain(console, toReplay, tool ?? StallsCommand.ThisTool());
         IReadOnlyList<HonestCost> costs = honest ? PlayHonest(console, options) : [];
         bool isStopped = outcomes.Count < options.Attacks || played.Count < toReplay.Length || (honest && costs.Count < HonestPlay.Scenes.Count);

@@ -38,7 +38,8 @@ internal static class CheckText
         output.WriteLine(string.Create(culture, $"differing bits {report.DifferingBits:N0}; failing seeds {report.Failures.Count:N0}"));
         if (report.UnfinishedSeeds.Any())
         {
-            output.WriteLine(string.Create(culture, $"unfinished, of more than {options.MaxEvents:N0} events: seeds {string.Join(", ", report.UnfinishedSeeds)}"));
+            string seeds = string.Join(", ", report.UnfinishedSeeds);
+            output.WriteLine(string.Create(culture, $"unfinished, of more than {options.MaxEvents:N0} events: seeds {seeds}"));
         }
 
         if (Shrunk(report) is string shrunk)

@@ -301,7 +301,8 @@ internal sealed class SessionRun
         }
         catch (SimulationException thrown)
         {
-            throw new SessionTestException($"The session cannot be checked: its world, played once more without delay and with all of it as history, ended. {thrown.Message}", thrown);
+            throw new SessionTestException(
+                $"The session cannot be checked: its world, played once more without delay and with all of it as history, ended. {thrown.Message}", thrown);
         }
 
         bool hasFailed = Members.Any(member => member.Session.Failure is not null); // then worlds hold what the host has not judged, as that of who is out does

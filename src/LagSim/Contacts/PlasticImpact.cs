@@ -57,7 +57,8 @@ internal sealed class PlasticImpact
 
         for (int i = 0; i < problem.BodyCount; i++)
         {
-            groups[i] = new Group { Mass = 1 / problem.Bodies[i].InverseMass, Velocity = problem.Bodies[i].Velocity }; // infinite if it is held
+            ref readonly SolverBody body = ref problem.Bodies[i];
+            groups[i] = new Group { Mass = 1 / body.InverseMass, Velocity = body.Velocity }; // infinite if it is held
             groupOf[i] = i;
         }
 

@@ -38,8 +38,8 @@ public enum NoticeKind
 
     /// <summary>
     /// Whether it happened is not known here: a fresh copy of the world took the place of the one that predicted it, as when a client joins
-    /// again, and the copy is of a later instant, or of one so little before that it may have moved to there. Where it does happen after that instant, it
-    /// may come as a new one, with an identity of its own. The state of the world and of its rules is right all the same.
+    /// again, and the copy is of a later instant, or of one so little before that it may have moved to there. Where it does happen after that
+    /// instant, it may come as a new one, with an identity of its own. The state of the world and of its rules is right all the same.
     /// </summary>
     Unresolved = 6,
 }

@@ -33,7 +33,7 @@ internal sealed class NoticeLedger<T>
     private long lost;
     private bool isFollowing;
     private SimTime begun = SimTime.MinValue; // the world that is followed
-    private long former; // the last notice of the world before it
+    private long lastOfFormer; // the number of the last notice of the world before it
 
     /// <summary>An account of nothing yet.</summary>
     /// <param name="capacity">How many notices may wait to be read.</param>
@@ -116,7 +116,7 @@ internal sealed class NoticeLedger<T>
     internal void Begin(SimTime from)
     {
         begun = from;
-        former = number;
+        lastOfFormer = number;
         GiveUp(from, SimDuration.Zero);
     }
 
@@ -317,7 +317,8 @@ internal sealed class NoticeLedger<T>
             T known = doubtful[n];
             if (known.Key.Time < before && before - known.Key.Time > by)
             {
-                Emit(known.Id <= former && known.Key.Time < begun + pairing.Within ? NoticeKind.Unresolved : NoticeKind.Retracted, known);
+                bool mayHaveMoved = known.Id <= lastOfFormer && known.Key.Time < begun + pairing.Within;
+                Emit(mayHaveMoved ? NoticeKind.Unresolved : NoticeKind.Retracted, known);
             }
             else
             {

@@ -50,8 +50,8 @@ internal class CollapseRule(
     internal static bool GivesBack(in EventKey key) => IsLong(key) && !IsOverlong(key);
 
     /// <summary>
-    /// Whether it goes on in spite of that, so that what an island's sweeps leave closing is joined (<see cref="PlasticImpact"/>). A light body between
-    /// heavy ones passes on in a sweep only as much as it weighs, and would be struck as often as its mass is contained in theirs.
+    /// Whether it goes on in spite of that, so that what an island's sweeps leave closing is joined (<see cref="PlasticImpact"/>). A light
+    /// body between heavy ones passes on in a sweep only as much as it weighs, and would be struck as often as its mass is contained in theirs.
     /// </summary>
     internal static bool IsOverlong(in EventKey key) => key.Round >= 2 * LongRound;
 

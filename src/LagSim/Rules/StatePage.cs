@@ -9,12 +9,13 @@ internal sealed class StatePage(int room)
     /// How many bytes one may have. A state of n bytes costs what a call changes, at least one page, and a reference of 8 bytes to each:
     /// least at sqrt(8 n), which is 0.5 to 3 kB for states of 40 kB to 1 MB.
     /// </summary>
-    internal const int Most = 1024;
+    internal const int MostBytes = 1024;
 
     /// <summary>
-    /// How many it has at least, unless it is the only one of its state. Pages that are cut out of more than the most have half of that each.
+    /// How many it has at least, unless it is the only one of its state: pages that are cut out of more than the most have at least half of
+    /// that each.
     /// </summary>
-    internal const int Least = Most / 2;
+    internal const int LeastBytes = MostBytes / 2;
 
     private readonly byte[] bytes = new byte[room];
 

@@ -8,15 +8,17 @@ namespace LagSim.Rules;
 /// while.
 /// </summary>
 /// <remarks>
-/// A version has the pages of the one before it up to the first byte that differs, and after the last, wherever these have moved to: a timer
-/// that is set, or a body that gets a state, moves all that is behind it. Cost of one more: its bytes compared, and what changed copied.
+/// A version has the pages of the one before it up to the first byte that differs, and after the last, wherever these have moved to: a
+/// timer that is set, or a body that gets a state, moves all that is behind it. Cost of one more: its bytes compared, and what changed
+/// copied.
 /// </remarks>
 internal sealed class StateVersions
 {
     /// <summary>What a reference to a page counts, on any machine.</summary>
     private const int ReferenceBytes = 8;
 
-    private const int LeastRoom = 16; // a power of two
+    /// <summary>The room of the smallest page, for the state of rules that have next to none: its head and no timer take that.</summary>
+    private const int LeastRoom = StateLayout.HeadBytes;
 
     private readonly Stack<StateVersion> free = new();
     private readonly Stack<StatePage>[] freePages = new Stack<StatePage>[7]; // by room: 16 bytes, and twice that up to the most
@@ -45,7 +47,7 @@ internal sealed class StateVersions
             to -= like.Pages[--last].Length;
         }
 
-        while (from < to && to - from < StatePage.Least && (first > 0 || last < known))
+        while (from < to && to - from < StatePage.LeastBytes && (first > 0 || last < known))
         {
             if (first > 0)
             {
@@ -57,11 +59,12 @@ internal sealed class StateVersions
             }
         }
 
-        int made = (to - from + StatePage.Most - 1) / StatePage.Most;
+        int made = (to - from + StatePage.MostBytes - 1) / StatePage.MostBytes;
         StateVersion version = Take(state.Length, first + made + known - last);
-        for (int page = 0; page < first; page++)
+        if (like is not null)
         {
-            version.Pages[page] = like!.Pages[page];
+            Array.Copy(like.Pages, 0, version.Pages, 0, first);
+            Array.Copy(like.Pages, last, version.Pages, first + made, known - last);
         }
 
         for (int n = 0; n < made; n++)
@@ -69,11 +72,6 @@ internal sealed class StateVersions
             int at = from + (int)((long)(to - from) * n / made);
             int end = from + (int)((long)(to - from) * (n + 1) / made);
             version.Pages[first + n] = Take(state.Slice(at, end - at));
-        }
-
-        for (int page = last; page < known; page++)
-        {
-            version.Pages[first + made + page - last] = like!.Pages[page];
         }
 
         for (int page = 0; page < version.PageCount; page++)
@@ -124,7 +122,7 @@ internal sealed class StateVersions
     }
 
     /// <summary>Whether a page is long enough to be one of several: the only one of a short state is not.</summary>
-    private static bool CanShare(StatePage page) => page.Length >= StatePage.Least;
+    private static bool CanShare(StatePage page) => page.Length >= StatePage.LeastBytes;
 
     private StateVersion Take(int length, int pages)
     {
@@ -142,32 +140,32 @@ internal sealed class StateVersions
         return version;
     }
 
-    private StatePage Take(ReadOnlySpan<byte> part)
+    /// <summary>How often the least room has to be doubled for so many bytes.</summary>
+    private static int SizeOf(int bytes)
     {
-        int room = LeastRoom;
         int size = 0;
-        for (; room < part.Length; size++)
+        while (LeastRoom << size < bytes)
         {
-            room *= 2;
+            size++;
         }
 
+        return size;
+    }
+
+    private StatePage Take(ReadOnlySpan<byte> part)
+    {
+        int size = SizeOf(part.Length);
         Stack<StatePage> of = freePages[size] ??= new Stack<StatePage>();
-        StatePage page = of.Count > 0 ? of.Pop() : new StatePage(room);
+        StatePage page = of.Count > 0 ? of.Pop() : new StatePage(LeastRoom << size);
         page.Set(part);
-        Bytes += room;
+        Bytes += page.Room;
         return page;
     }
 
     private void Free(StatePage page)
     {
         Bytes -= page.Room;
-        int size = 0;
-        for (int room = LeastRoom; room < page.Room; room *= 2)
-        {
-            size++;
-        }
-
-        freePages[size].Push(page);
+        freePages[SizeOf(page.Room)].Push(page);
     }
 
     private void Free(StateVersion version)

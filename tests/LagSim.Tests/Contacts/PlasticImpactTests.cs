@@ -30,8 +30,8 @@ public sealed class PlasticImpactTests
             for (int i = 0; i < problem.ContactCount; i++)
             {
                 ref readonly SolverContact c = ref problem.Contacts[i];
-                bool isFixed = problem.IsByHand(c, out _) && c.Second == ContactPoint.Static;
-                Assert.True(isFixed || ContactSolver.Opening(problem, c) >= -1.001e-6 || IsBetweenHandAndWall(problem), $"{seed}");
+                bool isJammed = seed % 10 == 0 && IsOfWall(problem, c.First) != IsOfWall(problem, c.Second); // between the hand and the wall
+                Assert.True(isJammed || ContactSolver.Opening(problem, c) >= -1.001e-6, $"{seed}");
             }
 
             joined += closed ? 1 : 0;
@@ -65,16 +65,8 @@ public sealed class PlasticImpactTests
         Assert.All(Velocities(problem), velocity => Near(-0.5, velocity.X, 1e-8));
     }
 
-    private static bool IsBetweenHandAndWall(ContactProblem problem)
-    {
-        bool hasWall = false;
-        for (int i = 0; i < problem.ContactCount; i++)
-        {
-            hasWall |= problem.Contacts[i].Second == ContactPoint.Static;
-        }
-
-        return hasWall && problem.HasHand();
-    }
+    /// <summary>Whether a body goes on with the wall: at rest, though it came otherwise or the hand moves.</summary>
+    private static bool IsOfWall(ContactProblem problem, int body) => body == ContactPoint.Static || problem.Bodies[body].Velocity == Vector3D.Zero;
 
     private static ContactProblem Draw(Random random, bool hasWall, bool hasHand)
     {

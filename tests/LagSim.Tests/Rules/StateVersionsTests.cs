@@ -52,9 +52,9 @@ public sealed class StateVersionsTests
             (StateVersion? other, byte[] others) = kept[random.Next(kept.Count)];
             Assert.True(one!.IsSameAs(expected));
             Assert.True(one.Bytes.SequenceEqual(expected));
-            Assert.InRange(one.Head.Length, Math.Min(StatePage.Least, expected.Length), StatePage.Most);
+            Assert.InRange(one.Head.Length, Math.Min(StatePage.LeastBytes, expected.Length), StatePage.MostBytes);
             Assert.True(expected.AsSpan().StartsWith(one.Head));
-            Assert.InRange(one.PageCount, 1, Math.Max(1, expected.Length / StatePage.Least));
+            Assert.InRange(one.PageCount, 1, Math.Max(1, expected.Length / StatePage.LeastBytes));
             Assert.Equal(expected.AsSpan().SequenceEqual(others), one.IsSameAs(other!)); // also false: the control
         }
 
@@ -69,12 +69,12 @@ public sealed class StateVersionsTests
 
     /// <summary>A change of one number in a large state keeps one page more, and a change of all of them all.</summary>
     [Theory]
-    [InlineData(false, StatePage.Most + (40 * 8))]
-    [InlineData(true, (40 * StatePage.Most) + (40 * 8))]
+    [InlineData(false, StatePage.MostBytes + (40 * 8))]
+    [InlineData(true, (40 * StatePage.MostBytes) + (40 * 8))]
     public void Add_KeepsWhatDiffers(bool all, long more)
     {
         StateVersions versions = new();
-        byte[] state = new byte[40 * StatePage.Most];
+        byte[] state = new byte[40 * StatePage.MostBytes];
         StateVersion first = versions.Add(state, null);
         long before = versions.Bytes;
         for (int at = 0; at < state.Length; at += all ? 1 : state.Length)
@@ -92,19 +92,19 @@ public sealed class StateVersionsTests
     {
         StateVersions versions = new();
         Random random = new(1);
-        byte[] state = new byte[40 * StatePage.Most];
+        byte[] state = new byte[40 * StatePage.MostBytes];
         random.NextBytes(state);
         StateVersion last = versions.Add(state, null);
         long before = versions.Bytes;
         for (int n = 0; n < 1000; n++)
         {
             int place = 16 * random.Next(4);
-            state = state.Length == 40 * StatePage.Most ? [.. state[..place], .. new byte[16], .. state[place..]] : [.. state[..place], .. state[(place + 16)..]];
+            state = state.Length == 40 * StatePage.MostBytes ? [.. state[..place], .. new byte[16], .. state[place..]] : [.. state[..place], .. state[(place + 16)..]];
             last = versions.Add(state, last);
             Assert.True(last.IsSameAs(state));
         }
 
-        Assert.InRange(versions.Bytes - before, 1000, 1000 * ((2 * StatePage.Most) + (80 * 8)));
+        Assert.InRange(versions.Bytes - before, 1000, 1000 * ((2 * StatePage.MostBytes) + (80 * 8)));
     }
 
     /// <summary>

@@ -12,7 +12,9 @@ public sealed record CheckOutcome
     /// <summary>The number of peers, including those that left or joined later.</summary>
     public int Peers { get; init; }
 
-    /// <summary>Whether it would have taken more events than it may (<see cref="CheckOptions.MaxEvents"/>), so that nothing was compared.</summary>
+    /// <summary>
+    /// Whether it would have taken more events than it may (<see cref="CheckOptions.MaxEvents"/>), so that nothing was compared.
+    /// </summary>
     public bool IsUnfinished { get; init; }
 
     /// <summary>The number of events in all worlds, re-simulated ones included.</summary>

@@ -62,7 +62,8 @@ internal sealed class HarmRun
                 peer == 0
                     ? new HostSession(drawn.Scene, port, own, chosen, drawn.Seed)
                     : new ClientSession(
-                        drawn.Scene.Rules is null ? null : drawn.Scene, port, own, ClientOptions.From(chosen), PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
+                        drawn.Scene.Rules is null ? null : drawn.Scene, // rules are code, which a host does not send
+                        port, own, ClientOptions.From(chosen), PeerAddress.Virtual(0), (drawn.Seed * 8) + (ulong)peer),
                 port);
         }
 
