@@ -90,7 +90,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         Assert.All(new[] { "One more player is needed.", "another tab or browser on this computer", address, "at this keyboard" }, part => Assert.Contains(part, waiting, StringComparison.Ordinal));
         Assert.StartsWith("air hockey", waiting, StringComparison.OrdinalIgnoreCase);
         await tab.Page.GetByRole(AriaRole.Button, new() { Name = "A second player at this keyboard" }).ClickAsync();
-        await tab.Page.WaitForFunctionAsync("() => document.querySelectorAll('.pane').length === 2 && lagsim.peers[1].status.state === 'Running'", null, new() { Timeout = 30_000 });
+        await tab.Page.WaitForFunctionAsync("() => document.querySelectorAll('.pane').length === 2 && lagsim.peers[1].status?.state === 'Running'", null, new() { Timeout = 30_000 });
         Assert.False(await tab.Page.Locator("#waiting").IsVisibleAsync(), "Nobody is waited for any more.");
         (double x, double y) left = await MalletAsync(tab.Page, 1, 0), right = await MalletAsync(tab.Page, 0, 1);
         await tab.Page.Keyboard.DownAsync("w");
@@ -100,7 +100,7 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         await tab.Page.Keyboard.UpAsync("w");
         await tab.Page.Keyboard.UpAsync("ArrowDown");
 
-        await tab.Page.WaitForFunctionAsync("() => lagsim.peers.every(peer => peer.status.agreed >= 3)", null, new() { Timeout = 20_000 });
+        await tab.Page.WaitForFunctionAsync("() => lagsim.peers.every(peer => peer.status?.agreed >= 3)", null, new() { Timeout = 20_000 });
         JoinedPage.AssertSame(host.States, ToolProcess.StatesOf(await tab.Page.EvaluateAsync<string[]>("() => lagsim.peers[1].commits")), 3);
         JoinedPage.AssertSame(host.States, await tab.StatesAsync(), 3);
 
