@@ -44,7 +44,7 @@ public sealed class InterruptedTabTests(ServedPage served)
         await host.SaysAsync(line => line == "here: 0 player, 2 player Bob");
         await hanging;
         await ann.Page.WaitForFunctionAsync("() => window.lagsim.status?.state === 'Running' || window.lagsim.status?.end", null, new() { Timeout = 30_000 });
-        await bob.Page.WaitForFunctionAsync("() => window.lagsim.status?.agreed >= 5", null, new() { Timeout = 20_000 });
+        await bob.AgreedAsync(5);
         Assert.Equal((0, 0), (await ann.NumberAsync("differed"), await bob.NumberAsync("differed")));
     }
 
@@ -91,7 +91,7 @@ public sealed class InterruptedTabTests(ServedPage served)
             string page = await host.AfterAsync("browsers join at ");
             port = new Uri(page).Port.ToString(CultureInfo.InvariantCulture);
             ann = await JoinedPage.JoinAsync(context, page, "Ann");
-            await ann.Page.WaitForFunctionAsync("seconds => window.lagsim.status?.agreed >= seconds", Seconds, new() { Timeout = 30_000 });
+            await ann.AgreedAsync(Seconds, 30_000);
             await ActsAsync(ann, Scene);
         }
 
@@ -118,7 +118,7 @@ public sealed class InterruptedTabTests(ServedPage served)
             string page = await host.AfterAsync("browsers join at ");
             port = new Uri(page).Port.ToString(CultureInfo.InvariantCulture);
             ann = await JoinedPage.JoinAsync(context, page, "Ann", "open sesame");
-            await ann.Page.WaitForFunctionAsync("() => window.lagsim.status?.agreed >= 1", null, new() { Timeout = 30_000 });
+            await ann.AgreedAsync(1, 30_000);
             agrees = ann.Page.Locator(".agrees");
             Assert.Contains("the host's", await agrees.InnerTextAsync(), StringComparison.Ordinal);
             Assert.False(await IsStaleAsync(ann.Page));
@@ -171,7 +171,7 @@ public sealed class InterruptedTabTests(ServedPage served)
     private static async Task AgreesFromNowOnAsync(JoinedPage joined)
     {
         double agreed = await joined.NumberAsync("agreed");
-        await joined.Page.WaitForFunctionAsync("agreed => window.lagsim.status?.agreed > agreed + 1", agreed, new() { Timeout = 20_000 });
+        await joined.AgreedAsync(agreed + 2);
         Assert.Equal(0, await joined.NumberAsync("differed"));
     }
 

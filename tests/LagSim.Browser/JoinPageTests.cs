@@ -39,7 +39,7 @@ public sealed class JoinPageTests(ServedPage served)
         await again.RunningAsync();
         Assert.Equal((1, 2), (await again.NumberAsync("player"), await bob.NumberAsync("player")));
 
-        await again.Page.WaitForFunctionAsync("() => window.lagsim.status?.agreed >= 2", null, new() { Timeout = 20_000 });
+        await again.AgreedAsync(2);
         JoinedPage.AssertSame(host.States, await again.StatesAsync(), 2);
         await again.Page.GetByRole(AriaRole.Button, new() { Name = "Leave" }).ClickAsync();
         await again.Page.GetByText("You have left.").WaitForAsync();
@@ -159,7 +159,7 @@ public sealed class JoinPageTests(ServedPage served)
             await context.AddInitScriptAsync(
                 "Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('Access is denied') } })");
             JoinedPage ann = await JoinedPage.JoinAsync(context, address, "Ann");
-            await ann.Page.WaitForFunctionAsync("() => window.lagsim.status?.agreed >= 1", null, new() { Timeout = 20_000 });
+            await ann.AgreedAsync(1);
             Assert.Contains("the host's", await ann.Page.Locator(".agrees span").InnerTextAsync(), StringComparison.Ordinal);
             Assert.Empty(ann.Complaints);
         }

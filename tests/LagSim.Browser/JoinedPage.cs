@@ -68,6 +68,10 @@ internal sealed class JoinedPage
     internal Task RunningAsync() => Page.WaitForFunctionAsync(
         "() => window.lagsim.status?.state === 'Running' && document.querySelector('.pane')", null, new() { Timeout = 60_000 });
 
+    /// <summary>Waits until so many of its states have agreed with the host's.</summary>
+    internal Task AgreedAsync(double least, float withinMilliseconds = 20_000) => Page.WaitForFunctionAsync(
+        "least => window.lagsim.status?.agreed >= least", least, new() { Timeout = withinMilliseconds });
+
     /// <summary>A figure of how the session stands.</summary>
     internal async Task<double> NumberAsync(string name) => await Page.EvaluateAsync<double>("name => window.lagsim.status[name]", name);
 
