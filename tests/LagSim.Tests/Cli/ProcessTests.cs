@@ -100,7 +100,7 @@ public sealed class ProcessTests
     [Fact]
     public void HostAndThreeClients_ThroughARelayThatPlaysAwful_Agree()
     {
-        // Whoever's start is lost comes in late, and an action may be lost more than once: a second to come in, and three for an action.
+        // This link loses bursts. The clients have a second to come in before the first action, and each action has three to reach the host.
         using TemporaryFolder folder = new();
         using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 3 --history-s 3 --for-s 3 --do impulse@2:0,5,0 --record {folder["0"]}");
         using ToolProcess relay = ToolProcess.Start($"relay {host.Address} --profile awful --for-s 60");
@@ -118,6 +118,7 @@ public sealed class ProcessTests
             }
 
             Assert.All(clients, client => Assert.Matches("heals: [1-9]", client.Output.ToString())); // else nothing came late
+            Assert.All(clients, client => Assert.Matches(@"round trip [1-9]\d\d", client.Output.ToString())); // else the link is another
         }
         finally
         {
