@@ -64,7 +64,7 @@ internal sealed class Engine
         bool hasIslands = parts.HasIslands(scene);
         Step = new ContactStep(scene, parts.ContactScale(scene, start), parts.SolverRules);
         ContactGraph graph = new(Bodies, Timelines, scene.Surfaces, scene.Box);
-        SolverWork work = new();
+        EventWork work = new();
 
         // The next event of a body.
         SegmentLookup view = parts.SegmentLookup(Timelines, rollback);
@@ -72,8 +72,8 @@ internal sealed class Engine
         StrikeCounts strikes = new(Timelines, Bodies, scene.Surfaces, scene.Box);
         MemberContacts memberContacts = new(Timelines, Bodies, scene.Surfaces, Step.Scale);
         CollisionPredictor collisions = new(
-            scene, start, Bodies, Timelines, memberContacts, strikes, Step.Scale, hasIslands);
-        CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, view, marks);
+            scene, start, Bodies, Timelines, memberContacts, strikes, Step.Scale, work, hasIslands);
+        CollisionSearch search = parts.CollisionSearch(Bodies, Timelines, flights, scene.Surfaces, collisions, view, marks, work);
         BroadPhase = parts.BroadPhase(scene, Bodies, Timelines, options.BruteForceLimit);
         predictor = parts.EventPredictor(Bodies, Timelines, log, scheduler, rollback, flights, BroadPhase, search, view);
 
@@ -123,7 +123,7 @@ internal sealed class Engine
         Isolated = parts.IsolatedImpact(
             scene, Bodies, Timelines, scheduler, rollback, flights, graph, resolver, notifier, segments);
         ImpactGraphBuilder builder = parts.ImpactGraphBuilder(
-            scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph, partners);
+            scene, Bodies, Timelines, rollback, rewinds, view, flights, BroadPhase, collisions, collapse, graph, partners, work);
         IslandImpactProblem problem = new(Step, work);
         IslandImpactSegments memberSegments = new(
             Bodies, Timelines, graph, problem, members, memberContacts, trajectories, resolver, segments, closed);

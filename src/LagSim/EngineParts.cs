@@ -44,8 +44,8 @@ internal class EngineParts
 
     internal virtual CollisionSearch CollisionSearch(
         BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-        SegmentLookup view, StepMarks stepMarks) =>
-        new(bodies, timelines, flights, surfaces, predictor, view, stepMarks);
+        SegmentLookup view, StepMarks stepMarks, EventWork work) =>
+        new(bodies, timelines, flights, surfaces, predictor, view, stepMarks, work);
 
     internal virtual EventPredictor EventPredictor(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
@@ -92,8 +92,8 @@ internal class EngineParts
     internal virtual ImpactGraphBuilder ImpactGraphBuilder(
         Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
-        Partners partners) =>
-        new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners);
+        Partners partners, EventWork work) =>
+        new(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners, work);
 
     internal virtual FreePlaces FreePlaces(Scene scene, BodyTable bodies, TimelineStore timelines, SegmentLookup view) =>
         new(scene, bodies, timelines, view);

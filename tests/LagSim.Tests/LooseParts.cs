@@ -58,6 +58,6 @@ internal static class LooseParts
         ContactScale scale = new(scene.ContactTolerance, scene.Gravity, default);
         MemberContacts members = new(timelines, bodies, scene.Surfaces, scale);
         StrikeCounts strikes = new(timelines, bodies, scene.Surfaces, scene.Box);
-        return new CollisionPredictor(scene, default, bodies, timelines, members, strikes, scale, hasIslands: true);
+        return new CollisionPredictor(scene, default, bodies, timelines, members, strikes, scale, new EventWork(), hasIslands: true);
     }
 }

@@ -86,13 +86,15 @@ internal sealed class HostAdmin
                 return host.Kick(player) ? $"Player {player} is disconnected." : $"There is no player {player}.";
             case "ban":
                 string? from = host.Links.Where(link => link.Peer == player).Select(link => link.Address.ToIPAddress().ToString()).FirstOrDefault();
+                bool isProven = host.AdmissionOf(player) is not null;
                 if (from is null || host.Ban(player) is not PeerAddress its)
                 {
                     return $"There is no player {player}.";
                 }
 
                 banned[from] = its;
-                return $"Player {player} is disconnected, and nobody can join from {from} any more.";
+                return isProven ? $"Player {player} is disconnected, and its tokens let it in no more; 'unban {from}' lets it in again."
+                    : $"Player {player} is disconnected, and nobody can join from {from} any more.";
             case "remove-bodies" when player > SessionOptions.MaxClients:
                 return $"Player {player} is a spectator, and has no bodies.";
             default:

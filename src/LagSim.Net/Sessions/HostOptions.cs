@@ -100,9 +100,11 @@ public sealed record HostOptions : SessionOptions
     /// </summary>
     /// <remarks>
     /// <para>At half the budget, a player's actions are refused (<see cref="Wire.Verdict.NoRight"/>) except removals and releases. At the
-    /// full budget the player is expelled as by <see cref="HostSession.Kick"/>, and no client from its machine is let in for a minute. What
-    /// it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are stopped; see
-    /// <see cref="HostSession.PlayerExpelled"/>. While the world is 150 ms late, the budget is halved.</para>
+    /// full budget the player is expelled as by <see cref="HostSession.Kick"/>, is told what it cost, and is not let in for a minute: by its
+    /// token, its key or its pass. If another is expelled from its machine within a minute, nobody without token or key is let in from there
+    /// for as long. What it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are
+    /// stopped; see <see cref="HostSession.PlayerExpelled"/>.</para>
+    /// <para>Work is counted, not timed, so a machine that has little time for the host sends nobody away.</para>
     /// <para>A late event on a body in free flight counts 12 units or more. The default <see cref="MaxEventsPerSecond"/> stays far from the
     /// budget; if you allow thousands a second, raise the budget in proportion.</para>
     /// </remarks>

@@ -168,8 +168,9 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Sends away all players from one player's machine, as <see cref="Kick"/> does, and lets no client in from there for as long as this
-    /// session lasts. A machine is an IP address, of IPv6 its first 64 bits; everyone who shares it is shut out.
+    /// Sends a player away, as <see cref="Kick"/> does, and does not let it in again for as long as this session lasts. If a connect token or
+    /// a player's key proves who it is, that player is shut out and nobody else. Otherwise all players from its machine are sent away, and
+    /// everyone who shares it is shut out. A machine is an IP address, of IPv6 its first 64 bits.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
@@ -185,16 +186,17 @@ public sealed class HostSession : Session
         }
 
         PeerAddress machine = found.Link.Other.Machine;
-        host.Handshake.BanList.Ban(machine);
-        host.Roster.Kick(j => j.Link.Other.Machine == machine);
+        PlayerNames who = host.Roster.NamesOf(found);
+        host.Handshake.BanList.ShutOut(who, machine);
+        host.Roster.Kick(j => j == found || (!who.AreProven && j.Link.Other.Machine == machine));
         return machine;
     }
 
     /// <summary>
-    /// Lets players in again from a machine that was banned, or that is shut out for a while because a player from there cost too much.
+    /// Lets players in again from a machine: all who were banned there, and all who are shut out for a while because they cost too much.
     /// </summary>
     /// <param name="machine">The result of <see cref="Ban"/>, or any address of the machine.</param>
-    /// <returns>False if it was not shut out.</returns>
+    /// <returns>False if nobody was shut out there.</returns>
     /// <remarks>On the session's thread.</remarks>
     public bool Unban(PeerAddress machine)
     {

@@ -4,7 +4,7 @@ namespace LagSim.Net.Sessions;
 
 /// <summary>
 /// The work that one player may cause for all peers: so much per second in the long run, and so much at once. Work is measured in units of
-/// about a microsecond on one core: what <see cref="Hosting.WorkLedger"/> counts, or measures by the session's clock if that is more.
+/// about a microsecond on one core, as <see cref="Hosting.WorkLedger"/> counts it: a busy machine charges nobody more.
 /// </summary>
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class PlayerBudget

@@ -4,10 +4,11 @@ namespace LagSim.Net.Sessions;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public readonly struct PlayerCost
 {
-    internal PlayerCost(byte player, double work, double peakWork)
+    internal PlayerCost(byte player, double work, double seconds, double peakWork)
     {
         Player = player;
         Work = work;
+        Seconds = seconds;
         PeakWork = peakWork;
     }
 
@@ -16,6 +17,9 @@ public readonly struct PlayerCost
 
     /// <summary>The work charged to that number in all, in units of about a microsecond.</summary>
     public double Work { get; }
+
+    /// <summary>How long that took by the host's clock, in seconds. It includes time in which other programs had the core.</summary>
+    public double Seconds { get; }
 
     /// <summary>The most that was ever spent of <see cref="PlayerBudget.WorkAtOnce"/>; 0 without a budget.</summary>
     public double PeakWork { get; }

@@ -10,20 +10,28 @@ namespace LagSim.Net.Sessions;
 /// <remarks>Immutable, safe on any thread.</remarks>
 public sealed class PlayerExpulsion
 {
-    internal PlayerExpulsion(byte player, bool wasThere, double work, double seconds, int removed, int stopped, SimTime from)
+    internal PlayerExpulsion(byte player, bool wasThere, string cost, double work, double seconds, int removed, int stopped, SimTime from)
     {
         Player = player;
         WasThere = wasThere;
         Work = work;
+        Seconds = seconds;
         BodiesRemoved = removed;
         BodiesStopped = stopped;
         From = from;
         string what = wasThere ? $"Player {player} is disconnected: what it did"
             : player == 0 ? "What players who are gone had left is removed: it" : $"What player {player}, who is gone, had left is removed: it";
-        Sentence = what + FormattableString.Invariant($" took {work / 1000:0} ms of work within {seconds:0.0##} s, more than one player may cost.")
-            + $" As of {from.ToShortString()} of the simulation, {removed} of its bodies {(removed == 1 ? "is" : "are")} removed"
+        Sentence = $"{what} {cost}" + FormattableString.Invariant(
+            $" As of {from.ToShortString()} of the simulation, {removed} of its bodies {(removed == 1 ? "is" : "are")} removed")
             + $" and {stopped} {(stopped == 1 ? "other that it moved is" : "others that it moved are")} stopped.";
     }
+
+    /// <summary>What something cost, by count and clock, to end a sentence with.</summary>
+    /// <param name="work">In units of about a microsecond.</param>
+    /// <param name="took">How long that took by the clock, in seconds.</param>
+    /// <param name="within">Within how many seconds it was done.</param>
+    internal static string CostOf(double work, double took, double within) => FormattableString.Invariant(
+        $"took {work / 1000:0} ms of work as it is counted, {took * 1000:0} ms by the clock, within {within:0.0##} s, more than one player may cost.");
 
     /// <summary>The player's number; 0 for departed players whose number has another holder by now.</summary>
     public byte Player { get; }
@@ -35,6 +43,11 @@ public sealed class PlayerExpulsion
     /// The work charged to the player since it last stayed within its budget for a while, in units of about a microsecond.
     /// </summary>
     public double Work { get; }
+
+    /// <summary>
+    /// How long that work took by the host's clock, in seconds; it includes time in which other programs had the core, and decides nothing.
+    /// </summary>
+    public double Seconds { get; }
 
     /// <summary>The number of its spawned bodies that are removed.</summary>
     public int BodiesRemoved { get; }

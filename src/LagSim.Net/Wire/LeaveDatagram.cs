@@ -15,7 +15,7 @@ internal readonly struct LeaveDatagram
         SessionId = sessionId;
         Peer = peer;
         Reason = reason;
-        this.sentence = reason == LeaveReason.HostFailed ? Fitting(sentence) : "";
+        this.sentence = HasSentence(reason) ? Fitting(sentence) : "";
     }
 
     /// <summary>The session.</summary>
@@ -27,7 +27,10 @@ internal readonly struct LeaveDatagram
     /// <summary>The reason.</summary>
     public LeaveReason Reason { get; }
 
-    /// <summary>What failed, for people; empty with any reason but <see cref="LeaveReason.HostFailed"/>.</summary>
+    /// <summary>
+    /// What failed, or why the peer was sent away, for people; empty for none, and with any reason but <see cref="LeaveReason.HostFailed"/> and
+    /// <see cref="LeaveReason.Kicked"/>.
+    /// </summary>
     public string Sentence => sentence ?? "";
 
     private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.HostFailed;
@@ -48,7 +51,7 @@ internal readonly struct LeaveDatagram
         writer.WriteUInt64(SessionId);
         writer.WriteByte(Peer);
         writer.WriteByte((byte)Reason);
-        if (Reason == LeaveReason.HostFailed)
+        if (HasSentence(Reason))
         {
             byte[] utf8 = Encoding.UTF8.GetBytes(Sentence);
             writer.WriteUInt16((ushort)utf8.Length);
@@ -67,7 +70,7 @@ internal readonly struct LeaveDatagram
         WireReader reader = WireReader.Open(datagram, DatagramType.Leave);
         leave = new LeaveDatagram(reader.ReadUInt64(), reader.ReadByte(), (LeaveReason)reader.ReadByte());
         reader.Require(leave.IsWellFormed);
-        if (leave.Reason == LeaveReason.HostFailed)
+        if (HasSentence(leave.Reason))
         {
             int length = reader.ReadUInt16();
             reader.Require(length <= WireFormat.MaxSentenceBytes);
@@ -78,6 +81,8 @@ internal readonly struct LeaveDatagram
 
         return reader.Finish(out refusal);
     }
+
+    private static bool HasSentence(LeaveReason reason) => reason is LeaveReason.HostFailed or LeaveReason.Kicked;
 
     /// <summary>The sentence as it may travel: without control characters, which could change what a terminal shows, and not too
     /// long.</summary>

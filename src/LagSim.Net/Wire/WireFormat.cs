@@ -12,7 +12,7 @@ internal static class WireFormat
     public const ushort Magic = 0x4C53;
 
     /// <summary>The version of the layouts. Any change to a layout, a range or an enum's numbers needs another version.</summary>
-    public const byte Version = 13;
+    public const byte Version = 14;
 
     /// <summary>Magic, version and type.</summary>
     public const int HeaderBytes = 4;

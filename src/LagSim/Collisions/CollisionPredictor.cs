@@ -16,7 +16,7 @@ namespace LagSim.Collisions;
 /// </remarks>
 internal sealed class CollisionPredictor(
     Scene scene, SimTime start, BodyTable bodies, TimelineStore timelines, MemberContacts members, StrikeCounts strikes,
-    ContactScale scale, bool hasIslands)
+    ContactScale scale, EventWork work, bool hasIslands)
 {
     /// <summary>
     /// The first round of an instant in which there can be a collapse: a contact is struck, then something else strikes one of the two, a
@@ -130,6 +130,7 @@ internal sealed class CollisionPredictor(
     {
         contact = default;
         round = 0;
+        work.CountTest();
         int mine = timelines.Last(slot);
         if (slot == other || !timelines.Segment(piece).IsPresent || !timelines.Segment(mine).IsPresent)
         {

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -12,7 +13,7 @@ namespace LagSim.Collisions;
 /// </summary>
 internal class CollisionSearch(
     BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-    SegmentLookup view, StepMarks stepMarks)
+    SegmentLookup view, StepMarks stepMarks, EventWork work)
 {
     private readonly CollisionFilters filters = new(timelines.Extras, surfaces);
 
@@ -22,6 +23,7 @@ internal class CollisionSearch(
     /// </summary>
     internal virtual void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next)
     {
+        work.CountCandidates(candidates.Length);
         bool isOnly = candidates.Length == 1 && candidates[0] == slot;
         Span<Approach> approaches = isOnly ? default : flights.Approaches(slot, candidates, from, next.Horizon(from, until));
         int count = approaches.Length;
@@ -57,6 +59,7 @@ internal class CollisionSearch(
     /// <summary>The next contact of a body on any path, and with any body that may be ahead of the heal.</summary>
     internal void FindAlong(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next)
     {
+        work.CountCandidates(candidates.Length);
         for (int surface = 0; surface < surfaces.Count; surface++)
         {
             ConsiderSurface(slot, surface, ref next);

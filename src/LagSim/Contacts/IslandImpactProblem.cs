@@ -7,7 +7,7 @@ namespace LagSim.Contacts;
 /// An impact as a contact problem that grows: first the bodies struck, then those that the impulse reaches over persistent contacts. Each
 /// time it has grown, it continues from the impulses so far.
 /// </summary>
-internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
+internal sealed class IslandImpactProblem(ContactStep step, EventWork work)
 {
     private NormalRefinement? normals; // made when an impact needs it
     private PlasticImpact? plastic; // so too
@@ -78,7 +78,7 @@ internal sealed class IslandImpactProblem(ContactStep step, SolverWork work)
             taken += normals.Solve(Problem, tolerance);
         }
 
-        work.Count(taken, Problem.ContactCount);
+        work.CountSweeps(taken, Problem.ContactCount);
     }
 
     /// <summary>Limits what hands may give, by the velocities before: the more bodies there are, the more that is.</summary>

@@ -7,18 +7,12 @@ using LagSim.Timelines;
 namespace LagSim.Handlers;
 
 /// <summary>Reports to an observer how much work each event is.</summary>
-internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork work, RollbackState rollback)
+internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, EventWork work, RollbackState rollback)
 {
-    /// <summary>
-    /// The cost of a body in an event that a contact solver solves, besides the sweeps. Measured together with the next constant, by
-    /// <c>LagSim.Bench -- heapheals</c>.
-    /// </summary>
-    private const double WorkPerBody = 2;
+    /// <summary>The cost of an event, and of each body that takes part, besides what the tests of paths and solvers cost.</summary>
+    private const double WorkPerEvent = 1.5;
 
-    /// <summary>
-    /// How many times what no contact solver solves counts where it is simulated again: it was measured at 2 to 40 times.
-    /// </summary>
-    private const double WorkAgain = 4;
+    private const double WorkPerBody = 1;
 
     /// <summary>
     /// The cost of a call of rules that do nothing in it: it was measured at 5, for a ball that bounces 29,000 times a second with and without
@@ -43,8 +37,8 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
         bool isOfMany = graph.BodyCount > 0 && key.Kind is EventKind.Impact or EventKind.StepEnd;
         Span<int> alone = stackalloc int[1] { slot };
         Span<int> who = isOfMany ? graph.Slots : alone;
-        bool isAgain = IsAgain(key);
-        return Observer?.OnWork(key, who, WorkOf(who.Length, isAgain), isAgain, bodies) ?? WorkVerdict.GoOn;
+        double amount = WorkPerEvent + (WorkPerBody * who.Length) + work.Done;
+        return Observer?.OnWork(key, who, amount, IsAgain(key), bodies) ?? WorkVerdict.GoOn;
     }
 
     /// <summary>Rules were called for an event, or that call stands: reports it to the observer.</summary>
@@ -80,13 +74,4 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, SolverWork
     }
 
     private bool IsAgain(in EventKey key) => rollback.IsActive && key.Time <= rollback.Horizon;
-
-    /// <summary>
-    /// The cost of an event by its number of bodies, in units of about a microsecond on a core of the 2020s. Events of contact solvers
-    /// count by their sweeps, and no more where they are re-simulated. Otherwise a lone bounce is 3, and an impact in a crowd is the square
-    /// of the bodies that take part, because all are tested against all. It is several times that where they are tested against existing
-    /// paths. docs/BUDGETS.md says how accurate that is.
-    /// </summary>
-    private double WorkOf(int bodies, bool isAgain) =>
-        work.Done > 0 ? 2 + (WorkPerBody * bodies) + work.Done : (isAgain ? WorkAgain : 1) * (2 + ((double)bodies * bodies));
 }

@@ -350,11 +350,13 @@ public sealed class LiveWorld
     {
         private readonly LiveWorld world;
         private readonly SimTime simulatedBefore;
+        private readonly long cutBefore;
 
         internal Change(LiveWorld world)
         {
             this.world = world;
             simulatedBefore = world.Simulation.SimulatedTo;
+            cutBefore = world.Simulation.Engine.Rollback.SegmentsCut;
             world.changed = true;
             world.Work?.Resume();
         }
@@ -369,7 +371,7 @@ public sealed class LiveWorld
                 world.Simulation.TryAdvanceTo(world.Simulation.SimulatedTo + SimDuration.OneTick, ref all);
             }
 
-            world.Work?.ChargeLateEvent(world.Simulation.SimulatedTo);
+            world.Work?.ChargeLateEvent(world.Simulation.SimulatedTo, world.Simulation.Engine.Rollback.SegmentsCut - cutBefore);
             if (world.Simulation.SimulatedTo < simulatedBefore)
             {
                 world.isBehind |= !world.Simulation.TryAdvanceTo(simulatedBefore, ref world.events);

@@ -14,10 +14,10 @@ namespace LagSim.Hosting;
 /// body on an account is on it for 2 s, and no longer than 2 s after the action behind it: what the scene would do by itself is not charged
 /// to players. An event is charged to the accounts of the bodies that take part, to each in equal shares, however many of its bodies take
 /// part. Half of the re-simulation for a late event is charged to the player of that event.</para>
-/// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted by events, by how many bodies take part in
-/// each and what contact solvers did for it. If the ledger has a clock, and by it something took longer than was counted, that time is the
-/// cost: no count foresees everything that can be expensive. A clock that stands still, as in virtual time, leaves the count, which is the
-/// same in every run. The world does not know the cost: it enters no state and no hash.</para>
+/// <para>The unit is about a microsecond on one core of a machine of the 2020s. It is counted: events, the bodies that take part in each,
+/// the paths that were tested for contact and what contact solvers did for it. The count is the same in every run, however busy the machine
+/// is; a clock charges nobody, since it goes on while another program has the core. If the ledger has one it only tells how long the work
+/// took. The world does not know the cost: it enters no state and no hash.</para>
 /// <para>For the simulation's thread. Cost: some ten nanoseconds an event, and a reading of the clock; for each body that was there at a
 /// time some 24 bytes.</para>
 /// </remarks>
@@ -31,8 +31,8 @@ public sealed class WorkLedger : IWorkObserver
 
     private const double DefaultMaxWorkPerStep = 20_000;
 
-    /// <summary>One event never takes longer: this thread was not at work meanwhile.</summary>
-    private static readonly SimDuration MaxTimePerEvent = SimDuration.FromMilliseconds(20);
+    /// <summary>The cost of cutting a segment for a late event, besides what is simulated again. Measured by <c>LagSim.Bench -- counted</c>.</summary>
+    private const double WorkPerCut = 1;
 
     private static readonly SimDuration TouchedFor = SimDuration.FromSeconds(30);
     private static readonly SimDuration StruckFor = SimDuration.FromSeconds(2);
@@ -44,10 +44,10 @@ public sealed class WorkLedger : IWorkObserver
     private Entry[] entries = new Entry[16]; // by place
     private readonly List<byte> healedFor = new(); // whose is being made good
     private double thisStep;
-    private SimTime measured; // up to then all is accounted for
+    private SimTime measured; // up to then all time is accounted for
 
     /// <summary>An empty ledger, for one world.</summary>
-    /// <param name="clock">The clock that measures how long work takes; null to only count it.</param>
+    /// <param name="clock">The clock that tells how long work takes (<see cref="SecondsFor"/>); null for none. No charge depends on it.</param>
     public WorkLedger(IClock? clock = null)
     {
         this.clock = clock;
@@ -69,7 +69,13 @@ public sealed class WorkLedger : IWorkObserver
     /// <summary>The amount charged to a player's account so far, in units of about a microsecond.</summary>
     public double ChargedTo(byte player) => accounts[player].Charged;
 
-    /// <summary>The part of that for events simulated the first time, not re-simulated: the player's own doing.</summary>
+    /// <summary>
+    /// How long the work for which a player was charged took by the clock, in seconds, in the same shares; 0 without a clock. It includes
+    /// the time in which other programs had the core.
+    /// </summary>
+    public double SecondsFor(byte player) => accounts[player].Seconds;
+
+    /// <summary>The part of <see cref="ChargedTo"/> for events simulated the first time, not re-simulated: the player's own doing.</summary>
     public double FirstChargedTo(byte player) => accounts[player].First;
 
     /// <summary>
@@ -150,49 +156,43 @@ public sealed class WorkLedger : IWorkObserver
     internal void Resume() => measured = clock?.Now ?? default;
 
     /// <summary>
-    /// A late event was applied: what that took, besides the events of its instant, is charged to the player whose it was.
+    /// A late event was applied: what was cut for it, besides the events of its instant, is charged to the player whose it was.
     /// </summary>
-    internal void ChargeLateEvent(SimTime at)
-    {
-        double took = Measure();
-        Total += took;
-        thisStep += took;
-        if (took > 0)
-        {
-            ChargeLateEvent(took, at);
-        }
-    }
+    /// <param name="at">How far the world is simulated now.</param>
+    /// <param name="segmentsCut">How many segments were cut.</param>
+    internal void ChargeLateEvent(SimTime at, long segmentsCut) => ChargeLateEvent(Measured(WorkPerCut * segmentsCut), at);
 
-    private bool ChargeLateEvent(double amount, SimTime at)
+    private bool ChargeLateEvent(in Cost cost, SimTime at)
     {
         bool goesOn = true;
         foreach (byte player in healedFor)
         {
-            goesOn &= Charge(player, amount / healedFor.Count, at, isAgain: true);
+            goesOn &= Charge(player, cost / healedFor.Count, at, isAgain: true);
         }
 
         return goesOn;
     }
 
-    private double Measure()
+    /// <summary>What was counted now, and how long it took since the last.</summary>
+    private Cost Measured(double work)
     {
+        Total += work;
+        thisStep += work;
         if (clock is null)
         {
-            return 0;
+            return new Cost(work, 0);
         }
 
         SimTime now = clock.Now;
         SimDuration took = now - measured;
         measured = now;
-        return Math.Max(0, (took > MaxTimePerEvent ? MaxTimePerEvent : took).ToSeconds() * 1e6);
+        return new Cost(work, Math.Max(0, took.ToSeconds()));
     }
 
     /// <inheritdoc/>
     WorkVerdict IWorkObserver.OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {
-        amount = Math.Max(amount, Measure());
-        Total += amount;
-        thisStep += amount;
+        Cost cost = Measured(amount);
         for (int n = 0; n < bodies.Length && EventKinds.IsOfPlayers(key.Kind); n++)
         {
             ref Entry entry = ref EntryOf(bodies[n], key.Time, table);
@@ -201,7 +201,7 @@ public sealed class WorkLedger : IWorkObserver
         }
 
         byte owner = OwnerOf(bodies, key.Time, table, Nobody, out bool isShared);
-        bool goesOn = Charge(bodies, owner, isShared, amount, key.Time, isAgain, out double mine);
+        bool goesOn = Charge(bodies, owner, isShared, cost, key.Time, isAgain, out double mine);
         if (owner != Nobody)
         {
             Note(bodies, owner, key.Time, mine / bodies.Length);
@@ -217,11 +217,9 @@ public sealed class WorkLedger : IWorkObserver
     /// </remarks>
     WorkVerdict IWorkObserver.OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {
-        double took = Math.Max(amount, Measure());
-        Total += took;
-        thisStep += took;
+        Cost cost = Measured(amount);
         byte owner = OwnerOf(bodies, key.Time, table, key.Kind == EventKind.Command ? key.Peer : Nobody, out bool isShared);
-        bool goesOn = Charge(bodies, owner, isShared, amount, key.Time, isAgain, out _);
+        bool goesOn = Charge(bodies, owner, isShared, cost, key.Time, isAgain, out _);
         return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
     }
 
@@ -246,19 +244,20 @@ public sealed class WorkLedger : IWorkObserver
     }
 
     /// <summary>Charges what some bodies took part in, to their owners and to those whose late events are healed; whether all may go on.</summary>
-    private bool Charge(Span<int> bodies, byte owner, bool isShared, double amount, SimTime at, bool isAgain, out double mine)
+    private bool Charge(Span<int> bodies, byte owner, bool isShared, in Cost cost, SimTime at, bool isAgain, out double mine)
     {
         bool goesOn = true;
-        mine = amount;
+        Cost own = cost;
         if (isAgain && healedFor.Count > 0)
         {
-            mine = owner == Nobody ? 0 : amount / 2;
-            goesOn &= ChargeLateEvent(amount - mine, at);
+            own = owner == Nobody ? default : cost / 2;
+            goesOn &= ChargeLateEvent(owner == Nobody ? cost : own, at);
         }
 
+        mine = own.Work;
         if (!isShared)
         {
-            return Charge(owner, mine, at, isAgain) && goesOn;
+            return Charge(owner, own, at, isAgain) && goesOn;
         }
 
         sharing.Clear();
@@ -273,7 +272,7 @@ public sealed class WorkLedger : IWorkObserver
 
         foreach (byte one in sharing)
         {
-            goesOn &= Charge(one, mine / sharing.Count, at, isAgain);
+            goesOn &= Charge(one, own / sharing.Count, at, isAgain);
         }
 
         return goesOn;
@@ -301,11 +300,12 @@ public sealed class WorkLedger : IWorkObserver
         }
     }
 
-    private bool Charge(byte player, double amount, SimTime at, bool isAgain)
+    private bool Charge(byte player, in Cost cost, SimTime at, bool isAgain)
     {
         ref Account account = ref accounts[player];
-        account.Charged += amount;
-        account.First += isAgain ? 0 : amount;
+        account.Charged += cost.Work;
+        account.First += isAgain ? 0 : cost.Work;
+        account.Seconds += cost.Seconds;
         account.Since = at < account.Since ? at : account.Since;
         return account.Charged < account.Most;
     }
@@ -330,9 +330,25 @@ public sealed class WorkLedger : IWorkObserver
         return ref entry;
     }
 
+    /// <summary>Work as it is counted, and how long it took.</summary>
+    private readonly struct Cost
+    {
+        internal readonly double Work;
+        internal readonly double Seconds;
+
+        internal Cost(double work, double seconds)
+        {
+            Work = work;
+            Seconds = seconds;
+        }
+
+        public static Cost operator /(in Cost cost, int shares) => new(cost.Work / shares, cost.Seconds / shares);
+    }
+
     private struct Account
     {
         internal double Charged;
+        internal double Seconds;
         internal double First;
         internal double Most;
         internal SimTime Since;

@@ -19,7 +19,7 @@ namespace LagSim.Islands;
 internal sealed class IslandStepper(
     BodyTable bodies, TimelineStore timelines, ContactGraph graph, ContactStep step, StepForces stepForces, Partners partners,
     RewindRequests rewinds, MemberFactory members, StepSegments segments, IslandSleep sleep, IslandStatics statics, StepMarks marks,
-    SolverWork work)
+    EventWork work)
 {
     private bool[] isLost = Array.Empty<bool>(); // by body of the graph: no step follows the forces on it
 
@@ -218,7 +218,7 @@ internal sealed class IslandStepper(
         step.Solve(length.ToSeconds(), tolerance);
         stepForces.Iterate(tolerance, isLost);
         step.LimitEnergy(length.ToSeconds(), tolerance);
-        work.Count(step.Sweeps, step.Problem.ContactCount);
+        work.CountSweeps(step.Sweeps, step.Problem.ContactCount);
     }
 
     /// <summary>Has the contacts begin with the impulses that they had in the last step.</summary>

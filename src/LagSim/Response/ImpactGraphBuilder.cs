@@ -15,7 +15,7 @@ namespace LagSim.Response;
 /// </summary>
 internal class ImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
-    FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph, Partners partners)
+    FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph, Partners partners, EventWork work)
 {
     private readonly StaticSurfaces surfaces = scene.Surfaces;
     private readonly Paths paths = new(timelines);
@@ -96,7 +96,9 @@ internal class ImpactGraphBuilder(
     {
         int slot = graph.Slots[body];
         bool isHealing = rollback.MayBeKnownBeyond(rollback.Cursor);
-        foreach (int other in broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, isHealing))
+        Span<int> candidates = broadPhase.Current.CandidatesAt(slot, bodies.Spec(slot).Radius, key.Time, isHealing);
+        work.CountCandidates(candidates.Length);
+        foreach (int other in candidates)
         {
             int known = graph.IndexOf(other);
             bool wasTested = known >= 0 && known <= body; // from the other one

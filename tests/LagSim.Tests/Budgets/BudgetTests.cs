@@ -82,7 +82,7 @@ public sealed class BudgetTests
     [Fact]
     public void Step_AHeapOfAllHisBodiesThatAStrongHandShakes_IsSentAway()
     {
-        (double late, SessionGroup group) = Play(hasBudget: true, Shake);
+        (double late, SessionGroup group) = Play(hasBudget: true, Shake, seconds: 5);
         Check(hasBudget: true, late, group);
     }
 
@@ -148,7 +148,7 @@ public sealed class BudgetTests
     [InlineData(true)]
     public void Do_WithLessThanHalfOfTheBudgetLeft_IsRefusedAndThePlayerStays(bool hasBudget)
     {
-        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, _ => new HostOptions { PlayerBudget = hasBudget ? new PlayerBudget(1, 5000) : null });
+        SessionGroup group = new(Room(), 2, LinkProfiles.PureDelay(20), 1, _ => new HostOptions { PlayerBudget = hasBudget ? new PlayerBudget(1, 2000) : null });
         group.Connect();
         group.Run(1);
         for (int n = 0; n < 400 && group.Sessions[1].Counters.EventsRefused == 0; n++)
@@ -167,19 +167,35 @@ public sealed class BudgetTests
     public void Step_WhoWasSentAway_IsLetInAgainAfterAMinuteOrWhenTheHostSaysSo(bool hostSaysSo)
     {
         SessionGroup group = Three();
-        for (int n = 0; n < 40 && group.Sessions[1].State == SessionState.Running; n++)
-        {
-            Gap(group, n);
-            group.Run(0.01);
-        }
-
-        Assert.Equal(SessionEnd.Kicked, group.Sessions[1].EndedBy);
-        group.Steps.WorkPerSecond = 0;
-        Assert.Equal(SessionEnd.Refused, Again(group, 70).EndedBy);
+        PlayerPass pass = group.Client(1).Pass!.Value;
+        Attack(group);
+        Assert.Equal(SessionEnd.Refused, Again(group, 70, pass).EndedBy);
         group.Run(hostSaysSo ? 0 : 60);
         Assert.Equal(hostSaysSo, hostSaysSo && group.Host.Unban(PeerAddress.Virtual(1)));
         Assert.False(group.Host.Unban(PeerAddress.Virtual(1))); // it is shut out no longer
-        Assert.Equal(SessionState.Running, Again(group, 71).State);
+        Assert.Equal(SessionState.Running, Again(group, 71, pass).State);
+    }
+
+    /// <summary>Others at its address get in; it may come among them without its pass, and its second attack shuts them all out.</summary>
+    [Fact]
+    public void Step_OneWasSentAway_OthersOfItsMachineAreLetInUntilAnotherIs()
+    {
+        SessionGroup group = Three();
+        Attack(group);
+        Assert.Equal(SessionState.Running, Again(group, 70).State);
+        Attack(group);
+        Assert.Equal(SessionEnd.Refused, Again(group, 71).EndedBy);
+    }
+
+    /// <summary>Who is sent away for its cost hears what it was, by the count and by the clock.</summary>
+    [Fact]
+    public void Step_WhoIsSentAway_HearsWhy()
+    {
+        SessionGroup group = Three();
+        Attack(group);
+        Assert.Matches(
+            @"^The host sent this player away\. What it did took 1\d\d ms of work as it is counted, 0 ms by the clock, within 0\.\d+ s, more than one player may cost\.$",
+            group.Sessions[1].EndReason);
     }
 
     /// <summary>A spawn that is stamped later than now, as by one whose clock is ahead, is removed as it happens.</summary>
@@ -236,9 +252,21 @@ public sealed class BudgetTests
         Assert.True(watched.Work!.ChargedTo(1) > 1000 && watched.Work.ChargedTo(2) == 0);
     }
 
-    private static ClientSession Again(SessionGroup group, ulong nonce)
+    private static void Attack(SessionGroup group)
     {
-        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new ClientOptions(), PeerAddress.Virtual(0), nonce);
+        for (int n = 0; n < 40 && group.Sessions[1].State == SessionState.Running; n++)
+        {
+            Gap(group, n);
+            group.Run(0.01);
+        }
+
+        Assert.Equal(SessionEnd.Kicked, group.Sessions[1].EndedBy);
+        group.Steps.WorkPerSecond = 0;
+    }
+
+    private static ClientSession Again(SessionGroup group, ulong nonce, PlayerPass pass = default)
+    {
+        ClientSession session = new(null, group.Ports[1], new SkewedClock(group.Clock, 0, default), new ClientOptions { Pass = pass }, PeerAddress.Virtual(0), nonce);
         group.Steps.Replace(1, session, group.Ports[1]);
         group.Run(3);
         return session;
@@ -280,14 +308,14 @@ public sealed class BudgetTests
         }
     }
 
-    /// <summary>Client 1 does harm for one and a half seconds.</summary>
+    /// <summary>Client 1 does harm for some seconds.</summary>
     /// <returns>How late the world of any other was at most, in s, and the group.</returns>
-    private static (double Late, SessionGroup Group) Play(bool hasBudget, Action<SessionGroup, int> act, double workPerSecond = MicrosecondsASecond)
+    private static (double Late, SessionGroup Group) Play(bool hasBudget, Action<SessionGroup, int> act, double workPerSecond = MicrosecondsASecond, double seconds = 1.5)
     {
         SessionGroup group = Three(null, hasBudget);
         group.Steps.WorkPerSecond = workPerSecond;
         double late = 0;
-        for (int n = 0; n < 150 && late < 0.7; n++) // later, it is frozen
+        for (int n = 0; n < seconds * 100 && late < 0.7; n++) // later, it is frozen
         {
             if (group.Sessions[1].State == SessionState.Running)
             {

@@ -89,12 +89,12 @@ internal sealed class FaultyEngineParts : EngineParts
 
     internal override CollisionSearch CollisionSearch(
         BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor,
-        SegmentLookup view, StepMarks stepMarks) =>
+        SegmentLookup view, StepMarks stepMarks, EventWork work) =>
         TakesNoShortcut
-            ? new LongSearch(bodies, timelines, flights, surfaces, predictor, view)
+            ? new LongSearch(bodies, timelines, flights, surfaces, predictor, view, work)
             : OverlooksPastPaths
-            ? new HastySearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks)
-            : base.CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks);
+            ? new HastySearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks, work)
+            : base.CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks, work);
 
     internal override EventPredictor EventPredictor(
         BodyTable bodies, TimelineStore timelines, EventLog log, EventScheduler scheduler, RollbackState rollback, FreeFlights flights,
@@ -142,7 +142,7 @@ internal sealed class FaultyEngineParts : EngineParts
     internal override ImpactGraphBuilder ImpactGraphBuilder(
         Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
         FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
-        Partners partners) =>
+        Partners partners, EventWork work) =>
         new FaultyImpactGraphBuilder(
-            scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners, this);
+            scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners, work, this);
 }

@@ -14,8 +14,8 @@ namespace LagSim.Tests.Faults;
 internal sealed class FaultyImpactGraphBuilder(
     Scene scene, BodyTable bodies, TimelineStore timelines, RollbackState rollback, RewindRequests rewinds, SegmentLookup view,
     FreeFlights flights, AdaptiveBroadPhase broadPhase, CollisionPredictor predictor, CollapseRule collapse, ContactGraph graph,
-    Partners partners, FaultyEngineParts faults)
-    : ImpactGraphBuilder(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners)
+    Partners partners, EventWork work, FaultyEngineParts faults)
+    : ImpactGraphBuilder(scene, bodies, timelines, rollback, rewinds, view, flights, broadPhase, predictor, collapse, graph, partners, work)
 {
     private readonly ContactGraph graph = graph;
 

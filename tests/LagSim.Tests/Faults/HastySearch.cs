@@ -1,4 +1,5 @@
 using LagSim.Collisions;
+using LagSim.Contacts;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -8,8 +9,8 @@ namespace LagSim.Tests.Faults;
 /// <summary>A search that takes bodies for apart wherever it has to look at more than the newest segment of the other one.</summary>
 internal sealed class HastySearch(
     BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor, SegmentLookup view,
-    StepMarks stepMarks)
-    : CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks)
+    StepMarks stepMarks, EventWork work)
+    : CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, stepMarks, work)
 {
     private readonly TimelineStore timelines = timelines;
 

@@ -1,5 +1,6 @@
 using System;
 using LagSim.Collisions;
+using LagSim.Contacts;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;
@@ -11,8 +12,9 @@ namespace LagSim.Tests.Faults;
 /// contact step, and of those that surely stay apart.
 /// </summary>
 internal sealed class LongSearch(
-    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor, SegmentLookup view)
-    : CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, new StepMarks())
+    BodyTable bodies, TimelineStore timelines, FreeFlights flights, StaticSurfaces surfaces, CollisionPredictor predictor, SegmentLookup view,
+    EventWork work)
+    : CollisionSearch(bodies, timelines, flights, surfaces, predictor, view, new StepMarks(), work)
 {
     internal override void FindInFlight(int slot, Span<int> candidates, SimTime from, SimTime until, ref NextEvent next) =>
         FindAlong(slot, candidates, from, until, ref next);

@@ -24,7 +24,7 @@ internal sealed class PathAttacker
     internal const byte SecureWelcome = 16;
     internal const byte Sealed = 19;
 
-    private const byte Version = 13;
+    private const byte Version = 14;
 
     private readonly Dictionary<int, PathPort> ports = [];
 

@@ -1,5 +1,6 @@
 using LagSim.BroadPhase;
 using LagSim.Collisions;
+using LagSim.Contacts;
 using LagSim.Events;
 using LagSim.Rollback;
 using LagSim.Scenes;
@@ -33,7 +34,7 @@ internal sealed class RewoundWorld
         Log.TryAdd(1, Later, Later.Key, forwarded: false);
         SegmentLookup view = new(Timelines, Rollback);
         CollisionPredictor collisions = Predictor(scene, Bodies, Timelines);
-        CollisionSearch search = new(Bodies, Timelines, flights, scene.Surfaces, collisions, view, new StepMarks());
+        CollisionSearch search = new(Bodies, Timelines, flights, scene.Surfaces, collisions, view, new StepMarks(), new EventWork());
         AdaptiveBroadPhase broadPhase = new(scene, Bodies, Timelines, bruteForceLimit: 2);
         broadPhase.Begin();
         EventPredictor predictor = new(Bodies, Timelines, Log, Scheduler, Rollback, flights, broadPhase, search, view);

@@ -58,7 +58,7 @@ public sealed class SentAwayTests
         Assert.Equal(isBanned ? (SessionState.Ended, SessionEnd.Refused) : (SessionState.Running, SessionEnd.None), (again.State, again.EndedBy));
         if (isBanned)
         {
-            Assert.Equal("The host refused: it lets nobody in from this address.", again.EndReason);
+            Assert.Equal("The host refused: it has shut out this player, or this address.", again.EndReason);
             Assert.True(group.Host.Unban(machine!.Value));
             Assert.False(group.Host.Unban(machine.Value));
             Assert.Equal(SessionState.Running, Again(group, 78).State);

@@ -158,9 +158,9 @@ internal sealed class HostLoss(
     }
 
     /// <summary>Handles a host that does not have this peer any more.</summary>
-    private void Lose(LeaveReason reason, string failure)
+    private void Lose(LeaveReason reason, string said)
     {
-        string why = Sentence(reason, failure);
+        string why = Sentence(reason, said);
         SimTime now = clock.Now;
         bool isOver = reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind);
         if (isOver)
@@ -244,7 +244,7 @@ internal sealed class HostLoss(
         return FormattableString.Invariant($"No answer from the {connection.Name} within {named.ToSeconds():0.###} s.") + unproven.Sentence;
     }
 
-    private string Sentence(LeaveReason reason, string failure) => reason switch
+    private string Sentence(LeaveReason reason, string said) => reason switch
     {
         LeaveReason.TimedOut => $"The {connection.Name} heard nothing from this peer for too long.",
         LeaveReason.Replaced => $"This player came in from elsewhere; the {connection.Name} let this peer go.",
@@ -252,8 +252,8 @@ internal sealed class HostLoss(
         LeaveReason.FellBehind => FormattableString.Invariant(
             $"The link to the {connection.Name} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
             + " has not come over it yet.",
-        LeaveReason.HostFailed => $"The {connection.Name} failed, and the session is over.{(failure.Length == 0 ? "" : $" {failure}")}",
-        LeaveReason.Kicked => $"The {connection.Name} sent this player away.",
+        LeaveReason.HostFailed => $"The {connection.Name} failed, and the session is over.{(said.Length == 0 ? "" : $" {said}")}",
+        LeaveReason.Kicked => $"The {connection.Name} sent this player away.{(said.Length == 0 ? "" : $" {said}")}",
         _ => $"The {connection.Name} ended the session.",
     };
 }

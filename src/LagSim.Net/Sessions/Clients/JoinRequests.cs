@@ -174,7 +174,7 @@ internal sealed class JoinRequests(
         RefusalReason.TooLarge => "its world is too large to be copied.",
         RefusalReason.FoldDiffers => $"it computes worlds by other rules than this peer, whose fold version is {Simulation.FoldVersion}."
             + " Both need the same version of LagSim.",
-        RefusalReason.Banned => "it lets nobody in from this address.",
+        RefusalReason.Banned => "it has shut out this player, or this address.",
         RefusalReason.TooManyFromOneAddress =>
             "as many as may join from one address have joined from this one (the host's MaxClientsPerAddress).",
         RefusalReason.ProtectedOnly =>

@@ -50,7 +50,7 @@ internal sealed class DatagramSender(IDatagramPort port, SessionCounters counter
     /// <param name="link">The link.</param>
     /// <param name="self">This peer's number.</param>
     /// <param name="reason">The reason.</param>
-    /// <param name="sentence">What failed, where that is the reason.</param>
+    /// <param name="sentence">What failed, or why it is sent away, where that is the reason.</param>
     internal void SayGoodbye(UpdateLink link, byte self, LeaveReason reason, string sentence = "")
     {
         Span<byte> bytes = stackalloc byte[WireFormat.MaxLeaveBytes];

@@ -50,21 +50,24 @@ internal sealed class BudgetEnforcer(
     private void Expel(byte player, SimTime now)
     {
         Simulation simulation = world.Live!.Simulation;
+        SimTime stands = simulation.SimulatedTo;
         SimTime from = SimTime.Max(
-            SimTime.Max(watermark.Now, simulation.HistoryEdge), SimTime.Min(budget.ChargedSince(player), simulation.SimulatedTo));
-        (double work, double seconds) = budget.SpentBy(player);
+            SimTime.Max(watermark.Now, simulation.HistoryEdge), budget.IsWorldLate ? SimTime.Min(budget.ChargedSince(player), stands) : stands);
+        (double work, double took, double within) = budget.SpentBy(player);
+        string cost = PlayerExpulsion.CostOf(work, took, within);
+        bool wasThere = roster.Seated(player) is not null;
         if (roster.Seated(player) is Client client)
         {
-            shutOuts.ShutOutForAWhile(client.Link.Other.Machine, now);
+            shutOuts.ShutOutForAWhile(roster.NamesOf(client), client.Link.Other.Machine, now);
+            roster.Expel(client, $"What it did {cost}");
         }
 
-        bool wasThere = roster.Kick(j => j.Peer == player) > 0;
         IReadOnlyList<BodyId> costly = budget.CostlyBodiesOf(player);
         int removed = removal.RemoveSpawned(player == WorkBudget.Departed ? costly.Where(body => body.Sequence > 0) : null, player, from);
         int stopped = Stop(player, costly, from);
         budget.Restart(now);
         byte number = player == WorkBudget.Departed ? (byte)0 : player;
-        Expelled?.Invoke(new PlayerExpulsion(number, wasThere, work, seconds, removed, stopped, from));
+        Expelled?.Invoke(new PlayerExpulsion(number, wasThere, cost, work, took, removed, stopped, from));
     }
 
     /// <summary>Stops bodies that a player moved and that are not its own; returns how many.</summary>

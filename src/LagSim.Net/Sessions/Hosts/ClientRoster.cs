@@ -117,14 +117,16 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     }
 
     /// <summary>Sends away all matching clients; returns how many.</summary>
-    internal int Kick(Predicate<Client> isIt)
+    /// <param name="isIt">Which.</param>
+    /// <param name="why">What they are told, as a sentence; empty for nothing but that they are sent away.</param>
+    internal int Kick(Predicate<Client> isIt, string why = "")
     {
         List<Client> all = clients.FindAll(isIt);
         foreach (Client client in all)
         {
             for (int n = 0; n < DatagramSender.Goodbyes && clients.Contains(client); n++) // a handler may have sent it away already
             {
-                sender.SayGoodbye(client.Link, 0, LeaveReason.Kicked);
+                sender.SayGoodbye(client.Link, 0, LeaveReason.Kicked, why);
             }
 
             Disconnect(client, LeaveReason.Kicked);
@@ -132,6 +134,21 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
 
         return all.Count;
     }
+
+    /// <summary>Sends a player away that keeps its pass: while it is shut out, the pass tells who it is.</summary>
+    internal void Expel(Client client, string why)
+    {
+        PlayerPlaces.Place place = places[client.Peer];
+        Token128? pass = place.Pass;
+        if (Kick(j => j == client, why) > 0 && !place.IsTaken)
+        {
+            place.Keep(pass);
+        }
+    }
+
+    /// <summary>By what the host knows a client that is in again.</summary>
+    internal PlayerNames NamesOf(Client client) =>
+        new(places[client.Peer].Admission, client.Claim.Identity.Keyed, places[client.Peer]);
 
     /// <summary>Wipes the keys of all links. Nothing can be sent over them any more.</summary>
     internal void WipeKeys() => clients.ForEach(static client => client.Link.Seal?.Dispose());

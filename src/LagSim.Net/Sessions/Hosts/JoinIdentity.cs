@@ -13,4 +13,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="SecondsOff">How far the token is off its time, in seconds.</param>
 internal sealed record JoinIdentity(
     string? Key, byte Keyed, PlayerPlaces.Place? Claimed, PlayerAdmission? Admission = null, RefusalReason? Fault = null,
-    bool IsByToken = false, uint SecondsOff = 0);
+    bool IsByToken = false, uint SecondsOff = 0)
+{
+    /// <summary>By what the host knows it again.</summary>
+    internal PlayerNames Names => new(Admission, Keyed, Claimed);
+}

@@ -4,7 +4,7 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Decides whether a client may join: by machine, key, version, scene, token and place.</summary>
+/// <summary>Decides whether a client may join: by who is shut out, key, version, scene, token and place.</summary>
 internal sealed class JoinRules(ulong sceneHash, BanList shutOuts, Seating seating)
 {
     /// <summary>Returns why a client may not join; null if it may.</summary>
@@ -13,7 +13,7 @@ internal sealed class JoinRules(ulong sceneHash, BanList shutOuts, Seating seati
     /// <param name="from">Its address.</param>
     /// <param name="now">The time by the local clock.</param>
     internal RefusalReason? WhyNot(in JoinDatagram join, JoinIdentity who, PeerAddress from, SimTime now) =>
-        shutOuts.IsShutOut(from.Machine, now) ? RefusalReason.Banned
+        shutOuts.IsShutOut(who.Names, from.Machine, now) ? RefusalReason.Banned
             : who.Key is null ? RefusalReason.WrongKey
             : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
             : join.SceneHash != 0 && join.SceneHash != sceneHash ? RefusalReason.SceneDiffers

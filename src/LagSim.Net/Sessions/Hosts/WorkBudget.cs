@@ -21,9 +21,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     /// <summary>The account of bodies whose players are gone, and whose numbers were reassigned.</summary>
     internal const byte Departed = WorkLedger.Nobody - 1;
 
-    /// <summary>
-    /// The share of the budget below which a player may do no more for the moment; while the world is late, a player below it is expelled.
-    /// </summary>
+    /// <summary>The share of the budget below which a player may do no more for the moment.</summary>
     private const double LittleLeft = 0.5;
 
     /// <summary>The share of the budget at which a player is at rest: earlier work no longer counts towards the current episode.</summary>
@@ -40,11 +38,17 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
     /// <summary>The share of the largest charge from which another counts as equal.</summary>
     private const double Alike = 0.5;
 
-    /// <summary>How far behind real time a world is late.</summary>
-    private static readonly SimDuration Late = SimDuration.FromMilliseconds(150);
+    /// <summary>How far behind real time a world is late: well before a person is told of it, at a quarter of a second.</summary>
+    private static readonly SimDuration Late = SimDuration.FromMilliseconds(100);
 
     private readonly Purse[] purses = new Purse[WorkLedger.Nobody];
     private SimTime counted = SimTime.MaxValue; // local clock
+
+    /// <summary>
+    /// Whether the world is so late that what stands in its way has to be undone: bodies are removed as of before the work with them. A world
+    /// that keeps up is rewritten no further than where it stands.
+    /// </summary>
+    internal bool IsWorldLate => sharedTime.Now - Late > world.Live!.RenderedTo;
 
     /// <summary>Whether there is a budget, and a world that counts work.</summary>
     internal bool IsInForce => budget is not null && Ledger is not null;
@@ -59,7 +63,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
             {
                 if (ledger.ChargedTo(player) > 0)
                 {
-                    costs.Add(new PlayerCost(player, ledger.ChargedTo(player), purses[player].Most));
+                    costs.Add(new PlayerCost(player, ledger.ChargedTo(player), ledger.SecondsFor(player), purses[player].Most));
                 }
             }
 
@@ -110,20 +114,16 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         }
     }
 
-    /// <summary>
-    /// Returns the player most over its budget; <see cref="Departed"/> for departed players, 0 for none. While the world is late, the
-    /// budget is halved.
-    /// </summary>
+    /// <summary>Returns the player most over its budget; <see cref="Departed"/> for departed players, 0 for none.</summary>
     internal byte Overdrawn()
     {
-        double least = sharedTime.Now - Late > world.Live!.RenderedTo ? Whole * LittleLeft : 0;
         byte worst = 0;
         for (byte player = 1; player <= SessionOptions.MaxClients; player++)
         {
-            worst = purses[player].Left <= least && (worst == 0 || purses[player].Left < purses[worst].Left) ? player : worst;
+            worst = purses[player].Left <= 0 && (worst == 0 || purses[player].Left < purses[worst].Left) ? player : worst;
         }
 
-        return worst == 0 && purses[Departed].Left <= least ? Departed : worst;
+        return worst == 0 && purses[Departed].Left <= 0 ? Departed : worst;
     }
 
     /// <summary>Returns the player to expel when one has used up its budget.</summary>
@@ -156,9 +156,10 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         }
     }
 
-    /// <summary>The work charged to a player since it last was at rest, and over how many seconds.</summary>
-    internal (double Work, double Seconds) SpentBy(byte player) =>
-        (purses[player].Charged - purses[player].CalmAt, Math.Max(0.001, (sharedTime.Now - purses[player].Calm).ToSeconds()));
+    /// <summary>The work charged to a player since it last was at rest, the seconds that it took, and within how many that was.</summary>
+    internal (double Work, double Took, double Within) SpentBy(byte player) => (
+        purses[player].Charged - purses[player].CalmAt, Ledger!.SecondsFor(player) - purses[player].CalmSeconds,
+        Math.Max(0.001, (sharedTime.Now - purses[player].Calm).ToSeconds()));
 
     /// <summary>Since when a player has been charged without a rest, in simulated time.</summary>
     internal SimTime ChargedSince(byte player) => Ledger!.ChargedSince(player);
@@ -186,6 +187,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         purse.Calm = sharedTime.Now;
         purse.CalmAt = purse.Charged;
         purse.CalmFirst = ledger.FirstChargedTo(player);
+        purse.CalmSeconds = ledger.SecondsFor(player);
     }
 
     private struct Purse
@@ -195,6 +197,7 @@ internal sealed class WorkBudget(SharedWorld world, SharedClock sharedTime, Play
         internal double Most; // the most ever spent at once
         internal double CalmAt; // charged when it last was nearly full
         internal double CalmFirst; // the first-time part of that
+        internal double CalmSeconds; // how long that took
         internal SimTime Calm; // shared time of that
     }
 }
