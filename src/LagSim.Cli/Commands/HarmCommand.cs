@@ -30,11 +30,17 @@ internal static class HarmCommand
         Option<double> machine = CommonOptions.Number(
             "--machine", "How fast the machines are, as a multiple of one core that does 1,000,000 units of work a second", 1, 0.01, 1000);
         Option<bool> honest = new("--honest") { Description = "Also play every built-in scene with players who mean no harm, and list how far they stay from their budgets." };
+        Option<int> starved = CommonOptions.Whole(
+            "--starved",
+            "How many sessions of honest players to draw and play with real processes against a host that gets little time: a tenth of a core, half of one, or what 16 spinning programs leave. Each takes some 10 s; not on Windows",
+            0,
+            0,
+            100_000);
         Command command = new(
             "harm",
             "Has one player attack the others' worlds in randomly drawn ways, all within a host's other limits: fast balls in narrow gaps, heaps, hands that shake"
                 + " them, storms of events. In virtual time, on machines that take as long as the work that they do. Exits with 0 if in all of them the others' worlds stay within 250 ms of real"
-                + " time, or the player is out within 2 s and they are back within 2 s more.") { attacks, worst, processes, share, machine, honest };
+                + " time, or the player is out within 2 s and they are back within 2 s more.") { attacks, worst, processes, share, machine, honest, starved };
         common.AddSeedAndJsonTo(command);
         command.SetAction(parsed =>
         {
@@ -56,7 +62,12 @@ internal static class HarmCommand
                 throw new UsageException("--honest tells how far players stay from their budgets; with --budget 0 they have none.");
             }
 
-            return Run(console, options, parsed.GetValue(worst), again, parsed.GetValue(honest), tool, parsed.GetValue(common.Json));
+            if (parsed.GetValue(starved) > 0 && OperatingSystem.IsWindows())
+            {
+                throw new UsageException("--starved stops and continues a process by signals, which Windows does not have; it can be played on Linux and macOS.");
+            }
+
+            return Run(console, options, parsed.GetValue(worst), again, parsed.GetValue(honest), parsed.GetValue(starved), tool, parsed.GetValue(common.Json));
         });
         return command;
     }
@@ -65,7 +76,7 @@ internal static class HarmCommand
     internal static PlayerBudget? Budget(double times) =>
         times == 0 ? null : new PlayerBudget(Math.Max(1, PlayerBudget.Default.WorkPerSecond * times), Math.Max(1, PlayerBudget.Default.WorkAtOnce * times));
 
-    private static int Run(ToolConsole console, HarmOptions options, int worst, int again, bool honest, string[]? tool, bool json)
+    private static int Run(ToolConsole console, HarmOptions options, int worst, int again, bool honest, int starved, string[]? tool, bool json)
     {
         int done = 0;
         IReadOnlyList<HarmOutcome> outcomes = options.Attacks == 0 ? [] : console.WithProgress(
@@ -89,14 +100,15 @@ internal static class HarmCommand
             : [.. ranked.Where(o => o.Case.Scene.Rules is null).Take(again)]; // the tool has no rules
         IReadOnlyList<HarmProcessOutcome> played = toReplay.Length == 0 ? [] : PlayAgain(console, toReplay, tool ?? StallsCommand.ThisTool());
         IReadOnlyList<HonestCost> costs = honest ? PlayHonest(console, options) : [];
-        bool isStopped = outcomes.Count < options.Attacks || played.Count < toReplay.Length || (honest && costs.Count < HonestPlay.Scenes.Count);
+        IReadOnlyList<StarvedOutcome> hungry = starved > 0 ? PlayStarved(console, options.Seed, starved, tool ?? StallsCommand.ThisTool()) : [];
+        bool isStopped = hungry.Count < starved || outcomes.Count < options.Attacks || played.Count < toReplay.Length || (honest && costs.Count < HonestPlay.Scenes.Count);
         if (json)
         {
-            HarmJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, costs, isStopped);
+            HarmJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, costs, hungry, isStopped);
         }
         else
         {
-            HarmText.Write(console.Output, outcomes, [.. ranked.Take(worst)], played, costs);
+            HarmText.Write(console.Output, outcomes, [.. ranked.Take(worst)], played, costs, hungry);
             if (isStopped)
             {
                 console.Output.WriteLine(FormattableString.Invariant(
@@ -104,7 +116,7 @@ internal static class HarmCommand
             }
         }
 
-        return outcomes.All(o => o.IsGood) && played.All(o => o.IsGood) && costs.All(c => c.Expelled == 0)
+        return outcomes.All(o => o.IsGood) && played.All(o => o.IsGood) && costs.All(c => c.Expelled == 0) && hungry.All(o => o.IsGood)
             ? console.Stop.IsCancellationRequested ? ExitCode.Interrupted : ExitCode.Done
             : ExitCode.CheckFailed;
     }
@@ -129,6 +141,32 @@ internal static class HarmCommand
             }
 
             return costs;
+        });
+
+    /// <summary>One after the other, since each is to get as little time as it says.</summary>
+    private static IReadOnlyList<StarvedOutcome> PlayStarved(ToolConsole console, ulong seed, int count, string[] tool) => console.WithProgress(
+        "sessions of honest players with a starved host",
+        count,
+        progress =>
+        {
+            List<StarvedOutcome> played = [];
+            while (played.Count < count)
+            {
+                StarvedCase drawn = new(seed + (ulong)played.Count);
+                try
+                {
+                    using StarvedRun run = new(drawn, tool, console.Stop);
+                    played.Add(run.Play());
+                }
+                catch (OperationCanceledException) when (console.Stop.IsCancellationRequested)
+                {
+                    break;
+                }
+
+                progress(played.Count);
+            }
+
+            return played;
         });
 
     /// <summary>One after the other, since this measures the machine's speed.</summary>

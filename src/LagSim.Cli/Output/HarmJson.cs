@@ -17,6 +17,7 @@ internal static class HarmJson
         IReadOnlyList<HarmOutcome> worst,
         IReadOnlyList<HarmProcessOutcome> played,
         IReadOnlyList<HonestCost> costs,
+        IReadOnlyList<StarvedOutcome> starved,
         bool isStopped) => JsonDocumentWriter.Write(output, "harm", options.Seed, null, null, null, json =>
         {
             Percentiles late = Percentiles.Of(outcomes.Select(o => o.LateSeconds * 1000));
@@ -79,6 +80,18 @@ internal static class HarmJson
                 json.WriteNumber("part_of_budget", c.Part);
                 json.WriteNumber("sent_away", c.Expelled);
                 json.WriteEndObject();
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("starved");
+            foreach (StarvedOutcome o in starved)
+            {
+                json.WriteStartObject();
+                json.WriteNumber("seed", o.Case.Seed);
+                json.WriteString("case", o.Case.ToString());
+                json.WriteNumber("late_ms", o.LateSeconds * 1000);
+                json.WriteNumber("events_accepted", o.Accepted);
+                End(json, o.Failures, o.IsGood);
             }
 
             json.WriteEndArray();

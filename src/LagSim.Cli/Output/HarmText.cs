@@ -16,7 +16,8 @@ internal static class HarmText
         string.Create(CultureInfo.InvariantCulture, $"lagsim harm --attacks 1 --seed {drawn.Seed}{(hasProcesses ? " --processes 1" : "")}");
 
     internal static void Write(
-        TextWriter output, IReadOnlyList<HarmOutcome> outcomes, IReadOnlyList<HarmOutcome> worst, IReadOnlyList<HarmProcessOutcome> played, IReadOnlyList<HonestCost> costs)
+        TextWriter output, IReadOnlyList<HarmOutcome> outcomes, IReadOnlyList<HarmOutcome> worst, IReadOnlyList<HarmProcessOutcome> played, IReadOnlyList<HonestCost> costs,
+        IReadOnlyList<StarvedOutcome> starved)
     {
         if (outcomes.Count > 0)
         {
@@ -30,6 +31,11 @@ internal static class HarmText
                 $"with processes: {o.LateSeconds * 1000:0} ms late at most{(o.IsGood ? "" : ", NOT GOOD")}: {Replay(o.Case, hasProcesses: true)} {string.Join(" ", o.Failures.Prepend(o.Sentence))}").TrimEnd());
         }
 
+        if (starved.Count > 0)
+        {
+            WriteStarved(output, starved);
+        }
+
         if (costs.Count > 0)
         {
             output.WriteLine("honest players, 4 in each scene, 30 s:");
@@ -40,6 +46,24 @@ internal static class HarmText
                     CultureInfo.InvariantCulture,
                     $"{c.Scene,-12} {c.Events,7} {c.WorkPerSecond,7:0} {c.PeakWork,13:0} {c.Part * 100,13:0.00} %{(c.Expelled > 0 ? "  DISCONNECTED" : "")}"));
             }
+        }
+    }
+
+    private static void WriteStarved(TextWriter output, IReadOnlyList<StarvedOutcome> starved)
+    {
+        output.WriteLine(string.Create(
+            CultureInfo.InvariantCulture, $"honest players with a starved host: all stayed in {starved.Count(o => o.IsGood)} of {NumberText.Count(starved.Count, "session")}"));
+        output.WriteLine("the host                           sessions  all stayed  actions  latest");
+        foreach (IGrouping<string, StarvedOutcome> kind in starved.GroupBy(o => o.Case.Starvation).OrderBy(g => g.Key))
+        {
+            output.WriteLine(string.Create(
+                CultureInfo.InvariantCulture,
+                $"{kind.Key,-34} {kind.Count(),8} {kind.Count(o => o.IsGood),11} {kind.Sum(o => o.Accepted),8} {kind.Max(o => o.LateSeconds) * 1000,4:0} ms"));
+        }
+
+        foreach (StarvedOutcome o in starved.Where(o => !o.IsGood))
+        {
+            output.WriteLine(string.Create(CultureInfo.InvariantCulture, $"  lagsim harm --attacks 0 --starved 1 --seed {o.Case.Seed}: {o.Case}: {string.Join(" ", o.Failures)}"));
         }
     }
 

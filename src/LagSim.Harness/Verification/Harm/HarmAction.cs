@@ -49,7 +49,7 @@ internal sealed record HarmAction(double AtSeconds, EventKind Kind, int Spawn, i
             EventKind.SetVelocity => ("set-velocity", Velocity),
             EventKind.Teleport => ("teleport", Place),
             EventKind.Grab => ("grab", default),
-            EventKind.HoldKeyframe => ("knot", Place),
+            EventKind.HoldKeyframe => ("keyframe", Place),
             _ => ("remove", default),
         };
         string where = kind == "remove" ? "" : string.Create(CultureInfo.InvariantCulture, $":{vector.X:R},{vector.Y:R},{vector.Z:R}");

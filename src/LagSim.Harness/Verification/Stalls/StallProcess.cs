@@ -67,6 +67,8 @@ internal sealed class StallProcess : IDisposable
 
     internal bool HasExited => process.HasExited;
 
+    internal int Id => process.Id;
+
     /// <summary>Sends a signal by name, as <c>STOP</c>.</summary>
     internal void Signal(string name)
     {
