@@ -18,7 +18,7 @@ namespace LagSim.Cli.Web;
 internal sealed class ConnectionGate
 {
     /// <summary>What is told to whom there is no room for.</summary>
-    internal const string Full = "The host has no room for another connection now. Try again in a few seconds.";
+    internal const string Full = "The host has no room for another connection now. There may be in a few seconds.";
 
     /// <summary>When it is worth trying again, in seconds, for the header of that name.</summary>
     internal const string RetryAfter = "5";

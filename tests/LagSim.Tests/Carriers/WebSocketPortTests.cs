@@ -378,13 +378,15 @@ public sealed class WebSocketPortTests : IDisposable
         ClientSession client = new(null, one.Port, clock, new ClientOptions { Warmup = false }, WebSocketClientPort.Host, 2);
         await StepAsync(session, client, () => client.State == SessionState.Running);
         using Connected a = await ConnectAsync(), b = await ConnectAsync();
-        SimTime end = clock.Now + SimDuration.FromSeconds(WebSocketHostPort.SafeSeconds + 2);
-        await StepAsync(session, client, () =>
+        for (int second = 0; second <= WebSocketHostPort.SafeSeconds; second++)
         {
+            SimTime next = clock.Now + SimDuration.FromSeconds(1);
             a.Port.Send([7], WebSocketClientPort.Host);
             b.Port.Send([7], WebSocketClientPort.Host);
-            return clock.Now > end;
-        });
+            clock.Now += SimDuration.FromMilliseconds(900);
+            await StepAsync(session, client, () => clock.Now >= next);
+        }
+
         using Connected c = await ConnectAsync(), d = await ConnectAsync();
         await UntilAsync(() => !a.Port.IsConnected && !b.Port.IsConnected);
         Assert.True(one.Port.IsConnected);
