@@ -15,7 +15,6 @@ using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using Microsoft.AspNetCore.Builder;
 using Microsoft.AspNetCore.Hosting;
-using Microsoft.AspNetCore.Http;
 using Microsoft.Extensions.Logging;
 using Xunit;
 
