@@ -52,6 +52,9 @@ public sealed class MultiplexPort : IDatagramPort
             : datagrams.TryReceive(buffer, out length, out from) || connections.TryReceive(buffer, out length, out from);
     }
 
+    /// <inheritdoc/>
+    public void NoteSeated(PeerAddress peer) => (peer.IsConnection ? connections : datagrams).NoteSeated(peer);
+
     /// <summary>Closes both.</summary>
     public void Dispose()
     {

@@ -1,7 +1,5 @@
 using System;
 using System.Collections.Concurrent;
-using System.Collections.Generic;
-using System.Linq;
 using System.Net;
 using System.Net.WebSockets;
 using System.Threading;
@@ -34,8 +32,9 @@ public sealed class WebSocketHostPort : IDatagramPort
     /// <summary>The most connections that can be asked for.</summary>
     public const int MaxConnections = 4096;
 
-    /// <summary>How long a connection is safe from having to make room for another, though nothing arrives over it: a session's default
-    /// timeout.</summary>
+    /// <summary>How long a connection is safe from having to make room for another of a machine that has as many, after it was opened, and
+    /// after the session has last heard a peer over it that has a place: a session's default timeout. What else arrives counts for nothing,
+    /// or whoever sends anything could keep others out.</summary>
     public const double SafeSeconds = 10;
 
     /// <summary>For how long a client may take nothing before its connection is ended: half of a session's default timeout.</summary>
@@ -43,12 +42,11 @@ public sealed class WebSocketHostPort : IDatagramPort
 
     private const WebSocketCloseStatus TryAgainLater = (WebSocketCloseStatus)1013; // of the registry that RFC 6455 has made
 
-    private readonly int maxConnections;
     private readonly IClock clock;
+    private readonly ConnectionLimiter limiter;
     private readonly DatagramRing ring = new(RingSlots);
-    private readonly ConcurrentDictionary<PeerAddress, WebSocketLink> links = new();
+    private readonly ConcurrentDictionary<PeerAddress, (WebSocketLink Link, ConnectionPlace Place)> links = new();
     private readonly CancellationTokenSource closing = new();
-    private readonly object adding = new();
     private int lastNumber;
     private long dropped;
     private long superseded;
@@ -58,8 +56,9 @@ public sealed class WebSocketHostPort : IDatagramPort
 
     /// <summary>Creates a port without connections.</summary>
     /// <param name="maxConnections">How many connections there may be at a time, 1 to <see cref="MaxConnections"/>, and half of them, or one, from
-    /// one machine. One more takes the place of one over which nothing has arrived for <see cref="SafeSeconds"/>, or is told to try again
-    /// later.</param>
+    /// one machine. One more takes the place of one without a place in the session: where all are taken, at once one of the machine that has
+    /// the most of those, if it has more than its share; otherwise one that has not been safe for the longest (<see cref="SafeSeconds"/>).
+    /// Where there is none, it is told to try again later.</param>
     /// <param name="clock">By which it is told that a client takes nothing; null for this machine's.</param>
     /// <exception cref="ArgumentOutOfRangeException"><paramref name="maxConnections"/> is out of range.</exception>
     public WebSocketHostPort(int maxConnections = DefaultMaxConnections, IClock? clock = null)
@@ -70,8 +69,8 @@ public sealed class WebSocketHostPort : IDatagramPort
                 nameof(maxConnections), maxConnections, $"There can be 1 to {MaxConnections} connections.");
         }
 
-        this.maxConnections = maxConnections;
         this.clock = clock ?? new StopwatchClock();
+        limiter = new ConnectionLimiter(maxConnections, this.clock);
     }
 
     /// <inheritdoc/>
@@ -81,7 +80,7 @@ public sealed class WebSocketHostPort : IDatagramPort
     public PeerAddress LocalAddress => default;
 
     /// <summary>The number of open connections.</summary>
-    public int Connections => links.Count;
+    public int Connections => limiter.Taken;
 
     /// <summary>The number of datagrams that arrived and for which the ring had no room.</summary>
     public long Dropped => Interlocked.Read(ref dropped);
@@ -110,8 +109,9 @@ public sealed class WebSocketHostPort : IDatagramPort
         WebSocketLink link = new(socket ?? throw new ArgumentNullException(nameof(socket)), clock);
         machine = machine ?? throw new ArgumentNullException(nameof(machine));
         using CancellationTokenSource either = CancellationTokenSource.CreateLinkedTokenSource(stop, closing.Token);
-        bool isIn = TryAdd(machine, link, out PeerAddress address);
-        if (!isIn)
+        using ConnectionPlace? place = limiter.TryEnter(MachineOf(machine), SimDuration.FromSeconds(SafeSeconds), link.Abort);
+        PeerAddress address = place is null ? default : Add(machine, link, place);
+        if (place is null)
         {
             Interlocked.Increment(ref refused);
             link.Close(TryAgainLater, "There is no room for another connection.");
@@ -119,16 +119,22 @@ public sealed class WebSocketHostPort : IDatagramPort
 
         try
         {
-            await link.RunAsync(datagram => Take(datagram.Span, address, isIn), either.Token).ConfigureAwait(false);
+            await link.RunAsync(datagram => Take(datagram.Span, address), either.Token).ConfigureAwait(false);
         }
         finally
         {
-            if (isIn)
+            if (place is not null)
             {
                 links.TryRemove(address, out _);
             }
         }
     }
+
+    /// <summary>Whether a connection of a machine would be let in now: a web server asks before it accepts a WebSocket, and otherwise answers
+    /// 503, which says more than a connection that ends at once. For any thread.</summary>
+    /// <param name="machine">As for <see cref="ServeAsync"/>.</param>
+    /// <exception cref="ArgumentNullException">The machine is null.</exception>
+    public bool HasRoomFor(IPAddress machine) => limiter.HasRoom(MachineOf(machine ?? throw new ArgumentNullException(nameof(machine))));
 
     /// <inheritdoc/>
     /// <exception cref="ObjectDisposedException">The port is closed.</exception>
@@ -145,19 +151,20 @@ public sealed class WebSocketHostPort : IDatagramPort
             throw new ObjectDisposedException(nameof(WebSocketHostPort));
         }
 
-        if (!links.TryGetValue(to, out WebSocketLink? link))
+        if (!links.TryGetValue(to, out (WebSocketLink Link, ConnectionPlace Place) one))
         {
             Interlocked.Increment(ref unconnected);
         }
-        else if (link.BlockedFor > SimDuration.FromSeconds(MaxBlockedSeconds))
+        else if (one.Link.BlockedFor > SimDuration.FromSeconds(MaxBlockedSeconds))
         {
             if (links.TryRemove(to, out _))
             {
                 Interlocked.Increment(ref blocked);
-                link.Abort();
+                one.Place.Dispose();
+                one.Link.Abort();
             }
         }
-        else if (link.Send(datagram))
+        else if (one.Link.Send(datagram))
         {
             Interlocked.Increment(ref superseded);
         }
@@ -171,53 +178,41 @@ public sealed class WebSocketHostPort : IDatagramPort
         return ring.TryTake(buffer, out length, out from);
     }
 
+    /// <inheritdoc/>
+    public void NoteSeated(PeerAddress peer)
+    {
+        if (links.TryGetValue(peer, out (WebSocketLink Link, ConnectionPlace Place) one))
+        {
+            one.Place.Hold(SimDuration.FromSeconds(SafeSeconds));
+        }
+    }
+
     /// <summary>Ends all connections. Datagrams that wait in the ring can still be received.</summary>
     public void Dispose() => closing.Cancel();
 
     /// <summary>The connection of an address; null if it has ended.</summary>
-    internal WebSocketLink? LinkOf(PeerAddress address) => links.TryGetValue(address, out WebSocketLink? link) ? link : null;
+    internal WebSocketLink? LinkOf(PeerAddress address) => links.TryGetValue(address, out (WebSocketLink Link, ConnectionPlace Place) one) ? one.Link : null;
 
-    /// <summary>Gives a connection an address, if there is room, or one that has been silent makes room.</summary>
-    private bool TryAdd(IPAddress machine, WebSocketLink link, out PeerAddress address)
+    private static PeerAddress MachineOf(IPAddress machine) => PeerAddress.From(new IPEndPoint(machine, 0));
+
+    /// <summary>Gives a connection an address.</summary>
+    private PeerAddress Add(IPAddress machine, WebSocketLink link, ConnectionPlace place)
     {
-        lock (adding)
+        PeerAddress address;
+        do
         {
-            address = default;
-            List<KeyValuePair<PeerAddress, WebSocketLink>> ofMachine = [.. links.Where(one => one.Key.ToIPAddress().Equals(machine))];
-            bool isFull = ofMachine.Count >= Math.Max(1, maxConnections / 2)
-                ? !TryMakeRoom(ofMachine)
-                : links.Count >= maxConnections && !TryMakeRoom(links);
-            while (!isFull)
-            {
-                address = PeerAddress.OfConnection(machine, (ushort)++lastNumber);
-                if (links.TryAdd(address, link))
-                {
-                    return true;
-                }
-            }
-
-            return false;
+            address = PeerAddress.OfConnection(machine, (ushort)Interlocked.Increment(ref lastNumber));
         }
+        while (!links.TryAdd(address, (link, place)));
+
+        return address;
     }
 
-    /// <summary>Ends the connection that has been silent for the longest, if it is not safe.</summary>
-    private bool TryMakeRoom(IEnumerable<KeyValuePair<PeerAddress, WebSocketLink>> among)
+    private void Take(ReadOnlySpan<byte> datagram, PeerAddress from)
     {
-        (PeerAddress address, WebSocketLink silent) = among.OrderByDescending(one => one.Value.SilentFor).First();
-        if (silent.SilentFor <= SimDuration.FromSeconds(SafeSeconds) || !links.TryRemove(address, out _))
+        if (from.IsNone)
         {
-            return false;
-        }
-
-        silent.Abort();
-        return true;
-    }
-
-    private void Take(ReadOnlySpan<byte> datagram, PeerAddress from, bool isIn)
-    {
-        if (!isIn)
-        {
-            return;
+            return; // of one for which there was no room
         }
 
         if (ring.TryPut(datagram, from))

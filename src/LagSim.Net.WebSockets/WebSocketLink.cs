@@ -28,7 +28,6 @@ internal sealed class WebSocketLink
     private readonly TaskCompletionSource<bool> ended = new(TaskCreationOptions.RunContinuationsAsynchronously);
     private readonly byte[] datagram = new byte[IDatagramPort.MaxDatagramBytes + 1]; // that arrives; one byte more shows that it is too long
     private int received;
-    private long lastArrival; // ticks of the clock
     private long sendingSince = long.MaxValue; // ticks of the clock; the largest while nothing is being sent
     private WebSocketCloseStatus status = WebSocketCloseStatus.NormalClosure;
     private string? reason;
@@ -37,11 +36,7 @@ internal sealed class WebSocketLink
     {
         this.socket = socket;
         this.clock = clock;
-        lastArrival = clock.Now.Ticks;
     }
-
-    /// <summary>How long nothing has arrived.</summary>
-    internal SimDuration SilentFor => clock.Now - SimTime.FromTicks(Interlocked.Read(ref lastArrival));
 
     /// <summary>How long the datagram that is being sent now has waited for the network to take it; zero if none does.</summary>
     internal SimDuration BlockedFor
@@ -140,7 +135,6 @@ internal sealed class WebSocketLink
         {
             while (await TryReceiveAsync().ConfigureAwait(false))
             {
-                Interlocked.Exchange(ref lastArrival, clock.Now.Ticks);
                 if (!ended.Task.IsCompleted)
                 {
                     arrived(datagram.AsMemory(0, received));

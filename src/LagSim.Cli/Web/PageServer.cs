@@ -7,7 +7,6 @@ using System.Security.Cryptography.X509Certificates;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
-using LagSim.Net.Carriers;
 using Microsoft.AspNetCore.Builder;
 using Microsoft.AspNetCore.Hosting;
 using Microsoft.AspNetCore.Http;
@@ -34,8 +33,8 @@ internal sealed class PageServer : IAsyncDisposable
     /// datagram would have said the same. A megabit a second takes that in a quarter of one.</summary>
     private const int MaxWaitingBytes = 32 << 10;
 
-    /// <summary>How many connections there may be: twice those that a session takes, since a browser opens six for the files of the page.</summary>
-    private const int MaxConnections = 2 * WebSocketHostPort.DefaultMaxConnections;
+    /// <summary>How long a connection may be silent, take for the head of a request, and take to agree on TLS.</summary>
+    private static readonly TimeSpan Patience = TimeSpan.FromSeconds(5);
 
     private const string Compressed = ".br";
 
@@ -46,13 +45,15 @@ internal sealed class PageServer : IAsyncDisposable
         """;
 
     private readonly WebApplication application;
+    private readonly ConnectionGate gate;
     private readonly string firstPage;
     private volatile RequestDelegate? files;
     private volatile RequestDelegate? door;
 
-    private PageServer(WebApplication application, string firstPage)
+    private PageServer(WebApplication application, ConnectionGate gate, string firstPage)
     {
         this.application = application;
+        this.gate = gate;
         this.firstPage = firstPage;
     }
 
@@ -62,6 +63,9 @@ internal sealed class PageServer : IAsyncDisposable
     /// <summary>The port that it listens on.</summary>
     internal int Port => new Uri(Address).Port;
 
+    /// <summary>How many connections there are.</summary>
+    internal int Connections => gate.Connections;
+
     /// <summary>Begins to serve.</summary>
     /// <param name="local">Where to listen.</param>
     /// <param name="firstPage">The file that is served at <c>/</c>.</param>
@@ -70,6 +74,7 @@ internal sealed class PageServer : IAsyncDisposable
     /// <exception cref="InputException">It cannot listen there.</exception>
     internal static async Task<PageServer> StartAsync(IPEndPoint local, string firstPage, X509Certificate2? certificate, CancellationToken stop)
     {
+        ConnectionGate gate = new();
         WebApplicationBuilder builder = WebApplication.CreateSlimBuilder();
         builder.Logging.ClearProviders();
         builder.Services.AddSingleton<IHostLifetime, CallersLifetime>();
@@ -77,14 +82,15 @@ internal sealed class PageServer : IAsyncDisposable
         {
             kestrel.AddServerHeader = false;
             kestrel.Limits.MaxRequestBodySize = 0;
-            kestrel.Limits.MaxConcurrentConnections = MaxConnections;
-            kestrel.Limits.MaxConcurrentUpgradedConnections = MaxConnections / 2;
+            kestrel.Limits.KeepAliveTimeout = Patience;
+            kestrel.Limits.RequestHeadersTimeout = Patience;
             kestrel.Listen(local, listening =>
             {
                 listening.Protocols = HttpProtocols.Http1; // over HTTP/2 a WebSocket would be another method than GET
+                listening.Use(next => connection => gate.PassAsync(connection, certificate is null, next));
                 if (certificate is not null)
                 {
-                    listening.UseHttps(certificate);
+                    listening.UseHttps(certificate, tls => tls.HandshakeTimeout = Patience);
                 }
             });
         });
@@ -99,8 +105,8 @@ internal sealed class PageServer : IAsyncDisposable
             };
         });
         WebApplication application = builder.Build();
-        PageServer server = new(application, firstPage);
-        application.Run(server.Answer);
+        PageServer server = new(application, gate, firstPage);
+        application.Run(context => ConnectionGate.AnswerAsync(context, server.Answer));
         try
         {
             await application.StartAsync(stop);

@@ -78,11 +78,19 @@ internal sealed class SessionDoor : IDisposable
 
     private async Task AnswerAsync(HttpContext context, IReadOnlyList<string> origins)
     {
+        IPAddress machine = context.Connection.RemoteIpAddress ?? IPAddress.None;
+        bool hasRoom = port.HasRoomFor(machine);
         if (!context.WebSockets.IsWebSocketRequest)
         {
             if (!origins.Any(origin => IsName(context.Request.Host.Value, origin)))
             {
                 await RefuseNameAsync(context, origins);
+                return;
+            }
+
+            if (!hasRoom)
+            {
+                await ConnectionGate.RefuseAsync(context);
                 return;
             }
 
@@ -98,8 +106,15 @@ internal sealed class SessionDoor : IDisposable
             return;
         }
 
+        if (!hasRoom)
+        {
+            await ConnectionGate.RefuseAsync(context);
+            return;
+        }
+
         using WebSocket socket = await context.WebSockets.AcceptWebSocketAsync(WebSocketClientPort.Subprotocol);
-        await port.ServeAsync(socket, context.Connection.RemoteIpAddress ?? IPAddress.None, CancellationToken.None);
+        ConnectionGate.LeaveToPort(context);
+        await port.ServeAsync(socket, machine, CancellationToken.None);
     }
 
     private static bool IsName(string? name, string origin) =>

@@ -68,5 +68,8 @@ public sealed class CountingPort : IDatagramPort
     }
 
     /// <inheritdoc/>
+    public void NoteSeated(PeerAddress peer) => inner.NoteSeated(peer);
+
+    /// <inheritdoc/>
     public void Dispose() => inner.Dispose();
 }

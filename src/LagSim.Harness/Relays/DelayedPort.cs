@@ -114,6 +114,9 @@ public sealed class DelayedPort : IDatagramPort
         }
     }
 
+    /// <inheritdoc/>
+    public void NoteSeated(PeerAddress peer) => inner.NoteSeated(peer);
+
     /// <summary>Stops at once. Held datagrams are lost.</summary>
     public void Dispose()
     {

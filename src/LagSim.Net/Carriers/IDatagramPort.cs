@@ -32,4 +32,13 @@ public interface IDatagramPort : IDisposable
     /// <param name="from">Its sender.</param>
     /// <returns>False if nothing is waiting.</returns>
     bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from);
+
+    /// <summary>Is told by a host's session, each time it hears a client that has a place in it, where that client is. Whoever wraps a port
+    /// passes it on.</summary>
+    /// <remarks>Only the session knows who is in. A carrier of limited connections has to know, so that strangers do not take the places of
+    /// those; for any other there is nothing to do. Called on the session's thread; must return at once and not throw.</remarks>
+    /// <param name="peer">The client's address.</param>
+    void NoteSeated(PeerAddress peer)
+    {
+    }
 }

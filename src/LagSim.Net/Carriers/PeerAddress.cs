@@ -115,9 +115,9 @@ public readonly struct PeerAddress : IEquatable<PeerAddress>
 
     /// <summary>
     /// The part of the address that is the same for everything one machine can send from: its IP address, whatever the port; for IPv6 its
-    /// first 64 bits, since a host with one such address has all those of its network.
+    /// first 64 bits, since a host with one such address has all those of its network. What a machine may do is counted by it.
     /// </summary>
-    internal PeerAddress Machine => portAndFamily >> 31 != 0 ? new(high, 0, 1u << 31) : new(high, low, 0);
+    public PeerAddress Machine => portAndFamily >> 31 != 0 ? new(high, 0, 1u << 31) : new(high, low, 0);
 
     /// <summary>Writes all of it as bytes, for a hash.</summary>
     internal void Write(Span<byte> destination)

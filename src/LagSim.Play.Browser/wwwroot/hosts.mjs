@@ -1,11 +1,17 @@
 // What a host tells a page of its session, or why that page cannot join it. The page knows best where it was opened: of a host behind
 // another server only the page has the name that people use.
 
+/** The host has no room for another connection now, as it says itself. */
+export class NoRoom extends Error {}
+
 /** Asks the host at the page's own address. Throws a sentence where there is none, or where it would not let this page in. */
 export async function askHost() {
   const answer = await fetch(`session?from=${encodeURIComponent(location.origin)}`).catch(() => null)
   if (!answer) {
     throw new Error(`No host answers at ${location.host} now.`)
+  }
+  if (answer.status === 503 && answer.headers.get('content-type')?.startsWith('text/plain')) {
+    throw new NoRoom(await answer.text())
   }
   if (!(answer.ok || answer.status === 421) || !answer.headers.get('content-type')?.includes('json')) {
     throw new Error('No host serves this page, so there is no session to join. lagsim host --web serves one.')

@@ -1,7 +1,7 @@
 // The page of a host: joins its session with one more peer, or with two where two people share a keyboard, beside native ones.
 import { readColours } from './colours.mjs'
 import { set as setText } from './figures.mjs'
-import { addressToSend, askHost, isOfThisMachine } from './hosts.mjs'
+import { addressToSend, askHost, isOfThisMachine, NoRoom } from './hosts.mjs'
 import { JoinedPeer } from './joined.mjs'
 import { SharedKeyboard } from './keyboard.mjs'
 import { frame, loadRuntime } from './runtime.mjs'
@@ -9,6 +9,7 @@ import { Seat } from './seats.mjs'
 import { tab } from './store.mjs'
 
 const LookEvery = 250 // milliseconds
+const AskEvery = 3000 // the same: how often a host is asked again that has no room, or does not answer
 const PatientFor = 1000 // the same: how long it is not told that one is still asking to be let in
 const Other = 'Another host answers at this address now: the former one has ended, or was started again without its --identity. You can be in its session as a new player.'
 const IsIn = 'lagsim in', Key = 'lagsim key' // of a tab that is loaded again: the seat that it was in, and by which key
@@ -18,6 +19,7 @@ let exports, host, last = 0, colours
 const peers = []
 let joined = 0, looking = 0, isLost = false, gone = null, seating = null, isEntering = false
 let asked = 0, wasIn = false // when it asked to be let in, and whether it was
+let noRoom = '', isAsking = false // what the host says while there is no connection
 let reconnections = 0, mayBeOther = false, isOther = false // whether another host may answer, and does
 
 // Of air hockey: a lone player has all keys; where two share the keyboard, each has its own.
@@ -37,7 +39,7 @@ window.lagsim = {
 }
 
 try {
-  host = await askHost()
+  host = await askUntilThereIsRoom()
   const { JoinExports, AirHockeyExports } = await loadRuntime()
   exports = { ...JoinExports, airHockey: AirHockeyExports }
   document.documentElement.dataset.scene = isGame() ? 'air-hockey' : ''
@@ -81,6 +83,33 @@ found('second').addEventListener('click', async () => {
 found('leave').addEventListener('click', () => exports.Leave())
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { colours = null })
 new ResizeObserver(() => peers.forEach(peer => peer.pane?.resize())).observe(found('panes'))
+
+function pause() { return new Promise(resolve => setTimeout(resolve, AskEvery)) }
+
+/** Asks who the host is, again while it says that it has no room. */
+async function askUntilThereIsRoom() {
+  for (;;) {
+    try {
+      const told = await askHost()
+      say('')
+      return told
+    } catch (failure) {
+      if (!(failure instanceof NoRoom)) {
+        throw failure
+      }
+      say(failure.message)
+      await pause()
+    }
+  }
+}
+
+/** A browser does not tell a page why it has no connection, but the host does. */
+async function askWhy() {
+  isAsking = true
+  noRoom = await askHost().then(() => '', failure => failure instanceof NoRoom ? failure.message : '')
+  await pause()
+  isAsking = false
+}
 
 function hostName() { return host.fingerprint ?? location.host }
 
@@ -248,6 +277,7 @@ async function checkHost() {
   mayBeOther = false
   const told = await askHost().catch(() => null)
   if (told === null) {
+    await pause()
     mayBeOther = true // asks again
   } else if (told.fingerprint !== host.fingerprint && peers.length > 0) {
     isOther = true
@@ -345,8 +375,11 @@ function look() {
     checkHost()
   }
   const lost = status.connection && !status.end && status.state !== 'Running'
+  if (lost && !isAsking) {
+    askWhy()
+  }
   if (lost || isLost) {
-    say(lost ? 'There is no connection to the host. Trying again.' : '')
+    say(lost ? noRoom || 'There is no connection to the host. Trying again.' : '')
   }
   isLost = lost
   const own = peers.map(peer => peer.status.player)

@@ -20,6 +20,10 @@ public sealed class MultiplexPortTests
         port.Send([2], Connection);
         Assert.Equal([EndPoint], datagrams.Sent);
         Assert.Equal([Connection], connections.Sent);
+        port.NoteSeated(Connection);
+        port.NoteSeated(EndPoint);
+        Assert.Equal([EndPoint], datagrams.Seated);
+        Assert.Equal([Connection], connections.Seated);
     }
 
     [Fact]
@@ -67,6 +71,8 @@ public sealed class MultiplexPortTests
 
         internal List<PeerAddress> Sent { get; } = [];
 
+        internal List<PeerAddress> Seated { get; } = [];
+
         internal int Waiting { get; set; }
 
         internal bool IsDisposed { get; private set; }
@@ -78,6 +84,8 @@ public sealed class MultiplexPortTests
             (length, from) = (1, default);
             return Waiting > 0 && Waiting-- > 0;
         }
+
+        public void NoteSeated(PeerAddress peer) => Seated.Add(peer);
 
         public void Dispose() => IsDisposed = true;
 

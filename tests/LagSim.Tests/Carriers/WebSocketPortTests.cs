@@ -214,29 +214,52 @@ public sealed class WebSocketPortTests : IDisposable
         await MeetAsync(a);
     }
 
-    /// <summary>A machine that opens connections and says nothing cannot keep others out for long, nor who is heard lose its place to it.</summary>
+    /// <summary>A machine that opens connections and takes no part cannot keep others out for long, whatever it sends, nor who takes part lose
+    /// its place to it.</summary>
     [Fact]
-    public async Task Connect_WhileOthersAreSilent_TakesThePlaceOfTheOneThatWasSilentForLongest()
+    public async Task Connect_WhileOthersHaveNoPlaceInTheSession_TakesThePlaceOfTheOneThatWasThereForLongest()
     {
-        using Connected silent = await ConnectAsync();
+        using Connected stranger = await ConnectAsync();
         clock.Now += SimDuration.FromSeconds(1);
-        using Connected heard = await ConnectAsync(), newest = await ConnectAsync();
+        using Connected player = await ConnectAsync(), newest = await ConnectAsync();
         clock.Now += SimDuration.FromSeconds(WebSocketHostPort.SafeSeconds - 1);
+        Assert.False(host.HasRoomFor(Machine));
         SocketPair early = new();
         Task refused = host.ServeAsync(early.Server, Machine, TestContext.Current.CancellationToken);
         Assert.Equal(1013, (int)(await early.Client.ReceiveAsync(new byte[8], TestContext.Current.CancellationToken)).CloseStatus!);
         early.Client.Abort();
         await refused.WaitAsync(Deadline, TestContext.Current.CancellationToken);
 
-        await MeetAsync(heard);
+        host.NoteSeated(await MeetAsync(player));
+        await MeetAsync(stranger); // which sends something, too
         clock.Now += SimDuration.FromMilliseconds(1);
+        Assert.True(host.HasRoomFor(Machine));
         using Connected late = await ConnectAsync();
         await MeetAsync(late);
-        await MeetAsync(heard);
-        await UntilAsync(() => !silent.Port.IsConnected);
+        await MeetAsync(player);
+        await UntilAsync(() => !stranger.Port.IsConnected);
         Assert.Equal(3, host.Connections);
         PeerAddress elsewhere = await MeetAsync(await ConnectAsync(IPAddress.Parse("192.0.2.8"))); // another machine has room of its own
         Assert.Equal("192.0.2.8", elsewhere.ToIPAddress().ToString());
+    }
+
+    /// <summary>Two machines with half of all connections each, none of which is in the session.</summary>
+    [Fact]
+    public async Task Connect_WhileTwoMachinesHaveAllConnections_IsInAtOnce()
+    {
+        using Connected a = await ConnectAsync(), b = await ConnectAsync(), c = await ConnectAsync();
+        IPAddress other = IPAddress.Parse("192.0.2.8"), third = IPAddress.Parse("192.0.2.9");
+        using Connected d = await ConnectAsync(other), e = await ConnectAsync(other), f = await ConnectAsync(other);
+        foreach (Connected one in new[] { a, b, c })
+        {
+            host.NoteSeated(await MeetAsync(one));
+        }
+
+        using Connected honest = await ConnectAsync(third);
+        await MeetAsync(honest);
+        await UntilAsync(() => !d.Port.IsConnected);
+        Assert.All([a, b, c, e, f, honest], one => Assert.True(one.Port.IsConnected));
+        Assert.Equal((6, 0), (host.Connections, host.ConnectionsRefused));
     }
 
     [Fact]
@@ -342,6 +365,32 @@ public sealed class WebSocketPortTests : IDisposable
         Assert.True(host.Superseded > 0);
         await StepAsync(session, client, () => session.Roster.Count == 1);
         Assert.Equal(0, host.Connections);
+    }
+
+    /// <summary>The session tells the port who is in: a client keeps its connection for as long as it is heard, and no stranger keeps one by
+    /// sending what is nothing to the session.</summary>
+    [Fact]
+    public async Task Session_WhileStrangersComeAndSend_ItsClientKeepsItsConnection()
+    {
+        Scene scene = new SceneBuilder("keep").AddBody("ball", new BodySpec(0.5, 1, 0.5), Vector3D.Zero).Build();
+        HostSession session = new(scene, host, clock, new HostOptions { Warmup = false }, 1);
+        using Connected one = await ConnectAsync();
+        ClientSession client = new(null, one.Port, clock, new ClientOptions { Warmup = false }, WebSocketClientPort.Host, 2);
+        await StepAsync(session, client, () => client.State == SessionState.Running);
+        using Connected a = await ConnectAsync(), b = await ConnectAsync();
+        for (int second = 0; second <= WebSocketHostPort.SafeSeconds; second++)
+        {
+            SimTime next = clock.Now + SimDuration.FromSeconds(1);
+            a.Port.Send([7], WebSocketClientPort.Host);
+            b.Port.Send([7], WebSocketClientPort.Host);
+            clock.Now += SimDuration.FromMilliseconds(900);
+            await StepAsync(session, client, () => clock.Now >= next);
+        }
+
+        using Connected c = await ConnectAsync(), d = await ConnectAsync();
+        await UntilAsync(() => !a.Port.IsConnected && !b.Port.IsConnected);
+        Assert.True(one.Port.IsConnected);
+        Assert.Equal((3, 2), (host.Connections, session.Roster.Count));
     }
 
     private static async Task<(byte[] Datagram, PeerAddress From)> TakeAsync(IDatagramPort port)

@@ -23,6 +23,12 @@ internal static class WebSocketSnippets
         app.UseWebSockets(options);
         app.Map("/session", async (HttpContext context) =>
         {
+            if (!sockets.HasRoomFor(context.Connection.RemoteIpAddress!))
+            {
+                context.Response.StatusCode = StatusCodes.Status503ServiceUnavailable;
+                return;
+            }
+
             using WebSocket socket = await context.WebSockets.AcceptWebSocketAsync(WebSocketClientPort.Subprotocol);
             await sockets.ServeAsync(socket, context.Connection.RemoteIpAddress!);
         });

@@ -37,6 +37,8 @@ internal sealed class TappedPort : IDatagramPort
 
     public bool TryReceive(Span<byte> buffer, out int length, out PeerAddress from) => inner.TryReceive(buffer, out length, out from);
 
+    public void NoteSeated(PeerAddress peer) => inner.NoteSeated(peer);
+
     public void Dispose() => inner.Dispose();
 
     /// <summary>Replays one of the remembered datagrams to its original address; returns false if there is none yet.</summary>

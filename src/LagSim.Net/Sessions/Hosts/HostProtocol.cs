@@ -255,6 +255,11 @@ internal sealed class HostProtocol : ISessionProtocol
             return; // refused; or a handler sent it away as soon as it was in
         }
 
+        if (client.Peer > 0)
+        {
+            Parts.Port.NoteSeated(client.Link.Other);
+        }
+
         client.HasBegun |= update.Start != SimTime.MinValue;
         if (update.Peer == 0)
         {
