@@ -19,6 +19,7 @@ internal static class Program
         ["dense"] = DenseTable.Print,
         ["bunch"] = BunchTable.Print,
         ["crowd"] = CrowdTable.Print,
+        ["counted"] = CountedTable.Print,
         ["memory"] = MemoryTable.Print,
         ["frames"] = FrameTable.Print,
         ["arrival"] = ArrivalTable.Print,
