@@ -217,7 +217,7 @@ internal sealed class HostProtocol : ISessionProtocol
         due = options.ConfirmsEarly && Parts.World.Live is not null ? SimTime.Min(due, now + Hosts.Watermark.Pace) : due;
         foreach (Client client in Roster.All)
         {
-            due = SimTime.Min(due, client.HasWritten ? client.Link.Due : timeouts.GivenUpAt(client));
+            due = SimTime.Min(due, client.IsSpokenTo ? client.Link.Due : timeouts.NextLook(client, now));
             due = client.Incoming.HasNext ? SimTime.Min(due, now + options.ResendInterval) : due;
         }
 
@@ -267,6 +267,7 @@ internal sealed class HostProtocol : ISessionProtocol
             return;
         }
 
+        client.IsIn = true;
         if (update.EventsReceived <= LogLength)
         {
             client.Link.Acknowledge(update.EventsReceived, now);
