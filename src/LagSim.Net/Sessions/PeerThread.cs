@@ -139,11 +139,7 @@ public sealed class PeerThread : IDisposable
     /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
     /// <exception cref="ArgumentException">An option is out of range.</exception>
     public static PeerThread Join(
-        IDatagramPort carrier,
-        PeerAddress host,
-        ClientOptions? options = null,
-        Scene? scene = null,
-        Action<ClientSession>? setUp = null) => Begin(
+        IDatagramPort carrier, PeerAddress host, ClientOptions? options = null, Scene? scene = null, Action<ClientSession>? setUp = null) => Begin(
             carrier,
             () => new ClientSession(scene, carrier, new StopwatchClock(), options ?? new ClientOptions(), host, Session.DrawNumber()),
             "LagSim client",

@@ -1,4 +1,3 @@
-using System;
 using System.IO;
 using LagSim.Cli.Commands;
 using Xunit;

@@ -6,12 +6,6 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>A client of the host: one that is joining and has no number yet, or one that is in.</summary>
 internal sealed class Client
 {
-    /// <summary>How many datagrams a joining client is sent on the host's own account, after the last that arrived from it.</summary>
-    private const int MostUnheard = 5;
-
-    private SimTime heard; // when the last one arrived, as of the last that was sent
-    private int unheard; // how many were sent since
-
     internal Client(JoinClaim claim, UpdateLink link, JoinSnapshot snapshot, byte[] welcome)
     {
         Claim = claim;
@@ -19,6 +13,7 @@ internal sealed class Client
         Snapshot = snapshot;
         Welcome = welcome;
         DesyncQueries = new DesyncQueries(link.Heard);
+        Speaking = new SpeakingLimit(link);
     }
 
     /// <summary>Its number; 0 until it is in.</summary>
@@ -56,27 +51,8 @@ internal sealed class Client
     /// <summary>Whether it knows when the session starts.</summary>
     internal bool HasBegun { get; set; }
 
-    /// <summary>Whether an update from it has arrived. Until then it is sent none.</summary>
-    internal bool HasWritten { get; set; }
-
-    /// <summary>Whether it knows its number: an update with it has arrived.</summary>
-    internal bool IsIn { get; set; }
-
-    /// <summary>
-    /// Whether the host may send to it by itself. While it joins, it is the one that asks, again and again: a host that heard nothing after
-    /// a few answers waits for it, since it may have vanished, or never have been there.
-    /// </summary>
-    internal bool IsSpokenTo => HasWritten && (IsIn || Link.Heard != heard || unheard < MostUnheard);
-
-    /// <summary>By what to multiply the pause after the next datagram: it doubles with each that a joining client does not answer.</summary>
-    internal int Patience => IsIn || Link.Heard != heard ? 1 : 1 << unheard;
-
-    /// <summary>Records that it was sent a datagram which it had not asked for.</summary>
-    internal void NoteSent()
-    {
-        unheard = Link.Heard == heard ? unheard + 1 : 1;
-        heard = Link.Heard;
-    }
+    /// <summary>How far the host speaks to it by itself.</summary>
+    internal SpeakingLimit Speaking { get; }
 
     /// <summary>The number of log entries that it has.</summary>
     internal uint Acknowledged => Link.Outgoing.Acknowledged;
