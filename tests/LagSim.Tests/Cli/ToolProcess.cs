@@ -14,13 +14,17 @@ internal sealed class ToolProcess : IDisposable
     private const int Hangup = 1; // SIGHUP
     private const int Interrupt = 2; // SIGINT
 
+    /// <summary>What runs the tool.</summary>
+    internal static readonly string Dotnet =
+        Path.Combine(RuntimeEnvironment.GetRuntimeDirectory(), "..", "..", "..", OperatingSystem.IsWindows() ? "dotnet.exe" : "dotnet");
+
     private readonly Process process;
     private readonly string line;
 
     private ToolProcess(string line)
     {
         this.line = line;
-        ProcessStartInfo start = new(Path.Combine(RuntimeEnvironment.GetRuntimeDirectory(), "..", "..", "..", OperatingSystem.IsWindows() ? "dotnet.exe" : "dotnet"))
+        ProcessStartInfo start = new(Dotnet)
         {
             RedirectStandardOutput = true,
             RedirectStandardError = true,
