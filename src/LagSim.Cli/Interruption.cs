@@ -5,7 +5,8 @@ using System.Threading;
 namespace LagSim.Cli;
 
 /// <summary>
-/// Handles Ctrl-C and termination requests: cancels the work, so that files end with a whole row and the cursor is shown again.
+/// Handles Ctrl-C, termination requests and a terminal that was closed: cancels the work, so that the other peers get a goodbye, files end
+/// with a whole row and the cursor is shown again.
 /// </summary>
 internal sealed class Interruption : IDisposable
 {
@@ -20,6 +21,7 @@ internal sealed class Interruption : IDisposable
     [
         PosixSignalRegistration.Create(PosixSignal.SIGINT, signal => On(signal, Output.ExitCode.Interrupted)),
         PosixSignalRegistration.Create(PosixSignal.SIGTERM, signal => On(signal, Output.ExitCode.Terminated)),
+        PosixSignalRegistration.Create(PosixSignal.SIGHUP, signal => On(signal, Output.ExitCode.HungUp)),
     ];
 
     /// <summary>The token that cancels a command's work.</summary>

@@ -25,7 +25,16 @@ internal static class Program
         // Not every code page has the characters of tables and curves.
         Console.OutputEncoding = new UTF8Encoding(encoderShouldEmitUTF8Identifier: false);
         using Interruption interruption = new();
-        int code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token, () => interruption.ExitCode);
+        int code;
+        try
+        {
+            code = Run(arguments, StandardOutput.Open(), Console.Error, interruption.Token, () => interruption.ExitCode);
+        }
+        catch (IOException)
+        {
+            code = ExitCode.Input; // not even the failure can be told, as on a terminal that is closed
+        }
+
         return code == ExitCode.CheckFailed ? code : interruption.ExitCode ?? code; // a failed check is reported even after an interrupt
     }
 

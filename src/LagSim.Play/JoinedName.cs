@@ -1,6 +1,6 @@
 using System;
 using System.Globalization;
-using LagSim.Net.Wire;
+using LagSim.Net.Protection;
 
 namespace LagSim.Play;
 
@@ -17,6 +17,6 @@ internal static class JoinedName
         int characters = new StringInfo(name).LengthInTextElements;
         return characters > MaxCharacters
             ? FormattableString.Invariant($"A name has at most {MaxCharacters} characters; this one has {characters}.")
-            : RosterEntry.WhyNoName(name) is string wrong ? $"This name cannot be: {wrong}" : null;
+            : PlayerName.WhyNone(name) is string wrong ? $"This name cannot be: {wrong}" : null;
     }
 }

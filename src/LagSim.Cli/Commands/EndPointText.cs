@@ -1,9 +1,11 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using System.Net;
 using System.Net.Sockets;
 using System.Threading;
+using System.Threading.Tasks;
 using LagSim.Cli.Output;
 using LagSim.Net.Carriers;
 
@@ -12,6 +14,12 @@ namespace LagSim.Cli.Commands;
 /// <summary>The address of a host as a user writes it: <c>ADDRESS:PORT</c>, <c>[IPv6]:PORT</c> or <c>NAME:PORT</c>.</summary>
 internal static class EndPointText
 {
+    /// <summary>The most addresses of one name that are tried.</summary>
+    internal const int MaxTried = 6;
+
+    /// <summary>Looks a name up, as <see cref="Dns"/> does.</summary>
+    internal delegate Task<IPAddress[]> Lookup(string name, CancellationToken stop);
+
     /// <summary>Parses the text.</summary>
     /// <exception cref="UsageException">The text does not have this form.</exception>
     internal static (string Host, int Port) Parse(string text)
@@ -39,31 +47,50 @@ internal static class EndPointText
     /// <exception cref="UsageException">The text does not have the form.</exception>
     /// <exception cref="InputException">The name is unknown, or the address cannot belong to a machine.</exception>
     /// <exception cref="OperationCanceledException">The user has asked for an end.</exception>
-    internal static IPEndPoint Resolve(string text, string purpose, CancellationToken stop)
+    internal static IPEndPoint Resolve(string text, string purpose, CancellationToken stop) => First(ResolveAll(text, purpose, stop));
+
+    /// <summary>The one to take where only one can be: IPv4 before IPv6.</summary>
+    internal static IPEndPoint First(IEnumerable<IPEndPoint> found) => found.OrderBy(one => one.AddressFamily != AddressFamily.InterNetwork).First();
+
+    /// <summary>Resolves the address, to all those that a name has, in the order in which to try them.</summary>
+    /// <remarks>The system's own first, and then one of each kind in turn, so that a kind that is broken costs one try (RFC 8305, 4).</remarks>
+    /// <inheritdoc cref="Resolve(string, string, CancellationToken)"/>
+    internal static IReadOnlyList<IPEndPoint> ResolveAll(string text, string purpose, CancellationToken stop, Lookup? lookup = null)
     {
-        IPEndPoint found = Find(text, stop);
-        return UdpDestination.IsOneMachine(found, purpose, out string? error) ? found : throw new InputException(error);
+        IPEndPoint[] found = Find(text, lookup ?? Dns.GetHostAddressesAsync, stop);
+        string? error = null;
+        IPEndPoint[] machines = [.. found.Where(one => UdpDestination.IsOneMachine(one, purpose, out error))];
+        return machines.Length > 0 ? machines : throw new InputException(error!);
     }
 
-    private static IPEndPoint Find(string text, CancellationToken stop)
+    private static IPEndPoint[] Find(string text, Lookup lookup, CancellationToken stop)
     {
         (string host, int port) = Parse(text);
         if (IPAddress.TryParse(host, out IPAddress? literal))
         {
-            return new IPEndPoint(literal, port);
+            return [new IPEndPoint(literal, port)];
         }
 
         try
         {
-            IPAddress[] found = Dns.GetHostAddressesAsync(host, stop).GetAwaiter().GetResult();
-            IPAddress? address = found.FirstOrDefault(a => a.AddressFamily == AddressFamily.InterNetwork)
-                ?? found.FirstOrDefault(a => a.AddressFamily == AddressFamily.InterNetworkV6);
-            return address is null ? throw new InputException($"The host '{host}' has no IP address.") : new IPEndPoint(address, port);
+            IPAddress[] found = lookup(host, stop).GetAwaiter().GetResult();
+            IPEndPoint[] usable = [.. found
+                .Where(one => one.AddressFamily is AddressFamily.InterNetwork || (one.AddressFamily == AddressFamily.InterNetworkV6 && Socket.OSSupportsIPv6))
+                .Distinct().Select(one => new IPEndPoint(one, port))];
+            return usable.Length == 0 ? throw new InputException($"The host '{host}' has no IP address.") : InTurn(usable);
         }
         catch (Exception failure) when (failure is SocketException or ArgumentException)
         {
             throw new InputException($"The host '{host}' is not known: {failure.Message}.", failure);
         }
+    }
+
+    /// <summary>One of each kind in turn, in the order in which they come, and not too many.</summary>
+    private static IPEndPoint[] InTurn(IPEndPoint[] found)
+    {
+        ILookup<bool, IPEndPoint> kinds = found.ToLookup(one => one.AddressFamily == found[0].AddressFamily);
+        return [.. kinds[true].Select((one, at) => (one, at: 2 * at)).Concat(kinds[false].Select((one, at) => (one, at: (2 * at) + 1)))
+            .OrderBy(pair => pair.at).Select(pair => pair.one).Take(MaxTried)];
     }
 
     /// <summary>An address to bind to.</summary>

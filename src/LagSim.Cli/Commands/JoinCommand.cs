@@ -1,6 +1,8 @@
 using System;
+using System.Collections.Generic;
 using System.CommandLine;
 using System.IO;
+using System.Linq;
 using System.Net;
 using LagSim.Cli.Output;
 using LagSim.Hosting;
@@ -22,7 +24,7 @@ internal static class JoinCommand
         {
             Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as"
                 + " 192.168.0.7:5000, [::1]:5000 or some.name:5000, the host that answers first is trusted, and its fingerprint printed."
-                + " If a name has addresses of both kinds, IPv4 is used. ws://192.168.0.7:8080 joins over a WebSocket, where UDP does not get through.",
+                + " If a name has several addresses, they are tried a quarter of a second apart, and the first that answers is joined. ws://192.168.0.7:8080 joins over a WebSocket, where UDP does not get through.",
         };
         Option<string?> token = new("--token")
         {
@@ -57,17 +59,19 @@ internal static class JoinCommand
             HostFingerprint? fingerprint = ProtectionOptions.ReadFingerprint(parsed.GetValue(host)!, out string place);
             SecureClient? protection = Protection(parsed.GetValue(unprotected), fingerprint);
             options = options with { Protection = protection, Token = Token(parsed.GetValue(token), fingerprint, console.Input) };
-            IPEndPoint? there = WebSocketText.Is(place) ? null : EndPointText.Resolve(place, "join", console.Stop);
+            IReadOnlyList<IPEndPoint> there = WebSocketText.Is(place) ? [] : EndPointText.ResolveAll(place, "join", console.Stop);
             if (protection is null)
             {
                 ProtectionOptions.Warn(console);
             }
 
+            options = options with { OtherAddresses = [.. there.Skip(1).Select(PeerAddress.From)] };
             request = request with { Options = options, Host = place };
-            using UdpPort? udp = there is null ? null : new UdpPort(UdpDestination.Facing(there.Address));
-            using WebSocketClientPort? socket = there is null ? new WebSocketClientPort(WebSocketText.Parse(place)) : null;
+            using UdpPort? udp = there.Count == 0 ? null
+                : new UdpPort(UdpDestination.Facing(there[0].Address, [.. there.Skip(1).Select(other => other.Address)]));
+            using WebSocketClientPort? socket = udp is null ? new WebSocketClientPort(WebSocketText.Parse(place)) : null;
             CarrierInUse carrier = udp is null ? CarrierInUse.Of(socket!) : CarrierInUse.Of(udp);
-            PeerAddress address = there is null ? WebSocketClientPort.Host : PeerAddress.From(there);
+            PeerAddress address = udp is null ? WebSocketClientPort.Host : PeerAddress.From(there[0]);
             ClientSession session = new(null, carrier.Port, new StopwatchClock(), options, address, Session.DrawNumber());
             if (passFile is not null)
             {
@@ -92,7 +96,7 @@ internal static class JoinCommand
 
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
-                Server = there is null ? place : null,
+                Server = udp is null ? place : null,
             };
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             return runner.Run();
@@ -101,7 +105,8 @@ internal static class JoinCommand
             {
                 session.PassGiven -= TellTrustOnce;
                 HostFingerprint answered = protection!.Host!.Value;
-                string trusted = there is null ? $"{place}#{answered}" : new HostAddress(there.Address.ToString(), there.Port, answered).ToString();
+                string trusted = udp is null ? $"{place}#{answered}"
+                    : new HostAddress(session.HostAddress.ToIPAddress().ToString(), there[0].Port, answered).ToString();
                 console.Error.WriteLine(
                     $"Trusting the host that answered first. If it is the right one, join it as {trusted} from now on.");
             }

@@ -24,7 +24,7 @@ internal static class PassFile
         string copy = file + ".old";
         try
         {
-            File.Copy(file, copy, overwrite: true); // with the same permissions
+            SecretFile.Replace(copy, draft => File.Copy(file, draft)); // with the same permissions
             return copy;
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)

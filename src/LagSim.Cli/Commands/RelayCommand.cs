@@ -1,7 +1,6 @@
 using System;
 using System.CommandLine;
 using System.Globalization;
-using System.Linq;
 using System.Net;
 using System.Threading;
 using LagSim.Cli.Output;
@@ -22,13 +21,7 @@ internal static class RelayCommand
     {
         CommonOptions common = new();
         Argument<string> host = new("ADDRESS:PORT") { Description = "Where the host is; clients join the relay's own address instead." };
-        Option<string> profile = new("--profile")
-        {
-            Description = $"The link between each client and the host: {string.Join(", ", LinkProfiles.All.Select(p => p.Name))},"
-                + $" or {LinkProfiles.AnyDelay}.",
-            HelpName = "NAME",
-            Required = true,
-        };
+        RelayLink links = new();
         Option<int> port = CommonOptions.Whole("--port", "The UDP port; 0 picks a free one", 0, 0, 65535);
         Option<string> address = new("--address")
         {
@@ -40,18 +33,16 @@ internal static class RelayCommand
             SessionArguments.MinLength, ScriptedAction.MaxSeconds);
         Option<double?> change = SessionArguments.Seconds(
             "--change-port-s", "How often the host sees each client move to another port; by default never.", 0.5, 3600);
-        Command command = new("relay", "Passes datagrams between clients and a host, with the delays and losses of a link profile.")
+        Command command = new("relay", "Passes datagrams between clients and a host, with the delays and losses of a link: a profile, or figures.")
         {
-            host, profile, port, address, length, change,
+            host, port, address, length, change,
         };
+        links.AddTo(command);
         common.AddSeedAndJsonTo(command);
         command.SetAction(parsed =>
         {
-            if (!LinkProfiles.TryGet(parsed.GetValue(profile)!, out LinkProfile? link, out string? error))
-            {
-                throw new UsageException(error);
-            }
-
+            RelayLinkChoice chosen = links.Read(parsed);
+            LinkProfile link = chosen.Link;
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
             IPEndPoint there = EndPointText.Resolve(parsed.GetValue(host)!, "relay to", console.Stop);
             bool json = parsed.GetValue(common.Json);
@@ -68,7 +59,12 @@ internal static class RelayCommand
                 JsonDocumentWriter.Write(console.Output, "relay", seed, null, null, null, document =>
                 {
                     document.WriteString("listening_on", listening);
-                    document.WriteString("profile", link.Name);
+                    document.WriteString("profile", chosen.IsByFigures ? null : link.Name);
+                    foreach ((string key, double? value) in chosen.Figures)
+                    {
+                        JsonDocumentWriter.Number(document, key, value);
+                    }
+
                     document.WriteNumber("clients", traffic.Clients);
                     document.WriteNumber("forwarded_to_host", traffic.ForwardedToHost);
                     document.WriteNumber("lost_to_host", traffic.LostToHost);

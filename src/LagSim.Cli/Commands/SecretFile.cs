@@ -8,6 +8,8 @@ namespace LagSim.Cli.Commands;
 /// <summary>A file of one line that only this user may read, where the system supports that: a player's pass, a host's identity.</summary>
 internal static class SecretFile
 {
+    private const string Must = "a file that can be written";
+
     private const int MaxBytes = 1_000; // the longest secret is one line of 64 characters
 
     /// <summary>Reads the line; null if the file does not exist yet, empty if it is too long to be a secret.</summary>
@@ -44,7 +46,14 @@ internal static class SecretFile
 
         ThrowIfNotWritable(option, file, what);
         (T drawn, string drawnText) = draw();
-        return Write(file, drawnText, overwrite: false) ? drawn : ReadOrDraw(option, file, what, parse, draw); // another process was first
+        try
+        {
+            return Write(file, drawnText, overwrite: false) ? drawn : ReadOrDraw(option, file, what, parse, draw); // another process was first
+        }
+        catch (Exception failure) when (failure is IOException { InnerException: null } or UnauthorizedAccessException)
+        {
+            throw WriteFailure.Of(option, file, Must, failure);
+        }
     }
 
     /// <summary>Checks that the file could be written, and changes nothing.</summary>
@@ -71,37 +80,60 @@ internal static class SecretFile
         }
         catch (IOException failure) when (failure.InnerException is not null)
         {
-            throw WriteFailure.Of(option, file, "a file that can be written", failure.InnerException);
+            throw WriteFailure.Of(option, file, Must, failure.InnerException);
         }
     }
 
     /// <summary>Writes the line, over another.</summary>
     internal static void Write(string file, string secret) => Write(file, secret, overwrite: true);
 
-    private static bool Write(string file, string secret, bool overwrite)
+    /// <summary>Writes a file beside its place and moves it there, so that a kill or a full disk in between leaves the old one whole.</summary>
+    /// <param name="file">Its place.</param>
+    /// <param name="write">Writes the file of that name, which does not exist. If it fails, what it wrote is deleted.</param>
+    /// <param name="overwrite">Whether to replace a file that is there.</param>
+    /// <returns>False if one was there and was not to be replaced.</returns>
+    /// <exception cref="IOException">It could not be written.</exception>
+    internal static bool Replace(string file, Action<string> write, bool overwrite = true)
     {
-        string draft = DraftOf(file); // moved into place afterwards, so that a kill in between leaves the old file whole
-        File.Delete(draft); // a leftover may be readable by others
+        string draft = DraftOf(file);
+        try
+        {
+            File.Delete(draft); // a leftover may be readable by others
+            write(draft);
+            File.Move(draft, file, overwrite);
+            return true;
+        }
+        catch (IOException) when (!overwrite && File.Exists(file))
+        {
+            return false;
+        }
+        finally
+        {
+            DeleteIfThere(draft);
+        }
+    }
+
+    private static bool Write(string file, string secret, bool overwrite) => Replace(file, draft =>
+    {
         FileStreamOptions options = new() { Mode = FileMode.CreateNew, Access = FileAccess.Write };
         if (!OperatingSystem.IsWindows())
         {
             options.UnixCreateMode = UnixFileMode.UserRead | UnixFileMode.UserWrite;
         }
 
-        using (StreamWriter writer = new(draft, options))
-        {
-            writer.WriteLine(secret);
-        }
+        using StreamWriter writer = new(draft, options);
+        writer.WriteLine(secret);
+    }, overwrite);
 
+    private static void DeleteIfThere(string file)
+    {
         try
         {
-            File.Move(draft, file, overwrite);
-            return true;
+            File.Delete(file);
         }
-        catch (IOException) when (!overwrite && File.Exists(file))
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {
-            File.Delete(draft);
-            return false;
+            // Why the file could not be written is told already.
         }
     }
 

@@ -63,7 +63,11 @@ internal sealed class SessionRunner : IDisposable
         thread = new PeerThread(session, carrier.Port, "LagSim session");
         thread.Session.HandlerFailed += failure =>
             queue.Tell(() => printer.Problem($"A handler of a session event failed: {failure.Message}"));
-        onStop = stop.Register(queue.Wake);
+        onStop = stop.Register(() =>
+        {
+            thread.SkipWarmup();
+            queue.Wake();
+        });
     }
 
     /// <summary>Returns the exit code for the way a session ended. A desync or a lost event outranks every other reason.</summary>

@@ -13,6 +13,9 @@ internal static class ExitCode
     /// <summary>An input is invalid, or could not be read, written, reached or processed.</summary>
     internal const int Input = 3;
 
+    /// <summary>The terminal was closed, as shells report it.</summary>
+    internal const int HungUp = 129;
+
     /// <summary>Ctrl-C, as shells report it: 128 and the number of the signal.</summary>
     internal const int Interrupted = 130;
 

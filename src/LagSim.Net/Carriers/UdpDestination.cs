@@ -29,17 +29,26 @@ internal static class UdpDestination
         return !isNone;
     }
 
-    /// <summary>Returns the local address, with any free port, from which a machine is reached: loopback reaches loopback only.</summary>
+    /// <summary>
+    /// Returns the local address, with any free port, from which a machine is reached at one of its addresses: loopback reaches loopback
+    /// only, and a port on all of IPv6 reaches both kinds.
+    /// </summary>
     /// <exception cref="ArgumentNullException">The address is null.</exception>
-    public static IPEndPoint Facing(IPAddress machine)
+    public static IPEndPoint Facing(IPAddress machine, params IPAddress[] others)
     {
         if (machine is null)
         {
             throw new ArgumentNullException(nameof(machine));
         }
 
+        bool isLoopback = IPAddress.IsLoopback(machine) && Array.TrueForAll(others, IPAddress.IsLoopback);
         bool v6 = machine.AddressFamily == AddressFamily.InterNetworkV6;
+        if (!Array.TrueForAll(others, other => other.AddressFamily == machine.AddressFamily))
+        {
+            return new IPEndPoint(IPAddress.IPv6Any, 0); // also for the two loopbacks: no port is bound to both alone
+        }
+
         return new IPEndPoint(
-            IPAddress.IsLoopback(machine) ? (v6 ? IPAddress.IPv6Loopback : IPAddress.Loopback) : (v6 ? IPAddress.IPv6Any : IPAddress.Any), 0);
+            isLoopback ? (v6 ? IPAddress.IPv6Loopback : IPAddress.Loopback) : (v6 ? IPAddress.IPv6Any : IPAddress.Any), 0);
     }
 }

@@ -130,9 +130,10 @@ public sealed class UdpPort : IDatagramPort
 
     private static Socket Open(IPEndPoint bind)
     {
-        Socket opened = new(bind.AddressFamily, SocketType.Dgram, ProtocolType.Udp);
+        Socket? opened = null;
         try
         {
+            opened = new Socket(bind.AddressFamily, SocketType.Dgram, ProtocolType.Udp); // a system may lack the kind
             if (RuntimeInformation.IsOSPlatform(OSPlatform.Windows))
             {
                 // Windows would fail a receive because an earlier send reached no listener, and would let another program share the port.
@@ -150,7 +151,7 @@ public sealed class UdpPort : IDatagramPort
         }
         catch (SocketException failure)
         {
-            opened.Dispose();
+            opened?.Dispose();
             throw new IOException($"UDP port {bind} cannot be opened: {failure.Message} ({failure.SocketErrorCode}).", failure);
         }
     }

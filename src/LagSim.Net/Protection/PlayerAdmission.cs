@@ -15,10 +15,12 @@ public sealed class PlayerAdmission
     /// The player's identity with the backend: 1 to <see cref="MaxTextBytes"/> bytes of UTF-8. One player has one place: who joins with the
     /// identity of a player that is in takes over its place.
     /// </param>
-    /// <param name="name">What to show others: up to <see cref="MaxTextBytes"/> bytes of UTF-8.</param>
+    /// <param name="name">
+    /// What to show others: up to <see cref="MaxTextBytes"/> bytes of UTF-8, and what <see cref="Sessions.SessionOptions.WhyNoName"/> allows.
+    /// </param>
     /// <param name="rights">What the player may do.</param>
     /// <param name="number">The number that the player gets, 1 to 16; 0 for any that is free.</param>
-    /// <exception cref="ArgumentException">A text is missing or too long, or is not valid Unicode.</exception>
+    /// <exception cref="ArgumentException">A text is missing or too long, or is not valid Unicode, or the name is not one to show.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The number or the rights are out of range.</exception>
     public PlayerAdmission(string playerId, string name = "", PlayerRights rights = PlayerRights.All, byte number = 0)
     {
@@ -28,7 +30,9 @@ public sealed class PlayerAdmission
             throw new ArgumentException("A player's identity has at least one character.", nameof(playerId));
         }
 
-        Name = Checked(name, nameof(name));
+        Name = name is null ? throw new ArgumentNullException(nameof(name))
+            : PlayerName.WhyNone(name) is string why ? throw new ArgumentException($"The player's name is not one to show: {why}", nameof(name))
+            : name;
         Rights = (rights & ~PlayerRights.All) == 0
             ? rights
             : throw new ArgumentOutOfRangeException(nameof(rights), (int)rights, "There are no such rights.");

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Scenes;
 
@@ -78,6 +79,12 @@ public sealed record ClientOptions : SessionOptions
         get => rules;
         init => rules = value is null ? null : new List<SceneRules>(value).AsReadOnly();
     }
+
+    /// <summary>
+    /// Other addresses of the host, as a name has in DNS: while none has answered, each is asked besides, a quarter of a second after the one
+    /// before it. The first that answers is the host's. Default none.
+    /// </summary>
+    internal IReadOnlyList<PeerAddress> OtherAddresses { get; init; } = Array.Empty<PeerAddress>();
 
     /// <summary>
     /// Returns <paramref name="options"/> if they are a client's, otherwise client options with the same shared settings and defaults for

@@ -106,6 +106,9 @@ public sealed class ClientSession : Session
     /// <see cref="Session.EndReason"/>.</summary>
     internal RefusalReason? RefusedFor => client.Parts.Status.RefusedFor;
 
+    /// <summary>The host's address: the one that answered, if it was asked at several. On the session's thread.</summary>
+    internal PeerAddress HostAddress => client.Connection.Host;
+
     /// <summary>The estimate of the offset between the two clocks.</summary>
     internal ClockSync ClockSync => client.Seat.Clock;
 

@@ -46,7 +46,8 @@ public sealed class PeerThread : IDisposable
     private volatile bool isOwner; // from Start to the end of the thread
     private volatile bool isDisposed;
     private bool hasLeftPort; // it no longer wakes the thread, and is disposed if owned
-    private Action<LateEventStrategy>? warmUp; // null once done; for the session's thread only
+    private volatile bool isWarmupSkipped;
+    private Action<LateEventStrategy, Func<bool>>? warmUp; // null once done; for the session's thread only
 
     /// <summary>Gives the session a thread, which is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
@@ -54,8 +55,8 @@ public sealed class PeerThread : IDisposable
     {
     }
 
-    // The thread calls warmUp with the session's strategy before its first step.
-    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<LateEventStrategy> warmUp)
+    // The thread calls warmUp before its first step, with the session's strategy, and with what tells it to end early.
+    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<LateEventStrategy, Func<bool>> warmUp)
     {
         this.ownsPort = ownsPort;
         this.warmUp = warmUp;
@@ -138,11 +139,7 @@ public sealed class PeerThread : IDisposable
     /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
     /// <exception cref="ArgumentException">An option is out of range.</exception>
     public static PeerThread Join(
-        IDatagramPort carrier,
-        PeerAddress host,
-        ClientOptions? options = null,
-        Scene? scene = null,
-        Action<ClientSession>? setUp = null) => Begin(
+        IDatagramPort carrier, PeerAddress host, ClientOptions? options = null, Scene? scene = null, Action<ClientSession>? setUp = null) => Begin(
             carrier,
             () => new ClientSession(scene, carrier, new StopwatchClock(), options ?? new ClientOptions(), host, Session.DrawNumber()),
             "LagSim client",
@@ -309,11 +306,14 @@ public sealed class PeerThread : IDisposable
     {
         if (Session.WarmsUpFor is LateEventStrategy strategy)
         {
-            warmUp?.Invoke(strategy);
+            warmUp?.Invoke(strategy, () => isDisposed || isWarmupSkipped);
         }
 
         warmUp = null;
     }
+
+    /// <summary>Ends the warm-up early, so that what was asked is answered soon. From any thread, at any time.</summary>
+    internal void SkipWarmup() => isWarmupSkipped = true;
 
     private bool IsOwnThread => isOwner && owner.IsCaller;
 

@@ -1,6 +1,7 @@
 using System;
 using System.Threading;
 using LagSim.Hosting;
+using LagSim.Net.Protection;
 using LagSim.Net.Strategies;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -42,8 +43,8 @@ public abstract record SessionOptions
     }
 
     /// <summary>
-    /// What the others are shown as this peer's name in <see cref="Session.Roster"/>: up to <see cref="MaxNameBytes"/> bytes of UTF-8
-    /// without control characters; default empty. Two peers may have the same.
+    /// What the others are shown as this peer's name in <see cref="Session.Roster"/>: up to <see cref="MaxNameBytes"/> bytes of UTF-8;
+    /// default empty. Two peers may have the same. <see cref="WhyNoName"/> has the rule.
     /// </summary>
     /// <remarks>If a host admits by connect tokens, the name in a player's token counts instead, if there is one.</remarks>
     public string Name { get; init; } = "";
@@ -243,8 +244,13 @@ public abstract record SessionOptions
     /// <summary>
     /// Why a text cannot be a <see cref="Name"/>, as the rest of a sentence; null if it can. From any thread.
     /// </summary>
+    /// <remarks>
+    /// A name holds no control characters, and no character that shows nothing: none that changes the direction of text, no separators and
+    /// blanks but the plain space, nothing of zero width; and it is not blanks alone. No number in it stands by itself, as in <c>2</c> or
+    /// <c>Ann, 2 player Bob</c>, since that reads as a player's number; <c>Ann2</c>, <c>Ann-2</c> and <c>2nd</c> can be names.
+    /// </remarks>
     /// <exception cref="ArgumentNullException">The text is null.</exception>
-    public static string? WhyNoName(string name) => RosterEntry.WhyNoName(name ?? throw new ArgumentNullException(nameof(name)));
+    public static string? WhyNoName(string name) => PlayerName.WhyNone(name ?? throw new ArgumentNullException(nameof(name)));
 
     /// <summary>Whether datagrams are encrypted and authenticated.</summary>
     internal abstract bool IsProtected { get; }
@@ -297,7 +303,7 @@ public abstract record SessionOptions
             throw new ArgumentException("A peer's name may be empty, but not null.", nameof(Name));
         }
 
-        if (RosterEntry.WhyNoName(Name) is string why)
+        if (PlayerName.WhyNone(Name) is string why)
         {
             throw new ArgumentException($"The peer's name is not one to show: {why}", nameof(Name));
         }

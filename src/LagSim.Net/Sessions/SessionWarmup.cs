@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Runtime.CompilerServices;
+using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -43,6 +44,7 @@ internal sealed class SessionWarmup
     private const int TurnsAFrame = 3;
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
+    private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(20);
     private static readonly object Gate = new();
     private static readonly List<LateEventStrategy> Done = new(); // the strategies warmed up so far
 
@@ -51,14 +53,17 @@ internal sealed class SessionWarmup
     private readonly WarmupPort clientPort;
     private readonly PeerThread host;
     private readonly PeerThread client;
+    private readonly Func<bool>? isOver;
 
     // These threads are never started: the caller steps the sessions.
-    private SessionWarmup(LateEventStrategy strategy, Scene scene)
+    private SessionWarmup(LateEventStrategy strategy, Scene scene, Func<bool>? isOver)
     {
+        this.isOver = isOver;
         (hostPort, clientPort) = WarmupPort.Pair();
         host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, MaxSpawnedBodies), 1), hostPort, "warm-up host");
         for (int n = 0; n < FramesToStart; n++)
         {
+            ThrowIfOver();
             clock.Now += Frame;
             host.Step();
         }
@@ -96,40 +101,60 @@ internal sealed class SessionWarmup
     /// Warms up for a strategy, once per process; a concurrent caller waits until it is done. Does nothing where no code is compiled at run
     /// time. From any thread.
     /// </summary>
-    internal static void Once(LateEventStrategy strategy)
+    /// <param name="strategy">How late events are handled; <see cref="SessionOptions.Strategy"/>.</param>
+    /// <param name="isOver">Whether the caller wants an end, within a frame; then the next caller warms up.</param>
+    internal static void Once(LateEventStrategy strategy, Func<bool> isOver)
     {
-        if (!RuntimeFeature.IsDynamicCodeCompiled)
+        while (RuntimeFeature.IsDynamicCodeCompiled && !isOver())
+        {
+            if (Monitor.TryEnter(Gate, LookInterval))
+            {
+                try
+                {
+                    OnceOfAll(strategy, isOver);
+                    return;
+                }
+                finally
+                {
+                    Monitor.Exit(Gate);
+                }
+            }
+        }
+    }
+
+    private static void OnceOfAll(LateEventStrategy strategy, Func<bool> isOver)
+    {
+        if (Done.Contains(strategy))
         {
             return;
         }
 
-        lock (Gate)
+        try
         {
-            if (Done.Contains(strategy))
-            {
-                return;
-            }
-
-            Done.Add(strategy);
-            try
-            {
-                Run(strategy, EveryKind, few: true);
-                Run(strategy, EveryKind, few: false);
-            }
-            catch (Exception failure) when (failure is not OutOfMemoryException)
-            {
-                // The session just loses some milliseconds at its first event.
-            }
+            Run(strategy, EveryKind, few: true, isOver);
+            Run(strategy, EveryKind, few: false, isOver);
         }
+        catch (OperationCanceledException)
+        {
+            return;
+        }
+        catch (Exception failure) when (failure is not OutOfMemoryException)
+        {
+            // The session just loses some milliseconds at its first event.
+        }
+
+        Done.Add(strategy);
     }
 
     /// <summary>Warms up, even if it was done before.</summary>
     /// <param name="strategy">How late events are handled; <see cref="SessionOptions.Strategy"/>.</param>
     /// <param name="kinds">The kinds of events to play.</param>
     /// <param name="few">Whether among a few bodies of all kinds, or among many; <see cref="WarmupScene.Of"/>.</param>
-    internal static SessionWarmup Run(LateEventStrategy strategy, IReadOnlyList<EventKind> kinds, bool few)
+    /// <param name="isOver">Whether to end early; looked at in every frame.</param>
+    /// <exception cref="OperationCanceledException">It ended early.</exception>
+    internal static SessionWarmup Run(LateEventStrategy strategy, IReadOnlyList<EventKind> kinds, bool few, Func<bool>? isOver = null)
     {
-        SessionWarmup warmup = new(strategy, WarmupScene.Of(few));
+        SessionWarmup warmup = new(strategy, WarmupScene.Of(few), isOver);
         warmup.Play(kinds);
         return warmup;
     }
@@ -213,10 +238,19 @@ internal sealed class SessionWarmup
         }
     }
 
+    private void ThrowIfOver()
+    {
+        if (isOver?.Invoke() == true)
+        {
+            throw new OperationCanceledException();
+        }
+    }
+
     private void Run(int frames)
     {
         for (int n = 0; n < frames; n++)
         {
+            ThrowIfOver();
             clock.Now += Frame;
             for (int turn = 0; turn < TurnsAFrame; turn++)
             {

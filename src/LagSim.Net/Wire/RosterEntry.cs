@@ -1,5 +1,6 @@
 using System;
 using System.Text;
+using LagSim.Net.Protection;
 using LagSim.Time;
 
 namespace LagSim.Net.Wire;
@@ -9,7 +10,7 @@ namespace LagSim.Net.Wire;
 internal readonly struct RosterEntry
 {
     /// <summary>The longest name, in bytes of UTF-8.</summary>
-    public const int MaxNameBytes = 64;
+    public const int MaxNameBytes = PlayerName.MaxBytes;
 
     /// <summary>The role of a number that nobody has.</summary>
     public const byte NoRole = 0;
@@ -57,32 +58,11 @@ internal readonly struct RosterEntry
     public bool IsSame(in RosterEntry other) => Number == other.Number && Role == other.Role && Visit == other.Visit
         && (Role == NoRole || SilentSince == other.SilentSince) && string.Equals(Name, other.Name, StringComparison.Ordinal);
 
-    /// <summary>Returns what is wrong with a name, as a sentence; null if nothing is.</summary>
-    internal static string? WhyNoName(string name)
-    {
-        for (int at = 0; at < name.Length; at++)
-        {
-            if (char.IsControl(name[at]))
-            {
-                return FormattableString.Invariant($"it holds the control character U+{(int)name[at]:X4}, which could change")
-                    + " what a terminal shows.";
-            }
-
-            if (char.IsSurrogate(name[at]) && !char.IsSurrogatePair(name, at++))
-            {
-                return "it holds half a surrogate pair, which is no character.";
-            }
-        }
-
-        int bytes = Encoding.UTF8.GetByteCount(name);
-        return bytes <= MaxNameBytes ? null : $"'{name}' has {bytes} bytes of UTF-8; at most {MaxNameBytes} are allowed.";
-    }
-
-    /// <summary>Reads a name; the reader refuses what <see cref="WhyNoName"/> does.</summary>
+    /// <summary>Reads a name; the reader refuses what <see cref="PlayerName"/> does.</summary>
     internal static string ReadName(ref WireReader reader)
     {
         string name = WireText.Read(ref reader);
-        reader.Require(WhyNoName(name) is null);
+        reader.Require(PlayerName.WhyNone(name) is null);
         return name;
     }
 

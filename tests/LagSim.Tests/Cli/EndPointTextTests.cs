@@ -1,5 +1,9 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 using System.Net;
+using System.Net.Sockets;
+using System.Threading.Tasks;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using Xunit;
@@ -61,6 +65,31 @@ public sealed class EndPointTextTests
         Tool.Refuses(3, ["join", text, "--timeout-s", "600"], $"{named} is no host to join: it takes the address of one machine and a port from 1 to 65535.");
         Tool.Refuses(3, ["relay", text, "--profile", "lan"], $"{named} is no host to relay to: it takes the address of one machine and a port from 1 to 65535.");
     }
+
+    /// <summary>The first is the system's choice, and after it comes one of each kind in turn; a relay, which takes one, takes IPv4.</summary>
+    [Theory]
+    [InlineData("2001:db8::1 192.0.2.1", "2001:db8::1 192.0.2.1", "192.0.2.1")]
+    [InlineData("192.0.2.1 2001:db8::1", "192.0.2.1 2001:db8::1", "192.0.2.1")]
+    [InlineData("2001:db8::1 2001:db8::2 2001:db8::3 192.0.2.1 192.0.2.2", "2001:db8::1 192.0.2.1 2001:db8::2 192.0.2.2 2001:db8::3", "192.0.2.1")]
+    [InlineData("192.0.2.1 192.0.2.1 192.0.2.2", "192.0.2.1 192.0.2.2", "192.0.2.1")]
+    [InlineData("0.0.0.0 192.0.2.1", "192.0.2.1", "192.0.2.1")]
+    [InlineData("192.0.2.1 192.0.2.2 192.0.2.3 192.0.2.4 192.0.2.5 192.0.2.6 192.0.2.7", "192.0.2.1 192.0.2.2 192.0.2.3 192.0.2.4 192.0.2.5 192.0.2.6", "192.0.2.1")]
+    public void ResolveAll_NameOfSeveralAddresses_GivesThemInTurn(string known, string tried, string one)
+    {
+        Assert.SkipUnless(Socket.OSSupportsIPv6, "Without IPv6 on this machine only IPv4 is tried.");
+        Assert.Equal(tried.Split(' ').Select(address => new IPEndPoint(IPAddress.Parse(address), 7)), All(known));
+        Assert.Equal(IPAddress.Parse(one), EndPointText.First(All(known)).Address);
+    }
+
+    [Fact]
+    public void ResolveAll_NameWithoutAnAddress_IsRefusedByName() =>
+        Assert.Equal("The host 'some.name' has no IP address.", Assert.Throws<InputException>(() => All("")).Message);
+
+    private static IReadOnlyList<IPEndPoint> All(string known) => EndPointText.ResolveAll(
+        "some.name:7",
+        "join",
+        TestContext.Current.CancellationToken,
+        (_, _) => Task.FromResult<IPAddress[]>([.. known.Split(' ', StringSplitOptions.RemoveEmptyEntries).Select(IPAddress.Parse)]));
 
     [Fact]
     public void Resolve_UnknownName_IsRefusedByName()

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using System.Text.Json;
 using LagSim.Net.Recordings;
 using LagSim.Tests.Recordings;
 using Xunit;
@@ -139,6 +140,27 @@ public sealed class ProcessTests
         Assert.Single(all, process => process.ToString().Contains("another process is writing it", StringComparison.Ordinal));
         Assert.Contains("2 committed states", Tool.Run("diff", folder["both"], folder["both"]).Done().Output, StringComparison.Ordinal);
         Assert.DoesNotContain("damaged", Tool.Run("replay", folder["both"]).Done().Output, StringComparison.Ordinal);
+    }
+
+    /// <summary>A terminal that is closed ends a session as a request to terminate does.</summary>
+    [Fact]
+    public void Host_WhoseTerminalIsClosed_SaysGoodbyeAndWritesItsDocumentAndTheEndOfItsRecording()
+    {
+        Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no signal that a test can send.");
+        Assert.SkipWhen(ToolProcess.IgnoresHangup(), "The signal is ignored here, and by what is started from here.");
+        using TemporaryFolder folder = new();
+        using ToolProcess host = ToolProcess.Start($"host --scene pair --joiners 1 --history-s 0.2 --json --record {folder["0"]}");
+        string listening = host.Error.WaitFor(line => line.StartsWith("listening on ", StringComparison.Ordinal), LiveTool.Deadline) ?? $"{host}";
+        using ToolProcess client = ToolProcess.Start($"join {listening.Split(' ')[2]}");
+        client.Says("T 1 s ");
+        host.CloseTerminal();
+        host.Ends(129);
+        client.Ends(0); // at once, and not by its timeout
+        Assert.Contains(" ended the session.", client.Output.ToString(), StringComparison.Ordinal);
+        using JsonDocument document = JsonDocument.Parse(host.Output.ToString());
+        Assert.Equal("left", document.RootElement.GetProperty("ended_by").GetString());
+        using JsonDocument replayed = JsonDocument.Parse(Tool.Run("replay", folder["0"], "--json").Done().Output);
+        Assert.True(replayed.RootElement.GetProperty("whole").GetBoolean());
     }
 
     /// <summary>That all print the same at each time that they share, which must be so many.</summary>

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.IO;
 using System.IO.Pipes;
 using System.Linq;
@@ -131,6 +132,17 @@ public sealed class StoppingTests
         using FullStream failing = new();
         IOException failure = Assert.Throws<IOException>(() => new NamedStream("stdout", failing).Write("x"u8));
         Assert.Equal("stdout cannot be written: no room.", failure.Message);
+    }
+
+    /// <summary>Where not even a failure can be told, as on a terminal that was closed, the tool ends with a code all the same.</summary>
+    [Fact]
+    [Trait("Time", "real")]
+    public void Process_WhoseErrorsCannotBeWritten_EndsWithACode()
+    {
+        Assert.SkipUnless(File.Exists("/dev/full"), "This system has no device that is full.");
+        using Process process = Process.Start("/bin/sh", ["-c", $"'{ToolProcess.Dotnet}' '{typeof(Program).Assembly.Location}' replay no-such.lagsim 2>/dev/full"]);
+        Assert.True(process.WaitForExit(LiveTool.Deadline));
+        Assert.Equal(3, process.ExitCode);
     }
 
     [Fact]

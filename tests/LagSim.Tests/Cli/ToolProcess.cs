@@ -11,7 +11,12 @@ namespace LagSim.Tests.Cli;
 /// <summary>The built tool as a process of its own.</summary>
 internal sealed class ToolProcess : IDisposable
 {
+    private const int Hangup = 1; // SIGHUP
     private const int Interrupt = 2; // SIGINT
+
+    /// <summary>What runs the tool.</summary>
+    internal static readonly string Dotnet =
+        Path.Combine(RuntimeEnvironment.GetRuntimeDirectory(), "..", "..", "..", OperatingSystem.IsWindows() ? "dotnet.exe" : "dotnet");
 
     private readonly Process process;
     private readonly string line;
@@ -19,7 +24,7 @@ internal sealed class ToolProcess : IDisposable
     private ToolProcess(string line)
     {
         this.line = line;
-        ProcessStartInfo start = new(Path.Combine(RuntimeEnvironment.GetRuntimeDirectory(), "..", "..", "..", OperatingSystem.IsWindows() ? "dotnet.exe" : "dotnet"))
+        ProcessStartInfo start = new(Dotnet)
         {
             RedirectStandardOutput = true,
             RedirectStandardError = true,
@@ -69,15 +74,23 @@ internal sealed class ToolProcess : IDisposable
         Output.WaitFor(said => said.StartsWith(begin, StringComparison.Ordinal), LiveTool.Deadline) is not null, $"'{line}' does not say '{begin}': {this}");
 
     /// <summary>Whether this process was started with Ctrl-C ignored, as a shell does with what it runs in the background: then so are those it starts.</summary>
-    internal static bool IgnoresControlC()
+    internal static bool IgnoresControlC() => Ignores(Interrupt);
+
+    /// <summary>Whether this process was started with the end of its terminal ignored, as by <c>nohup</c>.</summary>
+    internal static bool IgnoresHangup() => Ignores(Hangup);
+
+    private static bool Ignores(int signal)
     {
         const string status = "/proc/self/status";
         string? ignored = File.Exists(status) ? File.ReadLines(status).FirstOrDefault(line => line.StartsWith("SigIgn:", StringComparison.Ordinal)) : null;
-        return ignored is not null && (Convert.ToUInt64(ignored.Split('\t')[1], 16) & (1UL << (Interrupt - 1))) != 0;
+        return ignored is not null && (Convert.ToUInt64(ignored.Split('\t')[1], 16) & (1UL << (signal - 1))) != 0;
     }
 
     /// <summary>Presses Ctrl-C.</summary>
     internal void PressControlC() => Assert.Equal(0, Kill(process.Id, Interrupt));
+
+    /// <summary>Closes its terminal.</summary>
+    internal void CloseTerminal() => Assert.Equal(0, Kill(process.Id, Hangup));
 
     internal void KillAtOnce() => process.Kill();
 

@@ -227,7 +227,7 @@ public sealed class RosterTests
     {
         SessionGroup group = new(
             ScriptedActions.Box(), SessionOptions.MaxClients + 1, LinkProfiles.PureDelay(25),
-            options: peer => Host($"peer {peer}"));
+            options: peer => Host($"peer{peer}"));
         group.Connect();
         int done = 0;
         for (int n = 0; n < 8; n++)

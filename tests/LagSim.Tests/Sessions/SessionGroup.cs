@@ -105,8 +105,8 @@ internal sealed class SessionGroup
     internal ClientSession Client(int peer) => (ClientSession)Sessions[peer];
 
     /// <summary>One more client, which knows nothing of the scene, at an address of its own.</summary>
-    internal ClientSession Join(int address, ulong nonce, ClientOptions? options = null) =>
-        (ClientSession)Add(address, null, options ?? new ClientOptions(), nonce);
+    internal ClientSession Join(int address, ulong nonce, ClientOptions? options = null, PeerAddress? host = null) =>
+        (ClientSession)Add(address, null, options ?? new ClientOptions(), nonce, host);
 
     /// <summary>Kills the host, and starts one at its address that knows nothing of it.</summary>
     internal HostSession RestartHost(HostOptions options)
@@ -217,14 +217,14 @@ internal sealed class SessionGroup
         return null;
     }
 
-    private Session Add(int address, Scene? scene, SessionOptions options, ulong nonce)
+    private Session Add(int address, Scene? scene, SessionOptions options, ulong nonce, PeerAddress? host = null)
     {
         IDatagramPort port = wrap?.Invoke(address, Network.CreatePort(address)) ?? Network.CreatePort(address);
         SkewedClock own = new(Clock, (luck.NextDouble() * 40) - 20, SimDuration.FromSeconds(luck.NextDouble() * 3600));
         ports.Add(port);
         Session session = Sessions.Count == 0
             ? new HostSession(scene!, port, own, HostOptions.From(options), SessionId)
-            : new ClientSession(scene, port, own, ClientOptions.From(options), PeerAddress.Virtual(0), nonce);
+            : new ClientSession(scene, port, own, ClientOptions.From(options), host ?? PeerAddress.Virtual(0), nonce);
         steps.Add(session, port);
         return session;
     }

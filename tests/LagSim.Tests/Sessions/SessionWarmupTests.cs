@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Harness.SceneFiles;
@@ -55,7 +56,7 @@ public sealed class SessionWarmupTests
         HostOptions options = new() { Warmup = isOn, Strategy = LateEventStrategy.FullRollback };
         List<LateEventStrategy> warmed = [];
         HostSession session = new(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7);
-        using PeerThread thread = new(session, port, "test", ownsPort: false, warmed.Add);
+        using PeerThread thread = new(session, port, "test", ownsPort: false, (strategy, _) => warmed.Add(strategy));
         Task<int> asked = thread.Ask(_ => warmed.Count);
 
         thread.Step();
@@ -64,6 +65,51 @@ public sealed class SessionWarmupTests
         Assert.Equal(expected, warmed);
         Assert.Equal(expected.Length, await asked);
         Assert.True(new HostOptions().Warmup);
+    }
+
+    /// <summary>A process that is asked to end while it warms up has no time to lose: it is killed two seconds later.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public async Task Thread_SkippedOrDisposedWhileItWarmsUp_EndsTheWarmupAndAnswers(bool isSkipped)
+    {
+        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        using ManualResetEventSlim begun = new();
+        bool hasEndedEarly = false;
+        HostSession session = new(BuiltInScenes.Pair(), port, new VirtualClock(), new HostOptions(), 7);
+        using PeerThread thread = new(session, port, "test", ownsPort: false, (_, isOver) =>
+        {
+            Assert.False(isOver()); // the control: nobody has asked for an end yet
+            begun.Set();
+            hasEndedEarly = SpinWait.SpinUntil(isOver, TimeSpan.FromSeconds(30));
+        });
+        thread.Start();
+        Assert.True(begun.Wait(TimeSpan.FromSeconds(30), TestContext.Current.CancellationToken));
+        Task<bool> asked = thread.Ask(_ => true);
+        if (isSkipped)
+        {
+            thread.SkipWarmup();
+            Assert.True(await asked);
+        }
+
+        thread.Dispose();
+        Assert.True(hasEndedEarly);
+        Assert.True(asked.IsCompleted);
+    }
+
+    [Theory]
+    [InlineData(0)]
+    [InlineData(10)] // while the host is alone
+    [InlineData(100)]
+    public void Run_ToldToEnd_EndsWithinAFrame(int frames)
+    {
+        int looks = 0;
+        Assert.Throws<OperationCanceledException>(
+            () => SessionWarmup.Run(LateEventStrategy.Healing, SessionWarmup.EveryKind, few: true, () => looks++ == frames));
+        Assert.Equal(frames + 1, looks);
+        SessionWarmup whole = SessionWarmup.Run(LateEventStrategy.Healing, SessionWarmup.EveryKind, few: true, () => looks++ < 0);
+        Assert.Equal(PlayersKinds, whole.HeardByHost); // the control: it goes to its end unless it is told to
+        Assert.InRange(looks, 150, int.MaxValue);
     }
 
     [Fact]

@@ -32,7 +32,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         Parts = parts;
         attempts = new JoinAttempts(nonce, parts.Clock.Now);
         suspend = new SuspendDetector(options.Timeout / 2);
-        Connection = new HostConnection(host, parts.Links, parts.Self, parts.Sender, parts.Counters);
+        Connection = new HostConnection(host, options.OtherAddresses, parts.Links, parts.Self, parts.Sender, parts.Counters);
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
         UnprovenAnswers unproven = new();
         requests = new JoinRequests(
@@ -99,16 +99,16 @@ internal sealed class ClientProtocol : ISessionProtocol
 
     public void OnOtherVersion(ReadOnlySpan<byte> datagram, PeerAddress from)
     {
-        if (from == Connection.Host && RefusalDatagram.TryReadAnyVersion(datagram, out ulong nonce, out byte version))
+        if (Connection.IsHost(from) && RefusalDatagram.TryReadAnyVersion(datagram, out ulong nonce, out byte version))
         {
-            requests.OnOtherVersion(nonce, version);
+            requests.OnOtherVersion(nonce, version, from);
         }
     }
 
     public void OnDatagram(DatagramType type, ReadOnlySpan<byte> datagram, PeerAddress from, bool isSealed)
     {
         SessionCounters counters = Parts.Counters;
-        if (from != Connection.Host || Parts.Status.HasEnded)
+        if (!Connection.IsHost(from) || Parts.Status.HasEnded)
         {
             counters.DatagramsIgnored++;
             return;
@@ -118,7 +118,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         {
             case DatagramType.Challenge when counters.IsWellFormed(
                 ChallengeDatagram.TryDecode(datagram, out ChallengeDatagram challenge, out _)):
-                requests.OnChallenge(challenge);
+                requests.OnChallenge(challenge, from);
                 break;
             case DatagramType.Welcome when counters.IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)):
                 requests.OnWelcome(welcome);
@@ -139,7 +139,7 @@ internal sealed class ClientProtocol : ISessionProtocol
                 Loss.OnReset(reset);
                 break;
             case DatagramType.Refusal when counters.IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)):
-                requests.OnRefusal(refusal, isSealed);
+                requests.OnRefusal(refusal, isSealed, from);
                 break;
             case DatagramType.SnapshotChunk when counters.IsWellFormed(SnapshotChunkDatagram.TryDecode(datagram, out SnapshotChunkDatagram chunk, out _)):
                 snapshot.OnSnapshotChunk(chunk, datagram.Length);

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
@@ -10,25 +11,51 @@ namespace LagSim.Net.Sessions.Clients;
 /// <summary>A client's end of the link to the host, with the data in transit: its own events up, the host's log down.</summary>
 internal sealed class HostConnection
 {
+    /// <summary>How long each further address of the host waits for the one before it (RFC 8305, 8).</summary>
+    internal static readonly SimDuration AttemptDelay = SimDuration.FromMilliseconds(250);
+
+    private readonly List<PeerAddress> candidates; // what may be the host's address; the only one once it has answered
     private readonly LinkFactory links;
     private readonly PlayerIdentity self;
     private readonly DatagramSender sender;
     private readonly SessionCounters counters;
 
-    internal HostConnection(PeerAddress host, LinkFactory links, PlayerIdentity self, DatagramSender sender, SessionCounters counters)
+    internal HostConnection(
+        PeerAddress host, IEnumerable<PeerAddress> others, LinkFactory links, PlayerIdentity self, DatagramSender sender,
+        SessionCounters counters)
     {
-        Host = host;
+        candidates = new List<PeerAddress> { host };
+        candidates.AddRange(others);
         this.links = links;
         this.self = self;
         this.sender = sender;
         this.counters = counters;
     }
 
-    /// <summary>The host's address.</summary>
-    internal PeerAddress Host { get; }
+    /// <summary>The host's address; the one that is asked first while several may be it.</summary>
+    internal PeerAddress Host => candidates[0];
 
     /// <summary>What sentences call the host: an address is told only where it says something to a person.</summary>
-    internal string Name => Host.IsVirtual ? "host" : $"host at {Host}";
+    internal string Name => Host.IsVirtual ? "host" : $"host at {string.Join(" or ", candidates)}";
+
+    /// <summary>Whether it is the host's address, as far as is known.</summary>
+    internal bool IsHost(PeerAddress address) => candidates.Contains(address);
+
+    /// <summary>Which addresses to ask after a time without an answer: the first at once, each further one a while after the one before.</summary>
+    internal IEnumerable<PeerAddress> ToAsk(SimDuration asked)
+    {
+        for (int n = 0; n < candidates.Count && asked >= AttemptDelay * n; n++)
+        {
+            yield return candidates[n];
+        }
+    }
+
+    /// <summary>Settles which address is the host's: it answered, and the others are not asked any more.</summary>
+    internal void Choose(PeerAddress host)
+    {
+        candidates.Clear();
+        candidates.Add(host);
+    }
 
     /// <summary>The link; null while there is none.</summary>
     internal UpdateLink? Link { get; private set; }

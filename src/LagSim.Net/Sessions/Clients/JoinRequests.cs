@@ -1,5 +1,6 @@
 using System;
 using System.Diagnostics.CodeAnalysis;
+using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
@@ -37,11 +38,15 @@ internal sealed class JoinRequests(
         else
         {
             Span<byte> bytes = stackalloc byte[WireFormat.ConnectRequestBytes];
-            sender.Send(bytes.Slice(0, new ConnectRequestDatagram(attempt.Nonce).Encode(bytes)), connection.Host);
+            int length = new ConnectRequestDatagram(attempt.Nonce).Encode(bytes);
+            foreach (PeerAddress to in connection.ToAsk(now - attempt.Began))
+            {
+                sender.Send(bytes.Slice(0, length), to);
+            }
         }
     }
 
-    internal void OnChallenge(in ChallengeDatagram challenge)
+    internal void OnChallenge(in ChallengeDatagram challenge, PeerAddress from)
     {
         SimTime now = clock.Now;
         if (attempts.Current is not JoinAttempt attempt || attempt.IsWelcome || challenge.Nonce != attempt.Nonce)
@@ -50,7 +55,7 @@ internal sealed class JoinRequests(
         }
         else if (!attempt.Has(challenge.Cookie, now))
         {
-            Join(attempt, challenge, now);
+            Join(attempt, challenge, from, now);
         }
     }
 
@@ -148,7 +153,8 @@ internal sealed class JoinRequests(
     /// <summary>Handles a refusal that is not part of a handshake.</summary>
     /// <param name="refusal">The refusal: of the current attempt, or over the link of the session id that it has for a nonce.</param>
     /// <param name="isSealed">Whether it came over the protected link.</param>
-    internal void OnRefusal(in RefusalDatagram refusal, bool isSealed)
+    /// <param name="from">Where it came from.</param>
+    internal void OnRefusal(in RefusalDatagram refusal, bool isSealed, PeerAddress from)
     {
         bool isOfLink = connection.Link is UpdateLink link && refusal.Nonce == link.SessionId && isSealed == options.IsProtected;
         if (isOfLink && attempts.Current is not null)
@@ -157,13 +163,13 @@ internal sealed class JoinRequests(
         }
         else
         {
-            TakeUnproven(refusal.Nonce, refusal.Reason, Sentence(refusal.Reason));
+            TakeUnproven(refusal.Nonce, refusal.Reason, Sentence(refusal.Reason), from);
         }
     }
 
     /// <summary>Handles a host that speaks another version of the protocol.</summary>
-    internal void OnOtherVersion(ulong nonce, byte version) =>
-        TakeUnproven(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.");
+    internal void OnOtherVersion(ulong nonce, byte version, PeerAddress from) =>
+        TakeUnproven(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.", from);
 
     private static string Sentence(RefusalReason reason, uint secondsOff = 0) => reason switch
     {
@@ -205,7 +211,7 @@ internal sealed class JoinRequests(
     }
 
     /// <summary>Makes the join that brings a cookie back, and the handshake with the host that sent it.</summary>
-    private void Join(JoinAttempt attempt, in ChallengeDatagram challenge, SimTime now)
+    private void Join(JoinAttempt attempt, in ChallengeDatagram challenge, PeerAddress from, SimTime now)
     {
         PlayerPass former = seat.Pass ?? default;
         PublicIdentity shown = options.IsProtected ? challenge.Identity : default;
@@ -218,6 +224,7 @@ internal sealed class JoinRequests(
         {
             byte[] plain = new byte[join.EncodedLength];
             join.Encode(plain);
+            connection.Choose(from);
             attempt.Take(new PreparedJoin(challenge.Cookie, plain, null, now), now);
         }
         else if (challenge.Identity.IsNone)
@@ -234,6 +241,7 @@ internal sealed class JoinRequests(
             byte[] secure = new byte[IHostProtection.HandshakeOverhead + join.EncodedLength + options.Token.Length];
             if (SecureJoinDatagram.Encode(secure, join, options.Token.Span, challenge.Identity, protection) is IClientHandshake handshake)
             {
+                connection.Choose(from);
                 attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);
             }
             else
@@ -256,7 +264,7 @@ internal sealed class JoinRequests(
     /// <summary>
     /// Handles a refusal in clear text: in a session without protection it counts, in a protected one it may be anybody's.
     /// </summary>
-    private void TakeUnproven(ulong nonce, RefusalReason? reason, string why)
+    private void TakeUnproven(ulong nonce, RefusalReason? reason, string why, PeerAddress from)
     {
         if (attempts.Current is not JoinAttempt attempt || nonce != attempt.Nonce)
         {
@@ -269,6 +277,7 @@ internal sealed class JoinRequests(
         }
         else
         {
+            connection.Choose(from);
             End(reason, why);
         }
     }

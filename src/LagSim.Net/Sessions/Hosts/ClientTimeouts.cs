@@ -42,8 +42,16 @@ internal sealed class ClientTimeouts
     internal SimDuration TimeoutWithCopy(JoinSnapshot copy) =>
         timeout + SilentPlace + SimDuration.FromSeconds(copy.Bytes.Length / slowestCopy);
 
-    /// <summary>When a client that never sent an update is given up.</summary>
-    internal SimTime GivenUpAt(Client client) => client.Link.Heard + TimeoutWith(client) + SimDuration.OneTick;
+    /// <summary>
+    /// When to look again at a client that is only waited for: once it is given up, or sooner, so that the pause does not look like a suspend
+    /// of this machine.
+    /// </summary>
+    internal SimTime NextLook(Client client, SimTime now)
+    {
+        SimTime silent = client.Link.Heard + TimeoutWith(client);
+        SimTime givenUp = client.Peer == 0 ? SimTime.Min(silent, client.Claim.Until) : silent;
+        return SimTime.Min(givenUp + SimDuration.OneTick, now + (timeout / 4));
+    }
 
     internal void Tend(SimTime now)
     {
@@ -65,7 +73,7 @@ internal sealed class ClientTimeouts
         }
     }
 
-    private SimDuration TimeoutWith(Client client) => client.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
+    private SimDuration TimeoutWith(Client client) => client.Speaking.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
 
     /// <summary>Whether a client is so far behind, without getting closer, that a fresh snapshot is faster.</summary>
     /// <remarks>
