@@ -40,8 +40,7 @@ public sealed class SecureClient : IClientProtection
     public static SecureClient TrustOnFirstUse() => new();
 
     /// <inheritdoc/>
-    public IClientHandshake? Begin(
-        ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> payload, Span<byte> message)
+    public IClientHandshake? Begin(ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue)
     {
         HostFingerprint shown = HostFingerprint.OfPublicKey(identity);
         if (Host is HostFingerprint wanted && wanted != shown)
@@ -51,7 +50,7 @@ public sealed class SecureClient : IClientProtection
 
         NoiseSymmetricState state = NoiseHandshake.Begin(prologue, identity);
         Curve25519KeyPair own = Curve25519KeyPair.Draw();
-        if (!NoiseHandshake.TryWriteFirst(state, own, identity, payload, message))
+        if (!NoiseHandshake.TryMixFirst(state, own, identity))
         {
             state.Dispose();
             own.Dispose();

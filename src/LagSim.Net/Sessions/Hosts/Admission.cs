@@ -24,7 +24,7 @@ internal sealed class Admission(
     /// <returns>The client; null if it may not join and was refused, or if it has to ask again.</returns>
     internal Client? Admit(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply, SimTime now)
     {
-        JoinIdentity who = identification.Of(join, token);
+        JoinIdentity who = identification.Of(join, token, reply.Binding);
         if (rules.WhyNot(join, who, from, now) is RefusalReason reason)
         {
             counters.DatagramsIgnored++;
