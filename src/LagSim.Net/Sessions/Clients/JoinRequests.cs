@@ -188,6 +188,8 @@ internal sealed class JoinRequests(
         RefusalReason.TokenNotYetValid => $"the connect token's time begins in {secondsOff} s, by the host's clock: the clocks of"
             + " host and backend differ.",
         RefusalReason.TokenUsed => "a player came in with the connect token before. Ask for another.",
+        RefusalReason.TooManyWrongKeys => "too many wrong keys came from this address; it looks at no key from here for "
+            + (secondsOff > 0 ? $"another {secondsOff} s." : "a while."),
         _ => $"reason {(int)reason}.",
     };
 
@@ -283,7 +285,7 @@ internal sealed class JoinRequests(
     private void End(RefusalReason? reason, string why)
     {
         bool isKnown = status.IsRejoining || (options.Pass.Number > 0 && clock.Now - attempts.Began <= options.RejoinTime);
-        if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
+        if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress or RefusalReason.TooManyWrongKeys)
         {
             attempts.Restart(clock.Now + SimDuration.FromSeconds(1)); // a place may become free
             connection.Close();
