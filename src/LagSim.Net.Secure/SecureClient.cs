@@ -16,6 +16,7 @@ namespace LagSim.Net.Protection;
 /// </example>
 public sealed class SecureClient : IClientProtection
 {
+    private volatile object? other; // likewise
     private volatile object? trusted; // a boxed fingerprint, so that other threads read it whole
 
     /// <summary>Joins only the host with this fingerprint.</summary>
@@ -29,6 +30,11 @@ public sealed class SecureClient : IClientProtection
     /// The fingerprint of the host that this client joins; null while it joins whichever host answers first, and none has.
     /// </summary>
     public HostFingerprint? Host => (HostFingerprint?)trusted;
+
+    /// <summary>
+    /// The fingerprint that the last host showed which answered and is not the one to join; null while none has. Nothing proves it.
+    /// </summary>
+    public HostFingerprint? Other => (HostFingerprint?)other;
 
     /// <inheritdoc/>
     public bool KnowsHost => trusted is not null;
@@ -45,6 +51,7 @@ public sealed class SecureClient : IClientProtection
         HostFingerprint shown = HostFingerprint.OfPublicKey(identity);
         if (Host is HostFingerprint wanted && wanted != shown)
         {
+            other = shown;
             return null;
         }
 
