@@ -3,7 +3,6 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;

@@ -45,7 +45,8 @@ public sealed class StolenIdentityTests : IDisposable
         group.Run(1);
         ClientSession ada = group.Join(1, 7, new ClientOptions
         {
-            Protection = Client(isHostAlone), Token = issuer.Issue(new PlayerAdmission("account 4711", "Ada"), identity.Fingerprint, now: Noon),
+            Protection = Client(isHostAlone),
+            Token = issuer.Issue(new PlayerAdmission("account 4711", "Ada"), identity.Fingerprint, now: Noon),
         });
         Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3), ada.EndReason);
 
