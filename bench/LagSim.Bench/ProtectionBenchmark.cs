@@ -37,7 +37,8 @@ public class ProtectionBenchmark
     {
         host = new SecureHost(identity);
         host.WriteIdentity(shown);
-        using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue, claims, join)!;
+        using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue)!;
+        client.Write(claims, join);
         using IHostHandshake read = host.TryRead(prologue, join, claims)!;
         cipher = read.Accept("", terms, welcome);
         sender = new LinkSeal(client.TryFinish("", welcome, terms)!);
@@ -89,7 +90,8 @@ public class ProtectionBenchmark
     [Benchmark]
     public void WholeHandshake()
     {
-        using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue, claims, join)!;
+        using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue)!;
+        client.Write(claims, join);
         using IHostHandshake read = host.TryRead(prologue, join, claims)!;
         using IDatagramCipher hostEnd = read.Accept("", terms, welcome);
         using IDatagramCipher clientEnd = client.TryFinish("", welcome, terms)!;

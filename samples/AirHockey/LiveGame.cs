@@ -42,7 +42,7 @@ public sealed class LiveGame
     {
         RuleNotices notices = new();
         Scene scene = Table.Build(players, new AirHockeyRules(), seed: (ulong)DateTime.UtcNow.Ticks);
-        HostOptions options = new() { Window = Window, ConfirmsEarly = true, RuleNotices = notices, ExpectedClients = players - 1 };
+        HostOptions options = new() { Window = Window, ConfirmsEarly = true, RuleNotices = notices, ExpectedClients = players - 1, Unprotected = true };
         using PeerThread host = PeerThread.Host(scene, port, options);
         Console.WriteLine($"listening on port {host.LocalAddress.ToEndPoint().Port}; waiting for {players - 1}");
         return new LiveGame(host, notices).Play();

@@ -35,7 +35,7 @@ BodyId ball = scene.BodyNamed("ball"), rock = scene.BodyNamed("rock");
 List<PeerThread> peers = [];
 try
 {
-    peers.Add(there is not null ? PeerThread.Join(there) : PeerThread.Host(scene, port));
+    peers.Add(there is not null ? PeerThread.Join(there) : PeerThread.Host(scene, port, new HostOptions { Unprotected = true }));
     PeerThread me = peers[0];
     Console.WriteLine(there is null ? $"listening on port {me.LocalAddress.ToEndPoint().Port}" : $"joining {there}");
     if (isDemo)

@@ -15,7 +15,7 @@ Scene scene = new SceneBuilder("my first world")
 // "join ADDRESS:PORT" makes this program a client; anything else makes it the host.
 using PeerThread me = args is ["join", string address]
     ? PeerThread.Join(IPEndPoint.Parse(address), setUp: Watch)
-    : PeerThread.Host(scene, udpPort: 5000, setUp: Watch);
+    : PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }, setUp: Watch); // or a Protection
 if (!me.WaitUntilRunning(TimeSpan.FromSeconds(15)))
 {
     Console.Error.WriteLine(me.Session.EndReason);

@@ -1,5 +1,6 @@
 // Two peers share a world over UDP: what one does, both have, to the last bit.
 using System;
+using System.Net;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim;
@@ -15,7 +16,7 @@ Scene scene = new SceneBuilder("two peers")
 BodyId ball = scene.BodyNamed("ball");
 
 // On two machines each would have one of these lines; the client gets the scene from the host.
-using PeerThread host = PeerThread.Host(scene);
+using PeerThread host = PeerThread.Host(scene, bind: IPAddress.Loopback);
 using PeerThread client = PeerThread.Join(host.LocalAddress.ToEndPoint());
 if (!host.WaitUntilRunning(TimeSpan.FromSeconds(5)) || !client.WaitUntilRunning(TimeSpan.FromSeconds(5)))
 {

@@ -28,6 +28,7 @@ internal sealed class BouncyCastleAead : Aead
     private readonly byte[] block = new byte[BlockBytes];
     private readonly byte[] lengths = new byte[2 * sizeof(ulong)];
     private readonly byte[] tag = new byte[TagBytes];
+    private byte[] before = new byte[32]; // the associated text, which is no secret
     private byte[] from = new byte[1200];
     private byte[] to = new byte[1200];
     private bool isWiped;
@@ -104,7 +105,13 @@ internal sealed class BouncyCastleAead : Aead
     {
         if (!associated.IsEmpty)
         {
-            Update(associated.ToArray(), associated.Length);
+            if (before.Length < associated.Length)
+            {
+                before = new byte[associated.Length];
+            }
+
+            associated.CopyTo(before);
+            Update(before, associated.Length);
         }
 
         Update(encrypted, length);

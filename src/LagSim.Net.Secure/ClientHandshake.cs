@@ -8,8 +8,9 @@ internal sealed class ClientHandshake : IClientHandshake
     private readonly NoiseSymmetricState state;
     private readonly Curve25519KeyPair own;
     private readonly Action finished;
+    private readonly byte[] binding;
 
-    /// <param name="state">What is known after the client's message.</param>
+    /// <param name="state">What is known after the tokens of the client's message, before its payload.</param>
     /// <param name="own">The client's key of one use.</param>
     /// <param name="finished">Called once an answer has proved the host.</param>
     internal ClientHandshake(NoiseSymmetricState state, Curve25519KeyPair own, Action finished)
@@ -17,7 +18,14 @@ internal sealed class ClientHandshake : IClientHandshake
         this.state = state;
         this.own = own;
         this.finished = finished;
+        binding = state.HandshakeHash.ToArray();
     }
+
+    /// <inheritdoc/>
+    public void WriteBinding(Span<byte> destination) => binding.CopyTo(destination);
+
+    /// <inheritdoc/>
+    public void Write(ReadOnlySpan<byte> payload, Span<byte> message) => NoiseHandshake.WriteFirst(state, own, payload, message);
 
     /// <inheritdoc/>
     public IDatagramCipher? TryFinish(string connectKey, ReadOnlySpan<byte> message, Span<byte> payload)

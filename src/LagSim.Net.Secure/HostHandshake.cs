@@ -3,8 +3,11 @@ using System;
 namespace LagSim.Net.Protection;
 
 /// <summary>A client's handshake message that a host has read.</summary>
-internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey) : IHostHandshake
+internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey, byte[] binding) : IHostHandshake
 {
+    /// <inheritdoc/>
+    public void WriteBinding(Span<byte> destination) => binding.CopyTo(destination);
+
     /// <inheritdoc/>
     public IDatagramCipher Accept(string connectKey, ReadOnlySpan<byte> payload, Span<byte> message)
     {

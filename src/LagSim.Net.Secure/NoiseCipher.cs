@@ -29,10 +29,12 @@ internal sealed class NoiseCipher : IDatagramCipher
     }
 
     /// <inheritdoc/>
-    public void Seal(ulong number, ReadOnlySpan<byte> plain, Span<byte> destination) => sending.Seal(number, plain, destination);
+    public void Seal(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> plain, Span<byte> destination) =>
+        sending.Seal(number, associated, plain, destination);
 
     /// <inheritdoc/>
-    public bool TryOpen(ulong number, ReadOnlySpan<byte> source, Span<byte> plain) => receiving.TryOpen(number, source, plain);
+    public bool TryOpen(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> source, Span<byte> plain) =>
+        receiving.TryOpen(number, associated, source, plain);
 
     private static NoiseCipher Of(NoiseSymmetricState handshake, bool isHost)
     {

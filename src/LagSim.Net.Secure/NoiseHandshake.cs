@@ -22,24 +22,29 @@ internal static class NoiseHandshake
         return state;
     }
 
-    /// <summary>The client's first message: a new key of one use, and the payload for the host's key alone.</summary>
+    /// <summary>The tokens of the client's first message: a new key of one use, agreed on with the host's.</summary>
     /// <returns>False if the host's public key is none.</returns>
-    internal static bool TryWriteFirst(
-        NoiseSymmetricState state, Curve25519KeyPair own, ReadOnlySpan<byte> hostPublicKey, ReadOnlySpan<byte> payload, Span<byte> message)
+    internal static bool TryMixFirst(NoiseSymmetricState state, Curve25519KeyPair own, ReadOnlySpan<byte> hostPublicKey)
+    {
+        MixPublicKey(state, own.PublicKey);
+        return TryMixAgreement(state, own, hostPublicKey);
+    }
+
+    /// <summary>The message after them: the key of one use, and the payload for the host's key alone.</summary>
+    internal static void WriteFirst(NoiseSymmetricState state, Curve25519KeyPair own, ReadOnlySpan<byte> payload, Span<byte> message)
     {
         own.PublicKey.CopyTo(message);
-        MixPublicKey(state, own.PublicKey);
-        if (!TryMixAgreement(state, own, hostPublicKey))
-        {
-            return false;
-        }
-
         state.EncryptAndHash(payload, message.Slice(KeyBytes));
-        return true;
     }
 
     /// <summary>Reads that message.</summary>
-    internal static bool TryReadFirst(NoiseSymmetricState state, Curve25519KeyPair host, ReadOnlySpan<byte> message, Span<byte> payload)
+    /// <param name="state">What is known before it.</param>
+    /// <param name="host">The host's keys.</param>
+    /// <param name="message">The message.</param>
+    /// <param name="payload">Receives the payload.</param>
+    /// <param name="binding">Receives the handshake's hash after the tokens, before the payload.</param>
+    internal static bool TryReadFirst(
+        NoiseSymmetricState state, Curve25519KeyPair host, ReadOnlySpan<byte> message, Span<byte> payload, Span<byte> binding)
     {
         if (message.Length < KeyBytes + Aead.TagBytes)
         {
@@ -48,6 +53,7 @@ internal static class NoiseHandshake
 
         ReadOnlySpan<byte> clientKey = message.Slice(0, KeyBytes);
         MixPublicKey(state, clientKey);
+        state.HandshakeHash.CopyTo(binding);
         return TryMixAgreement(state, host, clientKey) && state.TryDecryptAndHash(message.Slice(KeyBytes), payload);
     }
 

@@ -16,6 +16,7 @@ namespace LagSim.Net.Protection;
 /// </example>
 public sealed class SecureClient : IClientProtection
 {
+    private volatile object? other; // likewise
     private volatile object? trusted; // a boxed fingerprint, so that other threads read it whole
 
     /// <summary>Joins only the host with this fingerprint.</summary>
@@ -30,6 +31,11 @@ public sealed class SecureClient : IClientProtection
     /// </summary>
     public HostFingerprint? Host => (HostFingerprint?)trusted;
 
+    /// <summary>
+    /// The fingerprint that the last host showed which answered and is not the one to join; null while none has. Nothing proves it.
+    /// </summary>
+    public HostFingerprint? Other => (HostFingerprint?)other;
+
     /// <inheritdoc/>
     public bool KnowsHost => trusted is not null;
 
@@ -40,18 +46,18 @@ public sealed class SecureClient : IClientProtection
     public static SecureClient TrustOnFirstUse() => new();
 
     /// <inheritdoc/>
-    public IClientHandshake? Begin(
-        ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> payload, Span<byte> message)
+    public IClientHandshake? Begin(ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue)
     {
         HostFingerprint shown = HostFingerprint.OfPublicKey(identity);
         if (Host is HostFingerprint wanted && wanted != shown)
         {
+            other = shown;
             return null;
         }
 
         NoiseSymmetricState state = NoiseHandshake.Begin(prologue, identity);
         Curve25519KeyPair own = Curve25519KeyPair.Draw();
-        if (!NoiseHandshake.TryWriteFirst(state, own, identity, payload, message))
+        if (!NoiseHandshake.TryMixFirst(state, own, identity))
         {
             state.Dispose();
             own.Dispose();

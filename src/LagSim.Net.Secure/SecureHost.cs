@@ -20,7 +20,7 @@ namespace LagSim.Net.Protection;
 /// </example>
 public sealed class SecureHost : IHostProtection
 {
-    private readonly UsedTokens used = new();
+    private readonly UsedTokens used;
     private readonly TokenKey? tokens;
     private readonly Func<DateTimeOffset> clock;
 
@@ -33,8 +33,10 @@ public sealed class SecureHost : IHostProtection
     {
     }
 
-    internal SecureHost(HostIdentity identity, TokenKey? tokens, Func<DateTimeOffset> clock)
+    // clock is the date, by which tokens are valid; elapsed the time that nobody sets, by which used ones are forgotten.
+    internal SecureHost(HostIdentity identity, TokenKey? tokens, Func<DateTimeOffset> clock, Func<TimeSpan>? elapsed = null)
     {
+        used = new UsedTokens(elapsed);
         this.tokens = tokens;
         this.clock = clock;
         Identity = identity ?? throw new ArgumentNullException(nameof(identity));
@@ -52,14 +54,16 @@ public sealed class SecureHost : IHostProtection
         TokenReading reading = tokens is null
             ? new TokenReading(TokenFault.OtherIssuer)
             : ConnectToken.Read(token, Identity.Fingerprint, tokens, clock());
-        return reading.Fault == TokenFault.None && ConnectToken.TryReadId(token, out (ulong, ulong) id, out _) && used.Contains(id)
-            ? new TokenReading(TokenFault.Used)
+        return reading.Fault != TokenFault.None || !ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) ? reading
+            : used.Contains(id) ? new TokenReading(TokenFault.Used)
+            : used.SecondsForgotten(until) is long seconds
+                ? new TokenReading(TokenFault.Expired, TimeSpan.FromSeconds(Math.Min(seconds, int.MaxValue)))
             : reading;
     }
 
     /// <inheritdoc/>
     public bool TryUseToken(ReadOnlySpan<byte> token) =>
-        ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) && used.Add(id, until, clock().ToUnixTimeSeconds());
+        ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) && used.Add(id, until);
 
     /// <inheritdoc/>
     public void WriteIdentity(Span<byte> destination) => Identity.Keys.PublicKey.CopyTo(destination);
@@ -68,13 +72,14 @@ public sealed class SecureHost : IHostProtection
     public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
     {
         NoiseSymmetricState state = NoiseHandshake.Begin(prologue, Identity.Keys.PublicKey);
-        if (!NoiseHandshake.TryReadFirst(state, Identity.Keys, message, payload))
+        byte[] binding = new byte[IHostProtection.BindingBytes];
+        if (!NoiseHandshake.TryReadFirst(state, Identity.Keys, message, payload, binding))
         {
             state.Dispose();
             return null;
         }
 
-        return new HostHandshake(state, message.Slice(0, NoiseHandshake.KeyBytes).ToArray());
+        return new HostHandshake(state, message.Slice(0, NoiseHandshake.KeyBytes).ToArray(), binding);
     }
 
     /// <inheritdoc/>

@@ -8,8 +8,9 @@ namespace LagSim.Net.Protection;
 /// cannot be computed back, so a stolen key opens nothing older.
 /// </summary>
 /// <remarks>
-/// Keys go by the datagrams' numbers, so nothing has to be agreed on. Kept are the key in use, the one before for what was overtaken, and
-/// the one after: only a datagram that the next key opens makes it the one in use. For one thread.
+/// Keys go by the datagrams' numbers, so nothing has to be agreed on. Kept are the key in use, the one before for what was overtaken, and,
+/// once a datagram asks for it, the one after: only a datagram that the next key opens makes it the one in use. No key is kept but within
+/// its cipher, by libsodium out of managed memory. For one thread.
 /// </remarks>
 internal sealed class TransportKeys : IDisposable
 {
@@ -19,19 +20,14 @@ internal sealed class TransportKeys : IDisposable
     /// </summary>
     internal const ulong Span = 1 << 16;
 
-    private readonly byte[] after = new byte[Aead.KeyBytes]; // from which the keys beyond come
     private ulong period; // of the key in use
     private Aead? before;
     private Aead current;
     private Aead? next; // made when first needed
 
-    internal TransportKeys(ReadOnlySpan<byte> first)
-    {
-        current = Aead.Of(first);
-        Rekey(current, after);
-    }
+    internal TransportKeys(ReadOnlySpan<byte> first) => current = Aead.Of(first);
 
-    private Aead Next => next ??= Aead.Of(after);
+    private Aead Next => next ??= After(current);
 
     /// <summary>Wipes the keys.</summary>
     public void Dispose()
@@ -39,33 +35,32 @@ internal sealed class TransportKeys : IDisposable
         before?.Dispose();
         current.Dispose();
         next?.Dispose();
-        CryptographicOperations.ZeroMemory(after);
     }
 
-    internal void Seal(ulong number, ReadOnlySpan<byte> plain, Span<byte> destination)
+    internal void Seal(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> plain, Span<byte> destination)
     {
         while (number / Span > period)
         {
             Advance();
         }
 
-        current.Seal(number, default, plain, destination);
+        current.Seal(number, associated, plain, destination);
     }
 
-    internal bool TryOpen(ulong number, ReadOnlySpan<byte> source, Span<byte> plain)
+    internal bool TryOpen(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> source, Span<byte> plain)
     {
         ulong wanted = number / Span;
         if (wanted == period)
         {
-            return current.TryOpen(number, default, source, plain);
+            return current.TryOpen(number, associated, source, plain);
         }
 
         if (wanted + 1 == period)
         {
-            return before!.TryOpen(number, default, source, plain);
+            return before!.TryOpen(number, associated, source, plain);
         }
 
-        if (wanted != period + 1 || !Next.TryOpen(number, default, source, plain))
+        if (wanted != period + 1 || !Next.TryOpen(number, associated, source, plain))
         {
             return false;
         }
@@ -81,19 +76,19 @@ internal sealed class TransportKeys : IDisposable
         current = Next;
         next = null;
         period++;
-        Rekey(current, after);
     }
 
     /// <summary>
     /// Noise's REKEY (revision 34, section 4.2): what the key makes of 32 zero bytes and the highest nonce, without the tag.
     /// </summary>
-    private static void Rekey(Aead key, Span<byte> destination)
+    private static Aead After(Aead key)
     {
         Span<byte> encrypted = stackalloc byte[Aead.KeyBytes + Aead.TagBytes];
         Span<byte> zeros = stackalloc byte[Aead.KeyBytes];
         zeros.Clear();
         key.Seal(ulong.MaxValue, default, zeros, encrypted);
-        encrypted.Slice(0, Aead.KeyBytes).CopyTo(destination);
+        Aead after = Aead.Of(encrypted.Slice(0, Aead.KeyBytes));
         CryptographicOperations.ZeroMemory(encrypted);
+        return after;
     }
 }

@@ -1,45 +1,70 @@
+using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 
 namespace LagSim.Net.Protection;
 
 /// <summary>
-/// The tokens with which players came in, until a day after they expire: a join that began before that is over long before.
+/// The tokens with which players came in, for twice as long as one can be valid: by the time that has passed on this machine, whatever the
+/// date says meanwhile.
 /// </summary>
-/// <remarks>Safe on any thread: a host's sessions share it.</remarks>
+/// <remarks>
+/// A clock that is moved ahead and back makes nothing forgotten. What is forgotten after its time cannot come again either, should the clock
+/// be moved back then: no token is taken that ends before one that was forgotten. Safe on any thread: a host's sessions share it.
+/// </remarks>
 internal sealed class UsedTokens
 {
-    private const long SecondsKept = 86_400;
+    private static readonly TimeSpan Kept = 2 * TokenIssuer.MaxValidity;
 
-    private readonly Dictionary<(ulong, ulong), long> untils = new();
-    private readonly List<(ulong, ulong)> expired = new();
+    private readonly Dictionary<(ulong, ulong), (TimeSpan Used, long Until)> ids = new();
+    private readonly List<(ulong, ulong)> old = new();
+    private readonly Func<TimeSpan> elapsed;
+    private long forgotten = long.MinValue; // when the last of the forgotten ones expires
+
+    /// <param name="elapsed">The time since some instant, which nobody can set. Null for this machine's.</param>
+    internal UsedTokens(Func<TimeSpan>? elapsed = null) =>
+        this.elapsed = elapsed ?? (static () => TimeSpan.FromSeconds(Stopwatch.GetTimestamp() / (double)Stopwatch.Frequency));
 
     internal bool Contains((ulong, ulong) id)
     {
-        lock (untils)
+        lock (ids)
         {
-            return untils.ContainsKey(id);
+            return ids.ContainsKey(id);
         }
     }
 
-    /// <summary>Adds a token; false if it was there.</summary>
+    /// <summary>
+    /// How many seconds before the last of the forgotten tokens this one expires, so that it may be one of them; null for none.
+    /// </summary>
+    /// <param name="until">When it expires, in seconds since 1970.</param>
+    internal long? SecondsForgotten(long until)
+    {
+        lock (ids)
+        {
+            return until <= forgotten ? forgotten - until : null;
+        }
+    }
+
+    /// <summary>Adds a token; false if it was there, or may have been.</summary>
     /// <param name="id">What identifies it.</param>
     /// <param name="until">When it expires, in seconds since 1970.</param>
-    /// <param name="now">The time, likewise.</param>
-    internal bool Add((ulong, ulong) id, long until, long now)
+    internal bool Add((ulong, ulong) id, long until)
     {
-        lock (untils)
+        lock (ids)
         {
-            expired.Clear();
-            foreach (KeyValuePair<(ulong, ulong), long> one in untils)
+            TimeSpan now = elapsed();
+            old.Clear();
+            foreach (KeyValuePair<(ulong, ulong), (TimeSpan Used, long Until)> one in ids)
             {
-                if (one.Value + SecondsKept <= now)
+                if (now - one.Value.Used >= Kept)
                 {
-                    expired.Add(one.Key);
+                    old.Add(one.Key);
+                    forgotten = Math.Max(forgotten, one.Value.Until);
                 }
             }
 
-            expired.ForEach(one => untils.Remove(one));
-            return untils.TryAdd(id, until);
+            old.ForEach(one => ids.Remove(one));
+            return until > forgotten && ids.TryAdd(id, (now, until));
         }
     }
 }

@@ -27,8 +27,10 @@ public static class SecureTranscript
         using NoiseSymmetricState its = NoiseHandshake.Begin(Prologue, host.PublicKey);
         byte[] join = new byte[48 + 45], welcome = new byte[48 + 48], preShared = new byte[PreSharedKey.Bytes], read = new byte[48];
         PreSharedKey.Write("a connect key, ü", preShared);
-        Require(NoiseHandshake.TryWriteFirst(mine, client, host.PublicKey, Bytes(9, 45), join));
-        Require(NoiseHandshake.TryReadFirst(its, host, join, read));
+        Require(NoiseHandshake.TryMixFirst(mine, client, host.PublicKey));
+        byte[] binding = new byte[IHostProtection.BindingBytes];
+        NoiseHandshake.WriteFirst(mine, client, Bytes(9, 45), join);
+        Require(NoiseHandshake.TryReadFirst(its, host, join, read, binding));
         Require(NoiseHandshake.TryWriteSecond(its, answer, client.PublicKey, preShared, Bytes(11, 48), welcome));
         Require(NoiseHandshake.TryReadSecond(mine, client, preShared, welcome, read));
         lines.Add($"join {Hex(join)}");
@@ -41,8 +43,8 @@ public static class SecureTranscript
             foreach (int length in new[] { 1, 64, 1166 })
             {
                 byte[] plain = Bytes(number + (ulong)length, length), up = new byte[length + 16], down = new byte[length + 16];
-                clientEnd.Seal(number, plain, up);
-                hostEnd.Seal(number, plain, down);
+                clientEnd.Seal(number, default, plain, up);
+                hostEnd.Seal(number, default, plain, down);
                 lines.Add($"sealed-{number++}-{length} {Hash(up)} {Hash(down)}");
             }
         }

@@ -66,7 +66,7 @@ internal static class HostCommand
         {
             IPAddress local = EndPointText.ParseLocal("--address", parsed.GetValue(address)!);
             Scene loaded = HostedScene.Load(parsed.GetValue(scene)!, parsed.GetValue(common.Seed));
-            SessionRequest request = shared.Read(parsed);
+            SessionRequest request = shared.Read(parsed, console.Input);
             foreach (ScriptedAction action in request.Actions)
             {
                 action.ActionIn(loaded, self: 0);

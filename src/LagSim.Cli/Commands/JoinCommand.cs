@@ -23,7 +23,7 @@ internal static class JoinCommand
         Argument<string> host = new("ADDRESS")
         {
             Description = "The line that the host prints, lagsim://192.168.0.7:5000#FINGERPRINT. Without the fingerprint, as"
-                + " 192.168.0.7:5000, [::1]:5000 or some.name:5000, the host that answers first is trusted, and its fingerprint printed."
+                + " 192.168.0.7:5000, [::1]:5000 or some.name:5000, the host that answers first is trusted, remembered, and its fingerprint printed."
                 + " If a name has several addresses, they are tried a quarter of a second apart, and the first that answers is joined. ws://192.168.0.7:8080 joins over a WebSocket, where UDP does not get through.",
         };
         Option<string?> token = new("--token")
@@ -31,7 +31,7 @@ internal static class JoinCommand
             Description = "The connect token that the host needs, as lagsim token prints it; - reads it from standard input.",
             HelpName = "TOKEN",
         };
-        Option<bool> unprotected = ProtectionOptions.Unprotected();
+        HostTrust trust = new();
         Option<string?> pass = CommonOptions.File(
             "--pass", "Come back as the same player after a restart: the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
         Command command = new(
@@ -40,13 +40,19 @@ internal static class JoinCommand
                 + " if the session ends earlier, or if a --do was refused or not done. The line below each T line gives the host's clock minus this one's, the"
                 + " most by which that may be wrong, and half a round trip.")
         {
-            host, pass, token, unprotected,
+            host, pass, token,
         };
+        trust.AddTo(command);
         shared.AddTo(command);
         common.AddSeedAndJsonTo(command, isSeedDrawnFrom: false);
         command.SetAction(parsed =>
         {
-            SessionRequest request = shared.Read(parsed);
+            if (shared.ReadsInput(parsed) && parsed.GetValue(token) == "-")
+            {
+                throw new UsageException("--key and --token are both '-'; only one of them can come from standard input.");
+            }
+
+            SessionRequest request = shared.Read(parsed, console.Input);
             ClientOptions options = ClientOptions.From(request.Options) with { Rules = AirHockeyGame.AllRules() };
             string? passFile = parsed.GetValue(pass);
             if (passFile is not null)
@@ -57,9 +63,10 @@ internal static class JoinCommand
             }
 
             HostFingerprint? fingerprint = ProtectionOptions.ReadFingerprint(parsed.GetValue(host)!, out string place);
-            SecureClient? protection = Protection(parsed.GetValue(unprotected), fingerprint);
-            options = options with { Protection = protection, Token = Token(parsed.GetValue(token), fingerprint, console.Input) };
             IReadOnlyList<IPEndPoint> there = WebSocketText.Is(place) ? [] : EndPointText.ResolveAll(place, "join", console.Stop);
+            trust.Read(parsed, fingerprint, place, there.Count == 0 ? WebSocketText.Parse(place).IsLoopback : there.All(one => IPAddress.IsLoopback(one.Address)));
+            SecureClient? protection = trust.Protection;
+            options = options with { Protection = protection, Token = Token(parsed.GetValue(token), trust.Wanted, console.Input) };
             if (protection is null)
             {
                 ProtectionOptions.Warn(console);
@@ -89,7 +96,7 @@ internal static class JoinCommand
                 };
             }
 
-            if (protection is not null && fingerprint is null)
+            if (protection is not null && trust.Wanted is null)
             {
                 session.PassGiven += TellTrustOnce;
             }
@@ -99,7 +106,13 @@ internal static class JoinCommand
                 Server = udp is null ? place : null,
             };
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
-            return runner.Run();
+            int code = runner.Run();
+            if (code == ExitCode.Input && trust.WhyRefused() is string why)
+            {
+                console.Error.WriteLine(why);
+            }
+
+            return code;
 
             void TellTrustOnce(PlayerPass given)
             {
@@ -107,20 +120,11 @@ internal static class JoinCommand
                 HostFingerprint answered = protection!.Host!.Value;
                 string trusted = udp is null ? $"{place}#{answered}"
                     : new HostAddress(session.HostAddress.ToIPAddress().ToString(), there[0].Port, answered).ToString();
-                console.Error.WriteLine(
-                    $"Trusting the host that answered first. If it is the right one, join it as {trusted} from now on.");
+                console.Error.WriteLine(trust.Remember(trusted));
             }
         });
         return command;
     }
-
-    /// <exception cref="UsageException">The options contradict each other.</exception>
-    private static SecureClient? Protection(bool isUnprotected, HostFingerprint? fingerprint) =>
-        isUnprotected && fingerprint is not null
-            ? throw new UsageException("--unprotected contradicts an address with a fingerprint; write ADDRESS:PORT alone.")
-        : isUnprotected ? null
-        : fingerprint is HostFingerprint wanted ? new SecureClient(wanted)
-        : SecureClient.TrustOnFirstUse();
 
     /// <exception cref="UsageException">It is no token, or there is no fingerprint with it.</exception>
     private static byte[] Token(string? text, HostFingerprint? fingerprint, TextReader input)

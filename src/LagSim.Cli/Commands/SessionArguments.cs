@@ -18,11 +18,7 @@ internal sealed class SessionArguments
     private const double DefaultRejoinSeconds = 120;
     private const double MaxKeepAliveSeconds = 2;
 
-    private readonly Option<string?> key = new("--key")
-    {
-        Description = $"A secret that clients must present; up to {SessionOptions.MaxKeyLength} characters. None by default.",
-        HelpName = "TEXT",
-    };
+    private readonly KeyOptions key = new();
 
     private readonly Option<string> name = new("--name")
     {
@@ -50,13 +46,6 @@ internal sealed class SessionArguments
 
     internal SessionArguments()
     {
-        key.Validators.Add(result =>
-        {
-            if (result.Tokens.Count == 1 && result.Tokens[0].Value.Length > SessionOptions.MaxKeyLength)
-            {
-                result.AddError($"--key has {result.Tokens[0].Value.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
-            }
-        });
         name.Validators.Add(result =>
         {
             if (result.Tokens.Count == 1 && SessionOptions.WhyNoName(result.Tokens[0].Value) is string why)
@@ -82,7 +71,7 @@ internal sealed class SessionArguments
 
     internal void AddTo(Command command)
     {
-        command.Options.Add(key);
+        key.AddTo(command);
         command.Options.Add(name);
         command.Options.Add(role);
         command.Options.Add(actions);
@@ -92,11 +81,15 @@ internal sealed class SessionArguments
         command.Options.Add(rejoin);
     }
 
+    /// <summary>Whether the connect key comes from standard input, of which <see cref="Read"/> then takes a line.</summary>
+    internal bool ReadsInput(ParseResult parsed) => key.ReadsInput(parsed);
+
     /// <summary>Reads the options; of the session's options, those that both sides have.</summary>
+    /// <exception cref="InputException">There is no connect key where it should be.</exception>
     /// <exception cref="UsageException">The options contradict each other.</exception>
     /// <exception cref="System.IO.IOException">The recording cannot be written.</exception>
     /// <exception cref="UnauthorizedAccessException">The recording cannot be written, for lack of permission.</exception>
-    internal SessionRequest Read(ParseResult parsed)
+    internal SessionRequest Read(ParseResult parsed, System.IO.TextReader input)
     {
         double? seconds = parsed.GetValue(length);
         string[] texts = parsed.GetValue(actions) ?? [];
@@ -126,7 +119,7 @@ internal sealed class SessionArguments
         double silence = parsed.GetValue(timeout);
         ClientOptions options = new()
         {
-            ConnectKey = parsed.GetValue(key) ?? "",
+            ConnectKey = key.Read(parsed, input),
             Name = parsed.GetValue(name) ?? "",
             Role = chosen,
             Timeout = SimDuration.FromSeconds(silence),

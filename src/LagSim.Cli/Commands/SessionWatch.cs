@@ -37,6 +37,7 @@ internal sealed class SessionWatch
             host.ClientCame += link => queue.Tell(() => printer.Came(link));
             host.ClientGone += link => queue.Tell(() => printer.Gone(link));
             host.PlayerExpelled += e => queue.Tell(() => printer.Problem(e.Sentence));
+            host.KeyRefused += e => queue.Tell(() => printer.Problem(e.Sentence));
             host.ClientDiverged += (peer, time) =>
                 queue.Tell(() => printer.Problem(DivergenceOf(peer, time - session.World!.Simulation.Start)));
         }

@@ -6,6 +6,20 @@ namespace LagSim.Net.Protection;
 /// <remarks>For one thread. A message that cannot be read changes nothing. Disposing it wipes its keys.</remarks>
 public interface IClientHandshake : IDisposable
 {
+    /// <summary>Writes what this handshake alone has, and no other with the same host and prologue: proofs of secrets cover it.</summary>
+    /// <remarks>
+    /// It is no secret. A proof that covers it is of no use in another handshake, not even to who can read this one with the host's stolen key.
+    /// </remarks>
+    /// <param name="destination">Receives <see cref="IHostProtection.BindingBytes"/> bytes.</param>
+    void WriteBinding(Span<byte> destination);
+
+    /// <summary>Writes the client's message. Once.</summary>
+    /// <param name="payload">What to tell the host; only the owner of its identity can read it.</param>
+    /// <param name="message">
+    /// Receives the message, <see cref="IHostProtection.HandshakeOverhead"/> bytes more than the payload has.
+    /// </param>
+    void Write(ReadOnlySpan<byte> payload, Span<byte> message);
+
     /// <summary>Reads the answer that lets the client in. It proves the host, and that the host knows the connect key.</summary>
     /// <param name="connectKey">The key that both must know.</param>
     /// <param name="message">The host's message.</param>

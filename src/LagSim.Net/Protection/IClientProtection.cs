@@ -12,10 +12,6 @@ public interface IClientProtection
     /// <summary>Begins a handshake with the host that shows this identity. Cost: one Diffie-Hellman agreement.</summary>
     /// <param name="identity">The identity, of <see cref="IHostProtection.IdentityBytes"/> bytes; it is not proved yet.</param>
     /// <param name="prologue">What both sides know of the handshake so far.</param>
-    /// <param name="payload">What to tell the host; only the owner of that identity can read it.</param>
-    /// <param name="message">
-    /// Receives the message, <see cref="IHostProtection.HandshakeOverhead"/> bytes more than the payload has.
-    /// </param>
     /// <returns>The handshake; null if the host with that identity is not the one that the client wants.</returns>
-    IClientHandshake? Begin(ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> payload, Span<byte> message);
+    IClientHandshake? Begin(ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue);
 }

@@ -6,6 +6,10 @@ namespace LagSim.Net.Protection;
 /// <remarks>For one thread. Disposing it wipes its keys.</remarks>
 public interface IHostHandshake : IDisposable
 {
+    /// <summary>Writes what this handshake alone has; the client's proofs cover it (<see cref="IClientHandshake.WriteBinding"/>).</summary>
+    /// <param name="destination">Receives <see cref="IHostProtection.BindingBytes"/> bytes.</param>
+    void WriteBinding(Span<byte> destination);
+
     /// <summary>Writes the answer that lets the client in.</summary>
     /// <param name="connectKey">The key that both must know; the answer can be read with it only.</param>
     /// <param name="payload">What to tell the client.</param>

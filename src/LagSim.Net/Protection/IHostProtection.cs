@@ -17,6 +17,9 @@ public interface IHostProtection
     /// <summary>How much longer a handshake message is than its payload, in bytes.</summary>
     public const int HandshakeOverhead = 48;
 
+    /// <summary>The length of what a handshake alone has, in bytes (<see cref="IHostHandshake.WriteBinding"/>).</summary>
+    public const int BindingBytes = 32;
+
     /// <summary>The length of a reset key, in bytes.</summary>
     public const int ResetKeyBytes = 16;
 

@@ -21,6 +21,7 @@ namespace LagSim.Net.Sessions;
 ///     ConnectKey = "correct horse battery staple",
 ///     ExpectedClients = 2,
 ///     Window = new LatencyCompensationWindow(history: SimDuration.FromMilliseconds(400)),
+///     Unprotected = true, // or a Protection
 /// };
 /// using PeerThread host = PeerThread.Host(scene, udpPort: 5000, options, setUp: session =&gt;
 ///     session.ClientCame += link =&gt; Console.WriteLine($"player {link.Peer} is in"));
@@ -121,10 +122,17 @@ public sealed record HostOptions : SessionOptions
 
     /// <summary>
     /// The host's identity and handshake: with it every datagram is encrypted and authenticated, and clients can tell this host from any
-    /// other. Default null: the session is not protected, and anyone on the path can read, change and forge what is sent.
+    /// other. Default null: the session is not protected, and anyone on the path can read, change and forge what is sent;
+    /// <see cref="PeerThread"/> hosts such a one only if <see cref="Unprotected"/> says that it is meant.
     /// </summary>
     /// <remarks>Sessions may share one. The package <c>LagSim.Net.Secure</c> has it: <c>SecureHost</c>.</remarks>
     public IHostProtection? Protection { get; init; }
+
+    /// <summary>
+    /// Whether it is meant that nothing protects the session; default false. Without it <see cref="PeerThread"/> refuses to host a session
+    /// that others on the network can reach and that has no <see cref="Protection"/>.
+    /// </summary>
+    public bool Unprotected { get; init; }
 
     internal override bool IsProtected => Protection is not null;
 
@@ -139,9 +147,28 @@ public sealed record HostOptions : SessionOptions
     public static HostOptions From(SessionOptions options) =>
         options as HostOptions ?? new HostOptions(options ?? throw new ArgumentNullException(nameof(options)));
 
+    /// <summary>Refuses to host a session that nothing protects and that others can reach, unless it is meant.</summary>
+    /// <exception cref="ArgumentException">It is not said.</exception>
+    internal void ThrowIfUnprotectedUnawares()
+    {
+        if (!IsProtected && !Unprotected)
+        {
+            throw new ArgumentException(
+                "Nothing protects this session: anyone on the path could read it, act in any player's name, and be its host. Set Protection"
+                    + " (the package LagSim.Net.Secure has it: SecureHost), or Unprotected = true if it is meant to be so. A session for this"
+                    + " machine alone, by bind: IPAddress.Loopback, needs neither.",
+                nameof(Protection));
+        }
+    }
+
     internal override void Check()
     {
         base.Check();
+        if (Unprotected && IsProtected)
+        {
+            throw new ArgumentException("The options have a protection, and say that the session is meant to have none.", nameof(Unprotected));
+        }
+
         Range(StartLead, 0, 60, nameof(StartLead));
         CheckPlayerKeys();
         if (MaxEventsPerSecond is < 1 or > 100_000)

@@ -23,6 +23,7 @@ public sealed class HostSession : Session
     private readonly HandlerList<Action<LinkTraffic>> clientGone;
     private readonly HandlerList<Action<PlayerExpulsion>> playerExpelled;
     private readonly HandlerList<Action<byte, SimTime>> clientDiverged;
+    private readonly HandlerList<Action<KeyRefusal>> keyRefused;
 
     /// <summary>Opens a session and waits for clients.</summary>
     /// <param name="scene">The scene that all peers share.</param>
@@ -42,6 +43,22 @@ public sealed class HostSession : Session
     {
     }
 
+    /// <summary>Opens a session in real time.</summary>
+    /// <param name="scene">The scene that all peers share.</param>
+    /// <param name="port">The carrier of datagrams; not disposed with the session.</param>
+    /// <param name="options">How to take part; null for the default.</param>
+    /// <param name="isReachable">Whether others can reach it; if nothing protects it, the options must say that this is meant.</param>
+    internal static HostSession Open(Scene scene, IDatagramPort port, HostOptions? options, bool isReachable)
+    {
+        options ??= new HostOptions();
+        if (isReachable)
+        {
+            options.ThrowIfUnprotectedUnawares();
+        }
+
+        return new HostSession(scene, port, new StopwatchClock(), options, DrawNumber());
+    }
+
     private HostSession(HostProtocol host)
         : base(host.Parts, host)
     {
@@ -50,6 +67,8 @@ public sealed class HostSession : Session
         clientGone = new(host.Parts.Owner);
         playerExpelled = new(host.Parts.Owner);
         clientDiverged = new(host.Parts.Owner);
+        keyRefused = new(host.Parts.Owner);
+        host.Handshake.WrongKeys.Refused += refusal => keyRefused.Raise(refusal, static (handler, told) => handler(told));
         host.Handshake.Seating.Came += link => clientCame.Raise(link, static (handler, told) => handler(told));
         host.Roster.Gone += link => clientGone.Raise(link, static (handler, told) => handler(told));
         host.Enforcer.Expelled += expulsion => playerExpelled.Raise(expulsion, static (handler, told) => handler(told));
@@ -91,6 +110,16 @@ public sealed class HostSession : Session
     {
         add => clientDiverged.Add(value);
         remove => clientDiverged.Remove(value);
+    }
+
+    /// <summary>
+    /// Raised on the session's thread for each client that shows a wrong connect key, a handful a second at most: after five wrong ones from
+    /// one machine none from there is looked at for a second, then for twice as long each time, up to a minute.
+    /// </summary>
+    public event Action<KeyRefusal>? KeyRefused
+    {
+        add => keyRefused.Add(value);
+        remove => keyRefused.Remove(value);
     }
 
     /// <summary>The number of clients that are in, without those still joining. On the session's thread.</summary>

@@ -21,7 +21,7 @@ namespace LagSim.Net.Sessions;
 /// A host in one program and a client in another; each draws a frame and kicks the ball:
 /// <code>
 /// using PeerThread me = isHost
-///     ? PeerThread.Host(scene, udpPort: 5000)
+///     ? PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }) // or with a Protection
 ///     : PeerThread.Join(new IPEndPoint(IPAddress.Loopback, 5000));
 /// me.Refused += (action, why) => Console.Error.WriteLine($"{action.Kind}: {why.Message}");
 /// me.WaitUntilRunning(TimeSpan.FromSeconds(5));
@@ -87,7 +87,8 @@ public sealed class PeerThread : IDisposable
     /// <param name="bind">The address to listen on; default every IPv4 address of this machine.</param>
     /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
     /// <exception cref="System.IO.IOException">The system refuses the port, for instance because it is in use.</exception>
-    /// <exception cref="ArgumentException">The port or an option is out of range, or the scene is too large to be shared.</exception>
+    /// <exception cref="ArgumentException">The port or an option is out of range, the scene is too large to be shared, or nothing protects
+    /// the session, other machines can reach it, and the options do not say that this is meant: <see cref="HostOptions.Unprotected"/>.</exception>
     public static PeerThread Host(
         Scene scene, int udpPort = 0, HostOptions? options = null, IPAddress? bind = null, Action<HostSession>? setUp = null)
     {
@@ -97,7 +98,8 @@ public sealed class PeerThread : IDisposable
                 nameof(udpPort), udpPort, $"A UDP port is a number from 1 to {IPEndPoint.MaxPort}, or 0 for any that is free.");
         }
 
-        return Host(scene, new UdpPort(new IPEndPoint(bind ?? IPAddress.Any, udpPort)), options, setUp);
+        UdpPort port = new(new IPEndPoint(bind ?? IPAddress.Any, udpPort));
+        return Begin(port, () => HostSession.Open(scene, port, options, bind is null || !IPAddress.IsLoopback(bind)), "LagSim host", setUp);
     }
 
     /// <summary>Opens a session over a carrier, on a started thread. Disposing it leaves the session and disposes the carrier.</summary>
@@ -105,13 +107,11 @@ public sealed class PeerThread : IDisposable
     /// <param name="carrier">The carrier of datagrams. The thread owns it from now on, and it is disposed even if this throws.</param>
     /// <param name="options">How to take part; the default begins at once, and clients may join at any time.</param>
     /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
-    /// <exception cref="ArgumentException">An option is out of range, or the scene is too large to be shared.</exception>
+    /// <exception cref="ArgumentException">An option is out of range, the scene is too large to be shared, or nothing protects the session,
+    /// the network is not virtual, and the options do not say that this is meant: <see cref="HostOptions.Unprotected"/>.</exception>
     public static PeerThread Host(
         Scene scene, IDatagramPort carrier, HostOptions? options = null, Action<HostSession>? setUp = null) => Begin(
-            carrier,
-            () => new HostSession(scene, carrier, new StopwatchClock(), options ?? new HostOptions(), Session.DrawNumber()),
-            "LagSim host",
-            setUp);
+            carrier, () => HostSession.Open(scene, carrier, options, isReachable: !carrier.LocalAddress.IsVirtual), "LagSim host", setUp);
 
     /// <summary>Joins a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
     /// <param name="host">The host's address: that of one machine, and a port from 1 on.</param>

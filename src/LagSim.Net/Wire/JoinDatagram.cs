@@ -32,7 +32,7 @@ internal readonly struct JoinDatagram
     /// <summary>The cookie from the host.</summary>
     public Token128 Cookie { get; }
 
-    /// <summary>Proves that the client knows the connect key, without revealing it: a keyed hash of nonce and cookie.</summary>
+    /// <summary>Proves that the client knows the connect key, without revealing it: a keyed hash of nonce and cookie, and of the handshake.</summary>
     public Token128 Proof { get; }
 
     /// <summary>The hash of the scene that the client expects; 0 for any.</summary>
@@ -46,7 +46,7 @@ internal readonly struct JoinDatagram
     /// </summary>
     public byte Player { get; }
 
-    /// <summary>Proves that the client has that player's pass, without revealing it: a keyed hash of nonce and cookie.</summary>
+    /// <summary>Proves that the client has that player's pass, without revealing it: a keyed hash of nonce and cookie, and of the handshake.</summary>
     public Token128 PlayerProof { get; }
 
     /// <summary>As what it takes part: 1 a player, 2 a spectator, 3 a bot.</summary>

@@ -22,7 +22,7 @@ internal readonly struct RefusalDatagram
     private bool IsWellFormed => IsOne(Reason);
 
     /// <summary>Whether a number is that of a reason.</summary>
-    internal static bool IsOne(RefusalReason reason) => reason is >= RefusalReason.VersionDiffers and <= RefusalReason.TokenUsed;
+    internal static bool IsOne(RefusalReason reason) => reason is >= RefusalReason.VersionDiffers and <= RefusalReason.TooManyWrongKeys;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.RefusalBytes"/>.</returns>

@@ -50,4 +50,7 @@ internal enum RefusalReason : byte
 
     /// <summary>A player came in with the connect token before.</summary>
     TokenUsed = 16,
+
+    /// <summary>Too many wrong keys came from that machine: no key of it is looked at for a while.</summary>
+    TooManyWrongKeys = 17,
 }

@@ -18,7 +18,7 @@ internal readonly struct ResetDatagram
         Proof = proof;
     }
 
-    /// <summary>Computes the proof: a keyed hash of the reason.</summary>
+    /// <summary>Computes the proof: a keyed hash of a label and the reason.</summary>
     /// <param name="key">The key of the link, which the host's welcome told the client.</param>
     /// <param name="reason">The reason.</param>
     internal static Token128 Prove(Token128 key, LeaveReason reason)
@@ -26,7 +26,7 @@ internal readonly struct ResetDatagram
         byte[] secret = new byte[Token128.Bytes];
         key.CopyTo(secret);
         using HMACSHA256 prover = new(secret);
-        return new Token128(prover.ComputeHash([(byte)reason]));
+        return new Token128(prover.ComputeHash([.. "LagSim reset proof"u8, (byte)reason]));
     }
 
     /// <summary>The session that the host does not have.</summary>

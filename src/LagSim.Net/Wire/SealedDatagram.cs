@@ -22,8 +22,9 @@ internal readonly ref struct SealedDatagram
     private const int NumberBytes = 6;
     private const int TypeBytes = 1;
 
-    private SealedDatagram(ulong sessionId, ulong number, ReadOnlySpan<byte> body)
+    private SealedDatagram(ulong sessionId, ulong number, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> body)
     {
+        Prologue = prologue;
         SessionId = sessionId;
         Number = number;
         Body = body;
@@ -34,6 +35,9 @@ internal readonly ref struct SealedDatagram
 
     /// <summary>The number, from 1 to <see cref="MaxNumber"/>.</summary>
     public ulong Number { get; }
+
+    /// <summary>The bytes before the encrypted ones, which are authenticated with them: header, session id and number.</summary>
+    public ReadOnlySpan<byte> Prologue { get; }
 
     /// <summary>The encrypted bytes and the tag.</summary>
     public ReadOnlySpan<byte> Body { get; }
@@ -55,7 +59,8 @@ internal readonly ref struct SealedDatagram
         plain = plain.Slice(0, datagram.Length - InnerPrologueBytes + TypeBytes);
         datagram.Slice(WireFormat.HeaderBytes - TypeBytes, TypeBytes).CopyTo(plain);
         datagram.Slice(InnerPrologueBytes).CopyTo(plain.Slice(TypeBytes));
-        cipher.Seal(number, plain, destination.Slice(PrologueBytes, plain.Length + IDatagramCipher.TagBytes));
+        cipher.Seal(
+            number, destination.Slice(0, PrologueBytes), plain, destination.Slice(PrologueBytes, plain.Length + IDatagramCipher.TagBytes));
         return PrologueBytes + plain.Length + IDatagramCipher.TagBytes;
     }
 
@@ -71,7 +76,7 @@ internal readonly ref struct SealedDatagram
 
         // The type is decrypted to the last byte of the session id's place, and then moved to its own.
         Span<byte> opened = destination.Slice(InnerPrologueBytes - TypeBytes, plain);
-        if (!cipher.TryOpen(Number, Body, opened))
+        if (!cipher.TryOpen(Number, Prologue, Body, opened))
         {
             return false;
         }
@@ -94,7 +99,9 @@ internal readonly ref struct SealedDatagram
         ulong number = reader.ReadUInt32() | ((ulong)reader.ReadUInt16() << 32);
         reader.Require(number > 0);
         reader.Require(reader.Remaining >= TypeBytes + IDatagramCipher.TagBytes, WireRefusal.TooShort);
-        sealedDatagram = new SealedDatagram(sessionId, number, reader.ReadBytes(reader.Remaining));
-        return reader.Finish(out refusal);
+        ReadOnlySpan<byte> body = reader.ReadBytes(reader.Remaining);
+        bool isOne = reader.Finish(out refusal);
+        sealedDatagram = isOne ? new SealedDatagram(sessionId, number, datagram.Slice(0, PrologueBytes), body) : default;
+        return isOne;
     }
 }

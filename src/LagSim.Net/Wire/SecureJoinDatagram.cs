@@ -36,27 +36,35 @@ internal readonly ref struct SecureJoinDatagram
     /// <summary>The first bytes of the message: of the public key that the client drew for this handshake.</summary>
     internal Token128 Handshake => new(Message.Slice(0, Token128.Bytes));
 
+    /// <summary>Begins the handshake that the datagram carries.</summary>
+    /// <param name="nonce">The nonce of this attempt.</param>
+    /// <param name="cookie">The cookie from the host.</param>
+    /// <param name="identity">The identity that the host shows.</param>
+    /// <param name="protection">The client's side of the handshake.</param>
+    /// <returns>The handshake; null if the client does not want the host with that identity.</returns>
+    internal static IClientHandshake? Begin(ulong nonce, Token128 cookie, in PublicIdentity identity, IClientProtection protection)
+    {
+        Span<byte> prologue = stackalloc byte[WireFormat.JoinPrologueBytes];
+        JoinDatagram.WritePrologue(prologue, DatagramType.SecureJoin, nonce, cookie);
+        Span<byte> shown = stackalloc byte[IHostProtection.IdentityBytes];
+        WireWriter writer = new(shown);
+        identity.Write(ref writer);
+        return protection.Begin(shown, prologue);
+    }
+
     /// <summary>Writes the datagram, whose message the handshake writes.</summary>
     /// <param name="destination">
     /// At least <see cref="WireFormat.SecureJoinBytes"/>, and as many more as name and token have.
     /// </param>
     /// <param name="join">What the client claims.</param>
     /// <param name="token">Its connect token; empty for none.</param>
-    /// <param name="identity">The identity that the host shows.</param>
-    /// <param name="protection">The client's side of the handshake.</param>
-    /// <returns>The handshake; null if the client does not want the host with that identity.</returns>
-    internal static IClientHandshake? Encode(
-        Span<byte> destination, in JoinDatagram join, ReadOnlySpan<byte> token, in PublicIdentity identity, IClientProtection protection)
+    /// <param name="handshake">The handshake that was begun for this nonce and cookie.</param>
+    internal static void Encode(Span<byte> destination, in JoinDatagram join, ReadOnlySpan<byte> token, IClientHandshake handshake)
     {
         int length = JoinDatagram.WritePrologue(destination, DatagramType.SecureJoin, join.Nonce, join.Cookie);
-        Span<byte> prologue = destination.Slice(0, length);
-        Span<byte> shown = stackalloc byte[IHostProtection.IdentityBytes];
-        WireWriter writer = new(shown);
-        identity.Write(ref writer);
         Span<byte> claims = stackalloc byte[join.ClaimBytes + token.Length];
         token.CopyTo(claims.Slice(join.EncodeClaims(claims)));
-        return protection.Begin(
-            shown, prologue, claims, destination.Slice(prologue.Length, IHostProtection.HandshakeOverhead + claims.Length));
+        handshake.Write(claims, destination.Slice(length, IHostProtection.HandshakeOverhead + claims.Length));
     }
 
     /// <summary>Reads a datagram; never throws.</summary>

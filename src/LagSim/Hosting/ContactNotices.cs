@@ -29,7 +29,7 @@ namespace LagSim.Hosting;
 /// A score that counts only confirmed contacts:
 /// <code>
 /// ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s
-/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Contacts = contacts });
+/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Contacts = contacts, Unprotected = true });
 /// int score = 0;
 ///
 /// // each frame

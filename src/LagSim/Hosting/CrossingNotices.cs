@@ -22,7 +22,7 @@ namespace LagSim.Hosting;
 /// A score that counts only confirmed crossings:
 /// <code>
 /// CrossingNotices crossings = new();
-/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Crossings = crossings });
+/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Crossings = crossings, Unprotected = true });
 /// int goal = scene.SensorNamed("goal");
 /// int score = 0;
 ///

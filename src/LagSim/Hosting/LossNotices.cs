@@ -25,7 +25,7 @@ namespace LagSim.Hosting;
 /// A ball that is put back on the table once it is certain that it is gone:
 /// <code>
 /// LossNotices losses = new();
-/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Losses = losses });
+/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Losses = losses, Unprotected = true });
 ///
 /// // each frame
 /// while (losses.TryRead(out LossNotice loss))

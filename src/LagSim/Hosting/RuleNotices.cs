@@ -23,7 +23,7 @@ namespace LagSim.Hosting;
 /// A sound with the prediction, the score board with the confirmation:
 /// <code>
 /// RuleNotices notices = new();
-/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { RuleNotices = notices });
+/// using PeerThread host = PeerThread.Host(scene, options: new HostOptions { RuleNotices = notices, Unprotected = true });
 ///
 /// // each frame
 /// while (notices.TryRead(out RuleEvent told))

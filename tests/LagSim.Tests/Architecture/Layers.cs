@@ -89,6 +89,7 @@ internal static class Layers
         new("LagSim.Net.Sessions.CommittedState", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.Divergence", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.DivergenceFinding", SessionWords, ForUsers),
+        new("LagSim.Net.Sessions.KeyRefusal", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.LinkTraffic", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.LogEntry", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.PlayerBudget", SessionWords, ForUsers),

@@ -1,6 +1,7 @@
 using System;
 using System.Globalization;
 using System.Linq;
+using System.Net;
 using System.Text.Json;
 using LagSim.Net.Sessions;
 using LagSim.Rules;
@@ -66,7 +67,7 @@ public sealed class RuleProcessTests
             (new Other("chess", 1), "The scene needs the rules 'chess' of version 1, which this peer was not given (ClientOptions.Rules, or for a recording the rules of Recording.Read)."),
         })
         {
-            using PeerThread host = PeerThread.Host(new SceneBuilder("board").WithRules(rules).Build());
+            using PeerThread host = PeerThread.Host(new SceneBuilder("board").WithRules(rules).Build(), bind: IPAddress.Loopback);
             using ToolProcess client = ToolProcess.Start($"join 127.0.0.1:{host.LocalAddress.ToEndPoint().Port} --unprotected --for-s 2");
             client.Ends(3);
             Assert.Contains(says, client.Error.ToString(), StringComparison.Ordinal);

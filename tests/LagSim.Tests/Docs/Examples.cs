@@ -66,7 +66,7 @@ internal static class Examples
     internal static void Hear(Scene scene)
     {
         ContactNotices contacts = new(minClosingSpeed: 0.2); // m/s
-        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Contacts = contacts });
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Contacts = contacts, Unprotected = true });
         int score = 0;
 
         // each frame
@@ -80,7 +80,7 @@ internal static class Examples
     {
         int goals = 0;
         RuleNotices notices = new();
-        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { RuleNotices = notices });
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { RuleNotices = notices, Unprotected = true });
 
         // each frame
         while (notices.TryRead(out RuleEvent told))
@@ -94,7 +94,7 @@ internal static class Examples
     internal static void Count(Scene scene)
     {
         CrossingNotices crossings = new();
-        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Crossings = crossings });
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Crossings = crossings, Unprotected = true });
         int goal = scene.SensorNamed("goal");
         int score = 0;
 
@@ -108,7 +108,7 @@ internal static class Examples
     internal static void Replace(Scene scene)
     {
         LossNotices losses = new();
-        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Losses = losses });
+        using PeerThread host = PeerThread.Host(scene, options: new HostOptions { Losses = losses, Unprotected = true });
 
         // each frame
         while (losses.TryRead(out LossNotice loss))
@@ -143,6 +143,7 @@ internal static class Examples
             ConnectKey = "correct horse battery staple",
             ExpectedClients = 2,
             Window = new LatencyCompensationWindow(history: SimDuration.FromMilliseconds(400)),
+            Unprotected = true, // or a Protection
         };
         using PeerThread host = PeerThread.Host(scene, udpPort: 5000, options, setUp: session =>
             session.ClientCame += link => Console.WriteLine($"player {link.Peer} is in"));
@@ -158,7 +159,7 @@ internal static class Examples
     internal static void Play(Scene scene, BodyId ball, bool isHost)
     {
         using PeerThread me = isHost
-            ? PeerThread.Host(scene, udpPort: 5000)
+            ? PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }) // or with a Protection
             : PeerThread.Join(new IPEndPoint(IPAddress.Loopback, 5000));
         me.Refused += (action, why) => Console.Error.WriteLine($"{action.Kind}: {why.Message}");
         me.WaitUntilRunning(TimeSpan.FromSeconds(5));

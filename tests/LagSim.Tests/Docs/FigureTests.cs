@@ -49,7 +49,6 @@ public sealed class FigureTests
     }
 
     [Theory]
-    [InlineData("docs/SECURITY.md", "guess one key for each handshake, one a second from one machine, {0} at once")]
     [InlineData("docs/SECURITY.md", "one handshake a second is read from each machine, {0} at once after a pause, and 250 a second from all together")]
     [InlineData("src/LagSim.Net/README.md", "A host and up to {0} players")]
     public void Limits_ThatPagesTell_AreThoseOfTheCode(string page, string sentence)

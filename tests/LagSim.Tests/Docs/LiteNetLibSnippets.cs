@@ -10,7 +10,7 @@ internal static class LiteNetLibSnippets
 {
     internal static void Share(Scene scene)
     {
-        using PeerThread host = PeerThread.Host(scene, new LiteNetLibPort(new IPEndPoint(IPAddress.Any, 5000)));
+        using PeerThread host = PeerThread.Host(scene, new LiteNetLibPort(new IPEndPoint(IPAddress.Any, 5000)), new HostOptions { Unprotected = true });
 
         // on another machine
         PeerAddress there = PeerAddress.From(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));

@@ -97,7 +97,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     internal void Share(ConcurrentQueue<string> refusals)
     {
         // where the world is
-        using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }); // or a Protection: docs/SECURITY.md
 
         // up to sixteen others join, at any time; the scene comes from the host
         using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
@@ -125,7 +125,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     internal void Spawn(PeerThread peer, ConcurrentQueue<RosterChange> changes, Vector3D position, Vector3D velocity)
     {
         // on host and clients alike: how this peer is called, and who comes and goes; called on the session's thread, so hand it on to your own
-        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Name = "Hedy" }, setUp: session =>
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Name = "Hedy", Unprotected = true }, setUp: session =>
             session.RosterChanged += change => changes.Enqueue(change));
 
         // each frame, or whenever you like: who is here, on any thread
@@ -210,7 +210,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
             .Build();
         BodyId ball = scene.BodyNamed("ball");
 
-        using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }); // or a Protection: docs/SECURITY.md
 
         // on another machine, with the host's address in place of Loopback: a client gets the scene from the host
         using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, 5000));
@@ -288,7 +288,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
     internal void ShareOfThePackage()
     {
         // one machine; others reach it at UDP port 5000
-        using PeerThread host = PeerThread.Host(scene, udpPort: 5000);
+        using PeerThread host = PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }); // or a Protection: docs/SECURITY.md
 
         // the others, at any time; the scene comes from the host
         using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));

@@ -16,7 +16,7 @@ internal static class WebSocketSnippets
     {
         using WebSocketHostPort sockets = new();
         UdpPort udp = new(new IPEndPoint(IPAddress.Any, 5000));
-        using PeerThread host = PeerThread.Host(scene, new MultiplexPort(udp, sockets));
+        using PeerThread host = PeerThread.Host(scene, new MultiplexPort(udp, sockets), new HostOptions { Unprotected = true });
 
         WebSocketOptions options = new();
         options.AllowedOrigins.Add("https://game.example");

@@ -3,7 +3,6 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
@@ -269,17 +268,45 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.False(host.TryUseToken(token));
     }
 
-    /// <summary>What a host was shown of a connect key or a pass is of no use to it at another host, though nonce and cookie be the same.</summary>
+    /// <summary>
+    /// The host's date is moved ahead for a while, another player comes in, and it is moved back: the used token is shown again. The control
+    /// forgets by the date, a day after a token ends, as the host once did.
+    /// </summary>
     [Fact]
-    public void Proof_ShownToOneHost_IsNoneToAnother()
+    public void Use_AgainAfterTheClockWasMoved_OnlyWhereTheDateForgets()
     {
-        using HostIdentity another = HostIdentity.Draw();
-        PublicIdentity mine = PublicIdentity.Of(new SecureHost(identity)), its = PublicIdentity.Of(new SecureHost(another));
-        Token128 cookie = new(1, 2), pass = new(3, 4);
-        JoinDatagram join = new(7, cookie, JoinCookies.Prove("key", 7, cookie, its), 0, 1, 1, JoinCookies.Prove(pass, 7, cookie, its));
-        Assert.True(JoinCookies.IsProof("key", join, its) && JoinCookies.IsProof(pass, join, its));
-        Assert.False(JoinCookies.IsProof("key", join, mine) || JoinCookies.IsProof(pass, join, mine));
-        Assert.False(JoinCookies.IsProof("key", join, default) || JoinCookies.IsProof(pass, join, default));
+        TimeSpan elapsed = TimeSpan.Zero;
+        SecureHost host = new(identity, issuer.Key, () => hostClock, () => elapsed);
+        byte[] token = issuer.Issue(Ada, identity.Fingerprint, now: Noon);
+        Assert.True(host.TryUseToken(token));
+        hostClock = Noon.AddDays(3);
+        elapsed = TimeSpan.FromSeconds(5);
+        Assert.True(host.TryUseToken(issuer.Issue(new PlayerAdmission("bob"), identity.Fingerprint, now: hostClock)));
+        Assert.True(ConnectToken.TryReadId(token, out _, out long until));
+        bool isForgottenByDate = until + 86_400 <= hostClock.ToUnixTimeSeconds();
+        hostClock = Noon.AddSeconds(10);
+        Assert.Equal(TokenFault.Used, host.ReadToken(token).Fault);
+        Assert.False(host.TryUseToken(token));
+        Assert.True(isForgottenByDate && until > hostClock.ToUnixTimeSeconds()); // forgotten, and good again
+        Assert.Equal(TokenFault.None, new SecureHost(identity, issuer.Key, () => hostClock).ReadToken(token).Fault);
+    }
+
+    /// <summary>After two days used tokens are forgotten; a date that is moved back then does not bring one back, and new ones are good.</summary>
+    [Fact]
+    public void Use_ForgottenWithTheClockMovedBack_IsRefused()
+    {
+        TimeSpan elapsed = TimeSpan.Zero;
+        SecureHost host = new(identity, issuer.Key, () => hostClock, () => elapsed);
+        byte[] token = issuer.Issue(Ada, identity.Fingerprint, now: Noon);
+        Assert.True(host.TryUseToken(token));
+        elapsed = TimeSpan.FromDays(2);
+        hostClock = Noon.AddDays(2);
+        byte[] later = issuer.Issue(Ada, identity.Fingerprint, now: hostClock);
+        Assert.True(host.TryUseToken(later));
+        Assert.Equal(TokenFault.None, host.ReadToken(issuer.Issue(Ada, identity.Fingerprint, now: hostClock)).Fault);
+        hostClock = Noon.AddSeconds(10);
+        Assert.Equal(TokenFault.Expired, host.ReadToken(token).Fault);
+        Assert.False(host.TryUseToken(token));
     }
 
     [Fact]

@@ -32,10 +32,13 @@ public sealed class NoiseVectorTests
         using NoiseSymmetricState its = NoiseHandshake.Begin(Prologue, host.PublicKey);
 
         byte[] first = new byte[Messages[0].Sealed.Length / 2];
-        Assert.True(NoiseHandshake.TryWriteFirst(mine, client, HostPublic, Hex(Messages[0].Payload), first));
+        Assert.True(NoiseHandshake.TryMixFirst(mine, client, HostPublic));
+        byte[] binding = mine.HandshakeHash.ToArray(), itsBinding = new byte[32];
+        NoiseHandshake.WriteFirst(mine, client, Hex(Messages[0].Payload), first);
         Assert.Equal(Messages[0].Sealed, Text(first));
         byte[] said = new byte[Messages[0].Payload.Length / 2];
-        Assert.True(NoiseHandshake.TryReadFirst(its, host, first, said));
+        Assert.True(NoiseHandshake.TryReadFirst(its, host, first, said, itsBinding));
+        Assert.Equal(binding, itsBinding);
         Assert.Equal(Messages[0].Payload, Text(said));
 
         byte[] second = new byte[Messages[1].Sealed.Length / 2];
@@ -54,12 +57,12 @@ public sealed class NoiseVectorTests
             (NoiseCipher from, NoiseCipher to) = n % 2 == 0 ? (clientEnd, hostEnd) : (hostEnd, clientEnd);
             byte[] plain = Hex(Messages[n].Payload);
             byte[] closed = new byte[plain.Length + IDatagramCipher.TagBytes];
-            from.Seal((ulong)(n / 2) - 1, plain, closed);
+            from.Seal((ulong)(n / 2) - 1, default, plain, closed);
             Assert.Equal(Messages[n].Sealed, Text(closed));
             byte[] opened = new byte[plain.Length];
-            Assert.True(to.TryOpen((ulong)(n / 2) - 1, closed, opened));
+            Assert.True(to.TryOpen((ulong)(n / 2) - 1, default, closed, opened));
             Assert.Equal(plain, opened);
-            Assert.False(from.TryOpen((ulong)(n / 2) - 1, closed, opened)); // reflected
+            Assert.False(from.TryOpen((ulong)(n / 2) - 1, default, closed, opened)); // reflected
         }
     }
 
@@ -80,9 +83,10 @@ public sealed class NoiseVectorTests
         Flip(hostKey, what == "host's key");
         using NoiseSymmetricState mine = NoiseHandshake.Begin(prologue, hostKey);
         byte[] first = new byte[32 + 5 + 16], second = new byte[32 + 7 + 16], said = new byte[7];
-        Assert.True(NoiseHandshake.TryWriteFirst(mine, client, hostKey, [1, 2, 3, 4, 5], first));
+        Assert.True(NoiseHandshake.TryMixFirst(mine, client, hostKey));
+        NoiseHandshake.WriteFirst(mine, client, [1, 2, 3, 4, 5], first);
         Flip(first, what == "first message");
-        bool isRead = NoiseHandshake.TryReadFirst(its, host, first, said.AsSpan(0, 5))
+        bool isRead = NoiseHandshake.TryReadFirst(its, host, first, said.AsSpan(0, 5), new byte[32])
             && NoiseHandshake.TryWriteSecond(its, answer, first.AsSpan(0, 32), PreShared, [1, 2, 3, 4, 5, 6, 7], second);
         Flip(key, what == "pre-shared key");
         Flip(second, what == "second message");
@@ -101,9 +105,9 @@ public sealed class NoiseVectorTests
         byte[] message = new byte[32 + 16];
         Hex(key).CopyTo(message, 0);
         using NoiseSymmetricState state = NoiseHandshake.Begin(Prologue, host.PublicKey);
-        Assert.False(NoiseHandshake.TryReadFirst(state, host, message, []));
+        Assert.False(NoiseHandshake.TryReadFirst(state, host, message, [], new byte[32]));
         using HostIdentity identity = HostIdentity.Draw();
-        Assert.Null(SecureClient.TrustOnFirstUse().Begin(Hex(key), Prologue, [], new byte[48]));
+        Assert.Null(SecureClient.TrustOnFirstUse().Begin(Hex(key), Prologue));
     }
 
     private static byte[] Hex(string text) => Convert.FromHexString(text);

@@ -329,10 +329,12 @@ public sealed class PathAttackTests : IDisposable
         {
             Assert.True(ChallengeDatagram.TryDecode(attacker.Last(0, 6), out ChallengeDatagram challenge, out _));
             ulong nonce = BitConverter.ToUInt64(heard, 4);
+            using IClientHandshake own = SecureJoinDatagram.Begin(nonce, challenge.Cookie, challenge.Identity, new SecureClient(identity.Fingerprint))!;
+            byte[] forged = new byte[heard.Length], binding = new byte[IHostProtection.BindingBytes];
+            own.WriteBinding(binding);
             JoinDatagram join = new(
-                nonce, challenge.Cookie, JoinCookies.Prove("", nonce, challenge.Cookie, challenge.Identity), 0, (uint)Simulation.FoldVersion);
-            byte[] forged = new byte[heard.Length];
-            Assert.NotNull(SecureJoinDatagram.Encode(forged, join, default, challenge.Identity, new SecureClient(identity.Fingerprint)));
+                nonce, challenge.Cookie, JoinCookies.Prove("", nonce, challenge.Cookie, binding), 0, (uint)Simulation.FoldVersion);
+            SecureJoinDatagram.Encode(forged, join, default, own);
             Assert.Equal(heard[..28], forged[..28]);
             return forged;
         }
@@ -369,7 +371,18 @@ public sealed class PathAttackTests : IDisposable
         Playing(isProtected);
         byte[] join = attacker.Last(1, isProtected ? PathAttacker.SecureJoin : PathAttacker.Join);
         byte[] whole = [.. attacker.Heard.SelectMany(h => h.Bytes)];
-        byte[] proved = isProtected ? [.. join[4..28], .. attacker.Last(0, 6)[28..60]] : join[4..28]; // nonce and cookie, and the host's key
+        byte[] proved = [.. "LagSim key proof"u8, .. join[4..28]]; // nonce and cookie
+        if (isProtected)
+        {
+            byte[] hash = SHA256.HashData("Noise_NKpsk2_25519_ChaChaPoly_SHA256"u8);
+            foreach (byte[] seen in new[] { join[..28], attacker.Last(0, 6)[28..60], join[28..60] }) // prologue, the host's key, the client's
+            {
+                hash = SHA256.HashData([.. hash, .. seen]);
+            }
+
+            proved = [.. proved, .. hash];
+        }
+
         string? found = null;
         byte[] proof = new byte[32];
         for (int n = 0; n < 1_000_000 && found is null; n++)

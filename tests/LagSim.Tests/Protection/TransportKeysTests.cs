@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Reflection;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
@@ -23,7 +24,7 @@ public sealed class TransportKeysTests
         {
             foreach (ulong number in new[] { (period * TransportKeys.Span) + 1, ((period + 1) * TransportKeys.Span) - 1 })
             {
-                keys.Seal(number, plain, made);
+                keys.Seal(number, default, plain, made);
                 using Aead cipher = new BouncyCastleAead(key);
                 cipher.Seal(number, default, plain, byHand);
                 Assert.Equal(byHand, made);
@@ -36,6 +37,27 @@ public sealed class TransportKeysTests
         }
     }
 
+    /// <summary>
+    /// The key after the one in use is nowhere in managed memory before it is needed, nor after that as bytes. The control: a key that is kept
+    /// beside its cipher is found.
+    /// </summary>
+    [Fact]
+    public void Next_BeforeAndAfterItIsNeeded_IsNotKeptAsBytes()
+    {
+        byte[] next = new byte[48], later = new byte[48];
+        using Aead first = new BouncyCastleAead(First);
+        first.Seal(ulong.MaxValue, default, new byte[32], next);
+        using Aead second = new BouncyCastleAead(next.AsSpan(0, 32));
+        second.Seal(ulong.MaxValue, default, new byte[32], later);
+        using TransportKeys keys = new(First);
+        Assert.False(Holds(keys, next[..32]));
+        byte[] plain = new byte[3], made = Sealed(keys, TransportKeys.Span);
+        using TransportKeys its = new(First);
+        Assert.True(its.TryOpen(TransportKeys.Span, default, made, plain));
+        Assert.False(Holds(keys, next[..32]) || Holds(keys, later[..32]) || Holds(its, next[..32]) || Holds(its, later[..32]));
+        Assert.True(Holds((keys, next[..32]), next[..32]));
+    }
+
     [Fact]
     public void Open_AroundAChangeOfKeys_TakesWhatIsNear()
     {
@@ -43,16 +65,16 @@ public sealed class TransportKeysTests
         const ulong span = TransportKeys.Span;
         byte[] before = Sealed(sending, span - 1), after = Sealed(sending, span), later = Sealed(sending, 2 * span), much = Sealed(sending, 5 * span);
         byte[] plain = new byte[3];
-        Assert.True(receiving.TryOpen(span, after, plain));
-        Assert.True(receiving.TryOpen(span - 1, before, plain)); // overtaken
+        Assert.True(receiving.TryOpen(span, default, after, plain));
+        Assert.True(receiving.TryOpen(span - 1, default, before, plain)); // overtaken
         byte[] forged = [.. later];
         forged[0] ^= 1;
-        Assert.False(receiving.TryOpen(2 * span, forged, plain)); // moves no key on
-        Assert.True(receiving.TryOpen(span - 1, before, plain));
-        Assert.True(receiving.TryOpen(2 * span, later, plain));
-        Assert.False(receiving.TryOpen(span - 1, before, plain)); // its key is gone
-        Assert.True(receiving.TryOpen(span, after, plain));
-        Assert.False(receiving.TryOpen(5 * span, much, plain)); // no link loses that many in a row
+        Assert.False(receiving.TryOpen(2 * span, default, forged, plain)); // moves no key on
+        Assert.True(receiving.TryOpen(span - 1, default, before, plain));
+        Assert.True(receiving.TryOpen(2 * span, default, later, plain));
+        Assert.False(receiving.TryOpen(span - 1, default, before, plain)); // its key is gone
+        Assert.True(receiving.TryOpen(span, default, after, plain));
+        Assert.False(receiving.TryOpen(5 * span, default, much, plain)); // no link loses that many in a row
     }
 
     /// <summary>
@@ -87,14 +109,15 @@ public sealed class TransportKeysTests
         HashSet<string> all = [];
         for (int n = 0; n < 50; n++)
         {
-            using IClientHandshake mine = new SecureClient(identity.Fingerprint).Begin(shown, [1], payload, message)!;
+            using IClientHandshake mine = new SecureClient(identity.Fingerprint).Begin(shown, [1])!;
+            mine.Write(payload, message);
             using IHostHandshake its = host.TryRead([1], message, payload)!;
             byte[] answer = new byte[53];
             using IDatagramCipher hostEnd = its.Accept("key", payload, answer);
             using IDatagramCipher clientEnd = mine.TryFinish("key", answer, payload)!;
             foreach (IDatagramCipher end in new[] { hostEnd, clientEnd })
             {
-                end.Seal(1, plain, sealedOnes);
+                end.Seal(1, default, plain, sealedOnes);
                 Assert.True(all.Add(Convert.ToHexString(sealedOnes)));
             }
         }
@@ -190,10 +213,37 @@ public sealed class TransportKeysTests
         return (new LinkSeal(NoiseCipher.OfClient(state)), new LinkSeal(NoiseCipher.OfHost(state)));
     }
 
+    /// <summary>Whether an object, or what it refers to, has these bytes in an array.</summary>
+    private static bool Holds(object of, byte[] bytes)
+    {
+        Stack<object> open = new([of]);
+        HashSet<object> seen = new(ReferenceEqualityComparer.Instance);
+        while (open.TryPop(out object? one))
+        {
+            if (one is byte[] array && array.AsSpan().IndexOf(bytes) >= 0)
+            {
+                return true;
+            }
+
+            for (Type? type = one.GetType(); type is not null && !type.IsArray && !type.IsPrimitive && seen.Count < 1000; type = type.BaseType)
+            {
+                foreach (FieldInfo field in type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic))
+                {
+                    if (!field.FieldType.IsPrimitive && !field.FieldType.IsPointer && field.GetValue(one) is object held && seen.Add(held))
+                    {
+                        open.Push(held);
+                    }
+                }
+            }
+        }
+
+        return false;
+    }
+
     private static byte[] Sealed(TransportKeys keys, ulong number)
     {
         byte[] made = new byte[19];
-        keys.Seal(number, [1, 2, 3], made);
+        keys.Seal(number, default, [1, 2, 3], made);
         return made;
     }
 
@@ -201,9 +251,9 @@ public sealed class TransportKeysTests
     {
         internal List<ulong> Sealed { get; } = [];
 
-        public void Seal(ulong number, ReadOnlySpan<byte> plain, Span<byte> destination) => Sealed.Add(number);
+        public void Seal(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> plain, Span<byte> destination) => Sealed.Add(number);
 
-        public bool TryOpen(ulong number, ReadOnlySpan<byte> source, Span<byte> plain) => false;
+        public bool TryOpen(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> source, Span<byte> plain) => false;
 
         public void Dispose()
         {

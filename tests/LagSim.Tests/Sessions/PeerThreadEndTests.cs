@@ -30,7 +30,7 @@ public sealed class PeerThreadEndTests
         PeerThread? host = null;
         int ended = 0;
         bool wasClosedInside = true;
-        host = PeerThread.Host(BuiltInScenes.Pair(), port, setUp: session =>
+        host = PeerThread.Host(BuiltInScenes.Pair(), port, new HostOptions { Unprotected = true }, setUp: session =>
         {
             session.Ended += () => ended++;
             session.Logged += _ =>
@@ -56,7 +56,7 @@ public sealed class PeerThreadEndTests
         for (int round = 0; round < 20; round++)
         {
             OwnedPort port = new();
-            PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port);
+            PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port, new HostOptions { Unprotected = true });
             bool[] isDone = new bool[2];
             Parallel.For(0, 2, n =>
             {
@@ -91,7 +91,7 @@ public sealed class PeerThreadEndTests
     public void Fault_OnceItIsDecided_IsToldAndNotTakenForAnEnd()
     {
         OwnedPort port = new() { Breaks = true };
-        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port);
+        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port, new HostOptions { Unprotected = true });
         for (int look = 0; look < 2; look++)
         {
             InvalidOperationException told = Assert.Throws<InvalidOperationException>(() => { host.WaitUntilRunning(Deadline); });
@@ -104,7 +104,7 @@ public sealed class PeerThreadEndTests
     public async Task Fault_WhileAnswersAreOutstanding_CompletesThemWithIt()
     {
         OwnedPort port = new();
-        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port);
+        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port, new HostOptions { Unprotected = true });
         Assert.True(host.WaitUntilRunning(Deadline));
         Task<int>? second = null;
         Task<int> first = host.Ask(_ =>
@@ -127,7 +127,7 @@ public sealed class PeerThreadEndTests
         PeerThread host = PeerThread.Host(
             BuiltInScenes.Pair(),
             port,
-            new HostOptions { Cancellation = cancellation.Token },
+            new HostOptions { Cancellation = cancellation.Token, Unprotected = true },
             session => session.Ended += () => ended++);
         Assert.True(host.WaitUntilRunning(Deadline));
         cancellation.Cancel();
@@ -145,7 +145,7 @@ public sealed class PeerThreadEndTests
     {
         OwnedPort port = new() { BreaksAtTheEnd = true };
         ConcurrentQueue<Exception> failures = new();
-        PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port, setUp: session => session.HandlerFailed += failures.Enqueue);
+        PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), port, new HostOptions { Unprotected = true }, setUp: session => session.HandlerFailed += failures.Enqueue);
         Assert.True(host.WaitUntilRunning(Deadline));
         Task<int> asked = host.Ask(_ => 1);
         host.Dispose();
@@ -199,7 +199,7 @@ public sealed class PeerThreadEndTests
     {
         OwnedPort port = new();
         HostSession? made = null;
-        Assert.Throws<FormatException>(() => PeerThread.Host(BuiltInScenes.Pair(), port, setUp: session =>
+        Assert.Throws<FormatException>(() => PeerThread.Host(BuiltInScenes.Pair(), port, new HostOptions { Unprotected = true }, setUp: session =>
         {
             made = session;
             throw new FormatException("a set-up that breaks");

@@ -33,7 +33,7 @@ public sealed class PeerThreadRulesTests
     public void HostAndJoin_OverCarriers_RunAndDisposeThem()
     {
         OwnedPort hosts = new(), clients = new();
-        using (PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), hosts))
+        using (PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), hosts, new HostOptions { Unprotected = true }))
         using (PeerThread client = PeerThread.Join(clients, host.LocalAddress))
         {
             Assert.True(client.WaitUntilRunning(Deadline), client.Session.EndReason);
@@ -73,7 +73,7 @@ public sealed class PeerThreadRulesTests
     public void HostAndJoin_OptionsOutOfRange_DisposeTheCarrier()
     {
         OwnedPort hosts = new(), clients = new();
-        Assert.Throws<ArgumentOutOfRangeException>(() => PeerThread.Host(BuiltInScenes.Pair(), hosts, new HostOptions { MaxSegments = 0 }));
+        Assert.Throws<ArgumentOutOfRangeException>(() => PeerThread.Host(BuiltInScenes.Pair(), hosts, new HostOptions { MaxSegments = 0, Unprotected = true }));
         Assert.Throws<ArgumentOutOfRangeException>(
             () => PeerThread.Join(clients, hosts.LocalAddress, new ClientOptions { MaxSegments = 0 }));
         Assert.Equal((true, true), (hosts.IsDisposed, clients.IsDisposed));

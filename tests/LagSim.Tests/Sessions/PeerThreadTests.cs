@@ -150,7 +150,7 @@ public sealed class PeerThreadTests
     public void Step_ThatThrows_TellsTheOthersAtOnceAndThenTheProgram()
     {
         BreakingPort carrier = new(new UdpPort(new IPEndPoint(IPAddress.Loopback, 0)));
-        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), carrier);
+        using PeerThread host = PeerThread.Host(BuiltInScenes.Pair(), carrier, new HostOptions { Unprotected = true });
         using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, host.LocalAddress.ToEndPoint().Port));
         Assert.True(client.WaitUntilRunning(Deadline), client.Session.EndReason);
         using ManualResetEventSlim ended = new();

@@ -210,7 +210,7 @@ public class ValueRangeTests
         byte[] half = AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default, SimTime.Zero, 1).Encode);
         half[^2] = 0; // an earliest stamp, and no promise
         AssertRefused(half);
-        foreach (byte reason in new byte[] { 0, 17, 255 })
+        foreach (byte reason in new byte[] { 0, 18, 255 })
         {
             byte[] answer = AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode);
             answer[^1] = reason;

@@ -194,6 +194,8 @@ internal sealed class JoinRequests(
         RefusalReason.TokenNotYetValid => $"the connect token's time begins in {secondsOff} s, by the host's clock: the clocks of"
             + " host and backend differ.",
         RefusalReason.TokenUsed => "a player came in with the connect token before. Ask for another.",
+        RefusalReason.TooManyWrongKeys => "too many wrong keys came from this address; it looks at no key from here for "
+            + (secondsOff > 0 ? $"another {secondsOff} s." : "a while."),
         _ => $"reason {(int)reason}.",
     };
 
@@ -213,15 +215,9 @@ internal sealed class JoinRequests(
     /// <summary>Makes the join that brings a cookie back, and the handshake with the host that sent it.</summary>
     private void Join(JoinAttempt attempt, in ChallengeDatagram challenge, PeerAddress from, SimTime now)
     {
-        PlayerPass former = seat.Pass ?? default;
-        PublicIdentity shown = options.IsProtected ? challenge.Identity : default;
-        JoinDatagram join = new(
-            attempt.Nonce, challenge.Cookie, JoinCookies.Prove(options.ConnectKey, attempt.Nonce, challenge.Cookie, shown),
-            world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number,
-            former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie, shown),
-            (byte)options.Role, options.Name);
         if (options.Protection is not IClientProtection protection)
         {
+            JoinDatagram join = Claims(attempt.Nonce, challenge.Cookie, default);
             byte[] plain = new byte[join.EncodedLength];
             join.Encode(plain);
             connection.Choose(from);
@@ -238,18 +234,31 @@ internal sealed class JoinRequests(
         }
         else
         {
-            byte[] secure = new byte[IHostProtection.HandshakeOverhead + join.EncodedLength + options.Token.Length];
-            if (SecureJoinDatagram.Encode(secure, join, options.Token.Span, challenge.Identity, protection) is IClientHandshake handshake)
-            {
-                connection.Choose(from);
-                attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);
-            }
-            else
+            IClientHandshake? handshake = SecureJoinDatagram.Begin(attempt.Nonce, challenge.Cookie, challenge.Identity, protection);
+            if (handshake is null)
             {
                 counters.DatagramsForged++;
                 unproven.NoteOtherHost();
+                return;
             }
+
+            Span<byte> binding = stackalloc byte[IHostProtection.BindingBytes];
+            handshake.WriteBinding(binding);
+            JoinDatagram join = Claims(attempt.Nonce, challenge.Cookie, binding);
+            byte[] secure = new byte[IHostProtection.HandshakeOverhead + join.EncodedLength + options.Token.Length];
+            SecureJoinDatagram.Encode(secure, join, options.Token.Span, handshake);
+            connection.Choose(from);
+            attempt.Take(new PreparedJoin(challenge.Cookie, secure, handshake, now), now);
         }
+    }
+
+    /// <summary>What this peer tells the host of itself, with proofs for this nonce and cookie, and this handshake if there is one.</summary>
+    private JoinDatagram Claims(ulong nonce, Token128 cookie, ReadOnlySpan<byte> binding)
+    {
+        PlayerPass former = seat.Pass ?? default;
+        return new JoinDatagram(
+            nonce, cookie, JoinCookies.Prove(options.ConnectKey, nonce, cookie, binding), world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion,
+            former.Number, former.Number == 0 ? default : JoinCookies.Prove(former.Secret, nonce, cookie, binding), (byte)options.Role, options.Name);
     }
 
     private void Enter(JoinAttempt attempt, PreparedJoin? answered, in WelcomeDatagram welcome, LinkSeal? seal)
@@ -285,7 +294,7 @@ internal sealed class JoinRequests(
     private void End(RefusalReason? reason, string why)
     {
         bool isKnown = status.IsRejoining || (options.Pass.Number > 0 && clock.Now - attempts.Began <= options.RejoinTime);
-        if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
+        if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress or RefusalReason.TooManyWrongKeys)
         {
             attempts.Restart(clock.Now + SimDuration.FromSeconds(1)); // a place may become free
             connection.Close();

@@ -3,7 +3,6 @@ using System.Buffers.Binary;
 using System.Security.Cryptography;
 using System.Text;
 using LagSim.Net.Carriers;
-using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -14,8 +13,9 @@ namespace LagSim.Net.Sessions.Core;
 /// </summary>
 /// <remarks>
 /// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is valid for half a minute to a minute. The
-/// proof of a key is HMAC-SHA-256 over nonce, cookie and the host's identity with the key. Both are cut to 128 bits. A session id is
-/// HMAC-SHA-256 with the secret too, so a client cannot derive another's from its own. For one thread.
+/// proof of a key or a pass is HMAC-SHA-256 over nonce, cookie and what the handshake alone has, with the key or the pass. Both are cut to
+/// 128 bits. A session id is HMAC-SHA-256 with the secret too, so a client cannot derive another's from its own. Each use begins with a
+/// label of its own, so that what a secret made for one is nothing for another. For one thread.
 /// </remarks>
 internal sealed class JoinCookies : IDisposable
 {
@@ -23,6 +23,14 @@ internal sealed class JoinCookies : IDisposable
     private static readonly SimDuration Age = SimDuration.FromSeconds(30);
 
     private readonly HMACSHA256 maker;
+
+    private static ReadOnlySpan<byte> CookieLabel => "LagSim cookie"u8;
+
+    private static ReadOnlySpan<byte> SessionLabel => "LagSim session id"u8;
+
+    private static ReadOnlySpan<byte> KeyLabel => "LagSim key proof"u8;
+
+    private static ReadOnlySpan<byte> PassLabel => "LagSim pass proof"u8;
 
     internal JoinCookies()
     {
@@ -37,11 +45,11 @@ internal sealed class JoinCookies : IDisposable
     /// <param name="connectKey">The key.</param>
     /// <param name="nonce">The nonce of the join.</param>
     /// <param name="cookie">The cookie that it brings back.</param>
-    /// <param name="host">The host that it is proved to; none in a session without protection.</param>
-    internal static Token128 Prove(string connectKey, ulong nonce, Token128 cookie, in PublicIdentity host = default)
+    /// <param name="binding">What the handshake alone has; empty in a session without protection.</param>
+    internal static Token128 Prove(string connectKey, ulong nonce, Token128 cookie, ReadOnlySpan<byte> binding = default)
     {
         using HMACSHA256 prover = new(Encoding.UTF8.GetBytes(connectKey));
-        return Prove(prover, nonce, cookie, host);
+        return Prove(prover, KeyLabel, nonce, cookie, binding);
     }
 
     internal Token128 Make(PeerAddress address, ulong nonce, SimTime now) => Make(address, nonce, Epoch(now));
@@ -52,45 +60,48 @@ internal sealed class JoinCookies : IDisposable
         return cookie == Make(address, nonce, epoch) || cookie == Make(address, nonce, epoch - 1);
     }
 
-    internal static bool IsProof(string key, in JoinDatagram join, in PublicIdentity host) =>
-        join.Proof == Prove(key, join.Nonce, join.Cookie, host);
+    internal static bool IsProof(string key, in JoinDatagram join, ReadOnlySpan<byte> binding) =>
+        join.Proof == Prove(key, join.Nonce, join.Cookie, binding);
 
     /// <summary>Computes the proof that a client has a player's pass.</summary>
-    internal static Token128 Prove(Token128 pass, ulong nonce, Token128 cookie, in PublicIdentity host = default)
+    internal static Token128 Prove(Token128 pass, ulong nonce, Token128 cookie, ReadOnlySpan<byte> binding = default)
     {
         byte[] key = new byte[Token128.Bytes];
         BinaryPrimitives.WriteUInt64LittleEndian(key, pass.First);
         BinaryPrimitives.WriteUInt64LittleEndian(key.AsSpan(sizeof(ulong)), pass.Second);
         using HMACSHA256 prover = new(key);
-        return Prove(prover, nonce, cookie, host);
+        return Prove(prover, PassLabel, nonce, cookie, binding);
     }
 
-    internal static bool IsProof(Token128 pass, in JoinDatagram join, in PublicIdentity host) =>
-        join.PlayerProof == Prove(pass, join.Nonce, join.Cookie, host);
+    internal static bool IsProof(Token128 pass, in JoinDatagram join, ReadOnlySpan<byte> binding) =>
+        join.PlayerProof == Prove(pass, join.Nonce, join.Cookie, binding);
 
     /// <summary>The session id of the n-th join of a session.</summary>
     internal ulong SessionId(ulong session, ulong join)
     {
-        Span<byte> bytes = stackalloc byte[2 * sizeof(ulong)];
-        BinaryPrimitives.WriteUInt64LittleEndian(bytes, session);
-        BinaryPrimitives.WriteUInt64LittleEndian(bytes.Slice(sizeof(ulong)), join);
+        Span<byte> bytes = stackalloc byte[SessionLabel.Length + (2 * sizeof(ulong))];
+        WireWriter writer = new(bytes);
+        writer.WriteBytes(SessionLabel);
+        writer.WriteUInt64(session);
+        writer.WriteUInt64(join);
         return Hash(maker, bytes).First;
     }
 
     private static long Epoch(SimTime now) => now.Ticks / Age.Ticks;
 
-    private static Token128 Prove(HMACSHA256 prover, ulong nonce, Token128 cookie, in PublicIdentity host)
+    /// <summary>
+    /// With the binding, a proof that was shown in one handshake is none in another: not at another host, and not to who reads the first one
+    /// with the host's stolen identity.
+    /// </summary>
+    private static Token128 Prove(HMACSHA256 prover, ReadOnlySpan<byte> label, ulong nonce, Token128 cookie, ReadOnlySpan<byte> binding)
     {
-        Span<byte> bytes = stackalloc byte[sizeof(ulong) + Token128.Bytes + IHostProtection.IdentityBytes];
+        Span<byte> bytes = stackalloc byte[label.Length + sizeof(ulong) + Token128.Bytes + binding.Length];
         WireWriter writer = new(bytes);
+        writer.WriteBytes(label);
         writer.WriteUInt64(nonce);
         cookie.Write(ref writer);
-        if (!host.IsNone)
-        {
-            host.Write(ref writer); // so that what one host was shown is no proof to another
-        }
-
-        return Hash(prover, bytes.Slice(0, writer.Position));
+        writer.WriteBytes(binding);
+        return Hash(prover, bytes);
     }
 
     private static Token128 Hash(HMACSHA256 hmac, ReadOnlySpan<byte> bytes)
@@ -103,10 +114,12 @@ internal sealed class JoinCookies : IDisposable
 
     private Token128 Make(PeerAddress address, ulong nonce, long epoch)
     {
-        Span<byte> bytes = stackalloc byte[PeerAddress.Bytes + (2 * sizeof(ulong))];
-        address.Write(bytes);
-        BinaryPrimitives.WriteUInt64LittleEndian(bytes.Slice(PeerAddress.Bytes), nonce);
-        BinaryPrimitives.WriteInt64LittleEndian(bytes.Slice(PeerAddress.Bytes + sizeof(ulong)), epoch);
+        Span<byte> bytes = stackalloc byte[CookieLabel.Length + PeerAddress.Bytes + (2 * sizeof(ulong))];
+        CookieLabel.CopyTo(bytes);
+        Span<byte> rest = bytes.Slice(CookieLabel.Length);
+        address.Write(rest);
+        BinaryPrimitives.WriteUInt64LittleEndian(rest.Slice(PeerAddress.Bytes), nonce);
+        BinaryPrimitives.WriteInt64LittleEndian(rest.Slice(PeerAddress.Bytes + sizeof(ulong)), epoch);
         return Hash(maker, bytes);
     }
 }

@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>Decides on joins: lets a client in with a link and a snapshot to download, or refuses it with the reason.</summary>
 internal sealed class Admission(
     ulong sessionId, HostOptions options, JoinCookies cookies, JoinIdentification identification, JoinRules rules, ClientRoster roster,
-    WaitingRoom room, JoinSnapshots snapshots, ClientTimeouts timeouts, LinkFactory links, SessionCounters counters)
+    WaitingRoom room, JoinSnapshots snapshots, ClientTimeouts timeouts, LinkFactory links, SessionCounters counters, WrongKeys wrongKeys)
 {
     private ulong joins;
 
@@ -24,9 +24,20 @@ internal sealed class Admission(
     /// <returns>The client; null if it may not join and was refused, or if it has to ask again.</returns>
     internal Client? Admit(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply, SimTime now)
     {
-        JoinIdentity who = identification.Of(join, token);
+        JoinIdentity who = identification.Of(join, token, reply.Binding);
+        if (who.Claimed is null && !who.IsByToken && MayBeGuessing(from, reply, now))
+        {
+            counters.DatagramsIgnored++;
+            return null;
+        }
+
         if (rules.WhyNot(join, who, from, now) is RefusalReason reason)
         {
+            if (reason == RefusalReason.WrongKey)
+            {
+                wrongKeys.Add(from, join.Proof, now);
+            }
+
             counters.DatagramsIgnored++;
             reply.Refuse(reason, reason == who.Fault ? who.SecondsOff : 0);
             return null;
@@ -63,5 +74,20 @@ internal sealed class Admission(
         Client admitted = new(new JoinClaim(join, who, token, reply.Handshake, now + timeouts.TimeoutWithCopy(made)), link, made, welcome);
         roster.All.Add(admitted);
         return admitted;
+    }
+
+    /// <summary>
+    /// Whether a key is not to be looked at, since too many were wrong. One machine's are refused, right or wrong; those of all are not
+    /// answered, so that who is no guesser asks again and gets in.
+    /// </summary>
+    private bool MayBeGuessing(PeerAddress from, JoinReply reply, SimTime now)
+    {
+        if (wrongKeys.Wait(from.Machine, now) is { Ticks: > 0 } wait)
+        {
+            reply.Refuse(RefusalReason.TooManyWrongKeys, (uint)Math.Ceiling(wait.ToSeconds()));
+            return true;
+        }
+
+        return wrongKeys.AreTooMany(now);
     }
 }

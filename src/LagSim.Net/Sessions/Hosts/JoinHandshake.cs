@@ -46,17 +46,21 @@ internal sealed class JoinHandshake
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
         MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
         server = new SnapshotServer(roster, chunks, challenge, parts.Sender, counters, clock);
+        WrongKeys = new WrongKeys(options.JoinLimits, clock.Now);
         JoinRules rules = new(parts.World.Scene!.Hash, BanList, Seating);
         WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
         Admission admission = new(
             sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links,
-            counters);
+            counters, WrongKeys);
         intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
         stray = new StrayReply(places, parts.Status, options.Protection, sender, parts.Clock);
     }
 
     /// <summary>The machines from which no client is let in.</summary>
     internal BanList BanList { get; } = new();
+
+    /// <summary>The wrong connect keys that came.</summary>
+    internal WrongKeys WrongKeys { get; }
 
     /// <summary>The snapshots for joining clients.</summary>
     internal JoinSnapshots Snapshots { get; }

@@ -12,14 +12,15 @@ namespace LagSim.Net.Sessions.Hosts;
 /// </summary>
 internal sealed class JoinIdentification(HostOptions options, PlayerPlaces places)
 {
-    private readonly PublicIdentity identity = PublicIdentity.Of(options.Protection);
-
-    internal JoinIdentity Of(in JoinDatagram join, ReadOnlySpan<byte> token)
+    /// <param name="join">What the client claims.</param>
+    /// <param name="token">Its connect token; empty for none.</param>
+    /// <param name="binding">What its handshake alone has; empty in a session without protection.</param>
+    internal JoinIdentity Of(in JoinDatagram join, ReadOnlySpan<byte> token, ReadOnlySpan<byte> binding)
     {
         bool isSpectator = join.Role == (byte)PeerRole.Spectator;
-        (byte keyed, string? key) = KeyOf(join);
+        (byte keyed, string? key) = KeyOf(join, binding);
         keyed = isSpectator ? (byte)0 : keyed; // a spectator takes no player's place, not even one that was its own
-        PlayerPlaces.Place? claimed = places.Claimed(join, keyed, identity);
+        PlayerPlaces.Place? claimed = places.Claimed(join, keyed, binding);
         if (key is null || options.Protection is not { RequiresToken: true } protection)
         {
             return new JoinIdentity(key, keyed, claimed);
@@ -48,16 +49,16 @@ internal sealed class JoinIdentification(HostOptions options, PlayerPlaces place
     };
 
     /// <summary>The number that a key gives, 0 for the session's, and the key; null for one that this host does not have.</summary>
-    private (byte Number, string? Key) KeyOf(in JoinDatagram join)
+    private (byte Number, string? Key) KeyOf(in JoinDatagram join, ReadOnlySpan<byte> binding)
     {
         foreach (KeyValuePair<byte, string> player in options.PlayerKeys)
         {
-            if (JoinCookies.IsProof(player.Value, join, identity))
+            if (JoinCookies.IsProof(player.Value, join, binding))
             {
                 return (player.Key, player.Value);
             }
         }
 
-        return (0, JoinCookies.IsProof(options.ConnectKey, join, identity) ? options.ConnectKey : null);
+        return (0, JoinCookies.IsProof(options.ConnectKey, join, binding) ? options.ConnectKey : null);
     }
 }

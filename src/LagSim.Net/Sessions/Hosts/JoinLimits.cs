@@ -45,6 +45,15 @@ internal sealed class JoinLimits
     /// </summary>
     internal double HandshakesPerSecondOfAll { get; set; } = 250;
 
+    /// <summary>After how many wrong connect keys of one machine the next has to wait: who types one in may err.</summary>
+    internal int FreeWrongKeys { get; set; } = 5;
+
+    /// <summary>How many wrong keys a second of all machines together are looked at, at length.</summary>
+    internal double WrongKeysPerSecondOfAll { get; set; } = 10;
+
+    /// <summary>How many of them at once after a pause.</summary>
+    internal int WrongKeyBurstOfAll { get; set; } = 100;
+
     /// <summary>The burst of chunks after a pause: four windows.</summary>
     internal int ChunkBurst { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;
 }

@@ -16,8 +16,13 @@ namespace LagSim.Net.Sessions.Hosts;
 internal sealed class JoinReply(
     ulong nonce, PeerAddress to, IHostProtection? protection, IHostHandshake? handshake, DatagramSender sender) : IDisposable
 {
+    private readonly byte[] binding = BindingOf(handshake);
+
     /// <summary>Which handshake the join began (<see cref="JoinClaim.Handshake"/>).</summary>
     internal Token128 Handshake { get; init; }
+
+    /// <summary>What the handshake alone has, and the client's proofs cover; empty in a session without protection.</summary>
+    internal ReadOnlySpan<byte> Binding => binding;
 
     /// <summary>Wipes the keys of the handshake.</summary>
     public void Dispose() => handshake?.Dispose();
@@ -68,5 +73,12 @@ internal sealed class JoinReply(
         }
 
         sender.Send(bytes.Slice(0, length), to);
+    }
+
+    private static byte[] BindingOf(IHostHandshake? handshake)
+    {
+        byte[] bytes = new byte[handshake is null ? 0 : IHostProtection.BindingBytes];
+        handshake?.WriteBinding(bytes);
+        return bytes;
     }
 }

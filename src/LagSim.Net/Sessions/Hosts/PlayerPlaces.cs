@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Security.Cryptography;
@@ -38,17 +39,17 @@ internal sealed class PlayerPlaces
     /// </summary>
     /// <param name="join">The join.</param>
     /// <param name="keyed">The player whose key it presents; 0 for none.</param>
-    /// <param name="host">The host's identity; none in a session without protection.</param>
-    internal Place? Claimed(in JoinDatagram join, byte keyed, in PublicIdentity host = default) =>
+    /// <param name="binding">What its handshake alone has; empty in a session without protection.</param>
+    internal Place? Claimed(in JoinDatagram join, byte keyed, ReadOnlySpan<byte> binding = default) =>
         IsFor(join.Player, join.Role == (byte)PeerRole.Spectator) && (join.Player == keyed || !options.PlayerKeys.ContainsKey(join.Player))
-            && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join, host) ? places[join.Player] : null;
+            && places[join.Player].Pass is Token128 pass && JoinCookies.IsProof(pass, join, binding) ? places[join.Player] : null;
 
     /// <summary>Returns the place of the player that a backend knows by that identity; null if it has none.</summary>
     internal Place? OfPlayer(string playerId, Place? except = null) =>
-        System.Array.Find(places, place => place != except && place?.Admission?.PlayerId == playerId);
+        Array.Find(places, place => place != except && place?.Admission?.PlayerId == playerId);
 
     /// <summary>The same, if the place is a spectator's, or a player's, as is wanted.</summary>
-    internal Place? OfPlayer(string playerId, bool isSpectator) => System.Array.Find(
+    internal Place? OfPlayer(string playerId, bool isSpectator) => Array.Find(
         places, place => place?.Admission?.PlayerId == playerId && IsFor(place.Number, isSpectator));
 
     /// <summary>Whether a number is one for spectators, or one for players, as is wanted.</summary>

@@ -1,0 +1,61 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using LagSim.Cli.Output;
+using LagSim.Net.Protection;
+
+namespace LagSim.Cli.Commands;
+
+/// <summary>A file that remembers which host answered at an address: on each line an address and a fingerprint, as ssh's known_hosts.</summary>
+/// <param name="file">The file, which need not exist yet.</param>
+internal sealed class KnownHosts(string file)
+{
+    /// <summary>The file in the user's folder for settings; null if the system has none.</summary>
+    internal static string? UsualFile =>
+        Environment.GetFolderPath(Environment.SpecialFolder.ApplicationData, Environment.SpecialFolderOption.DoNotVerify) is { Length: > 0 } folder
+            ? Path.Combine(folder, "lagsim", "known_hosts") : null;
+
+    /// <summary>The file.</summary>
+    internal string File => file;
+
+    /// <summary>The fingerprint of the host at an address, and its line, counted from 1; null if the address is not known.</summary>
+    /// <exception cref="InputException">A line is none.</exception>
+    /// <exception cref="IOException">The file cannot be read.</exception>
+    internal (HostFingerprint Fingerprint, int Line)? Find(string address)
+    {
+        string[] lines = Lines();
+        for (int n = 0; n < lines.Length; n++)
+        {
+            if (Read(lines[n], n + 1) is (string known, HostFingerprint fingerprint) && known == address)
+            {
+                return (fingerprint, n + 1);
+            }
+        }
+
+        return null;
+    }
+
+    /// <summary>Remembers the host at an address, in place of any other there.</summary>
+    /// <exception cref="IOException">The file cannot be written.</exception>
+    /// <exception cref="UnauthorizedAccessException">The file cannot be written, for lack of permission.</exception>
+    internal void Remember(string address, HostFingerprint fingerprint)
+    {
+        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(file))!);
+        IEnumerable<string> others = Lines().Where((line, n) => Read(line, n + 1)?.Address != address);
+        string draft = $"{file}.{Environment.ProcessId}.new"; // moved into place afterwards, so that a kill in between leaves the old file whole
+        System.IO.File.WriteAllLines(draft, others.Append($"{address} {fingerprint}"));
+        System.IO.File.Move(draft, file, overwrite: true);
+    }
+
+    private string[] Lines() => System.IO.File.Exists(file) ? System.IO.File.ReadAllLines(file) : [];
+
+    private (string Address, HostFingerprint Fingerprint)? Read(string line, int number)
+    {
+        string[] words = line.Split(' ', StringSplitOptions.RemoveEmptyEntries | StringSplitOptions.TrimEntries);
+        return words.Length == 0 || words[0][0] == '#' ? null
+            : words is [string address, string text] && HostFingerprint.TryParse(text, out HostFingerprint fingerprint) ? (address, fingerprint)
+            : throw new InputException(
+                $"Line {number} of '{file}' is '{line}'; it must be an address, a blank, and a host's fingerprint of {HostFingerprint.TextLength} hexadecimal digits.");
+    }
+}
