@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Runtime.CompilerServices;
+using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
@@ -43,8 +44,7 @@ internal sealed class SessionWarmup
     private const int TurnsAFrame = 3;
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
-    private static readonly object Gate = new();
-    private static readonly List<LateEventStrategy> Done = new(); // the strategies warmed up so far
+    private static readonly List<LateEventStrategy> Begun = new(); // the strategies warmed up for so far, or now; also the lock
 
     private readonly ManualClock clock = new();
     private readonly WarmupPort hostPort;
@@ -93,33 +93,39 @@ internal sealed class SessionWarmup
     internal SessionCounters ClientCounters => client.Session.Counters;
 
     /// <summary>
-    /// Warms up for a strategy, once per process; a concurrent caller waits until it is done. Does nothing where no code is compiled at run
-    /// time. From any thread.
+    /// Begins to warm up for a strategy, once per process, on a thread beside the sessions, which go on meanwhile: a host answers. Does
+    /// nothing where no code is compiled at run time. From any thread.
     /// </summary>
-    internal static void Once(LateEventStrategy strategy)
+    internal static void BeginOnce(LateEventStrategy strategy)
     {
         if (!RuntimeFeature.IsDynamicCodeCompiled)
         {
             return;
         }
 
-        lock (Gate)
+        lock (Begun)
         {
-            if (Done.Contains(strategy))
+            if (Begun.Contains(strategy))
             {
                 return;
             }
 
-            Done.Add(strategy);
-            try
-            {
-                Run(strategy, EveryKind, few: true);
-                Run(strategy, EveryKind, few: false);
-            }
-            catch (Exception failure) when (failure is not OutOfMemoryException)
-            {
-                // The session just loses some milliseconds at its first event.
-            }
+            Begun.Add(strategy);
+        }
+
+        new Thread(() => Run(strategy)) { Name = "LagSim warm-up", IsBackground = true, Priority = ThreadPriority.BelowNormal }.Start();
+    }
+
+    private static void Run(LateEventStrategy strategy)
+    {
+        try
+        {
+            Run(strategy, EveryKind, few: true);
+            Run(strategy, EveryKind, few: false);
+        }
+        catch (Exception failure) when (failure is not OutOfMemoryException)
+        {
+            // The sessions just lose some milliseconds at their first events.
         }
     }
 

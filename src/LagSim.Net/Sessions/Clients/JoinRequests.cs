@@ -10,7 +10,7 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>Asks a host to let this peer in: connect request, cookie, join, and then a welcome or a refusal.</summary>
 internal sealed class JoinRequests(
-    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, UnprovenAnswers unproven, SharedWorld world,
+    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, LastAnswer answer, SharedWorld world,
     SessionStatus status, DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
     /// <summary>
@@ -211,7 +211,7 @@ internal sealed class JoinRequests(
         PublicIdentity shown = options.IsProtected ? challenge.Identity : default;
         JoinDatagram join = new(
             attempt.Nonce, challenge.Cookie, JoinCookies.Prove(options.ConnectKey, attempt.Nonce, challenge.Cookie, shown),
-            world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion, former.Number,
+            world.Scene?.HashButSeed ?? 0, (uint)Simulation.FoldVersion, former.Number,
             former.Number == 0 ? default : JoinCookies.Prove(former.Secret, attempt.Nonce, challenge.Cookie, shown),
             (byte)options.Role, options.Name);
         if (options.Protection is not IClientProtection protection)
@@ -223,7 +223,7 @@ internal sealed class JoinRequests(
         else if (challenge.Identity.IsNone)
         {
             counters.DatagramsIgnored++;
-            unproven.NoteNoProtection();
+            answer.NoteNoProtection();
         }
         else if (!joins.TrySpend(now))
         {
@@ -239,7 +239,7 @@ internal sealed class JoinRequests(
             else
             {
                 counters.DatagramsForged++;
-                unproven.NoteOtherHost();
+                answer.NoteOtherHost();
             }
         }
     }
@@ -247,7 +247,7 @@ internal sealed class JoinRequests(
     private void Enter(JoinAttempt attempt, PreparedJoin? answered, in WelcomeDatagram welcome, LinkSeal? seal)
     {
         SimTime now = clock.Now;
-        unproven.Forget();
+        answer.Forget();
         attempt.Take(welcome, answered, now);
         connection.Open(welcome, seal, now);
         status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;
@@ -265,7 +265,7 @@ internal sealed class JoinRequests(
         else if (options.IsProtected)
         {
             counters.DatagramsForged++;
-            unproven.NoteRefusal(why);
+            answer.NoteUnproven(why);
         }
         else
         {
@@ -275,15 +275,17 @@ internal sealed class JoinRequests(
 
     private void End(RefusalReason? reason, string why)
     {
+        string sentence = $"The {connection.Name} refused: {why}";
         bool isKnown = status.IsRejoining || (options.Pass.Number > 0 && clock.Now - attempts.Began <= options.RejoinTime);
         if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress)
         {
             attempts.Restart(clock.Now + SimDuration.FromSeconds(1)); // a place may become free
             connection.Close();
+            answer.NoteRefusal(sentence);
         }
         else
         {
-            status.Refuse(reason, $"The {connection.Name} refused: {why}");
+            status.Refuse(reason, sentence);
         }
     }
 }
