@@ -6,7 +6,6 @@ using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
-using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -46,16 +45,16 @@ public sealed class PeerThread : IDisposable
     private volatile bool isOwner; // from Start to the end of the thread
     private volatile bool isDisposed;
     private bool hasLeftPort; // it no longer wakes the thread, and is disposed if owned
-    private readonly Action<LateEventStrategy> warmUp; // begins to warm up, on another thread
+    private Action<Session>? warmUp; // null once called; for the session's thread only
 
     /// <summary>Gives the session a thread, which is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
-        : this(session, port, name, ownsPort: false, SessionWarmup.BeginOnce)
+        : this(session, port, name, ownsPort: false, SessionWarmup.Before)
     {
     }
 
-    // Start calls warmUp with the session's strategy.
-    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<LateEventStrategy> warmUp)
+    // The thread calls warmUp before its first step.
+    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<Session> warmUp)
     {
         this.ownsPort = ownsPort;
         this.warmUp = warmUp;
@@ -167,9 +166,9 @@ public sealed class PeerThread : IDisposable
     }
 
     /// <summary>Waits until the world is running or the session has ended. Blocks the caller; <see cref="WhenRunning"/> does not.</summary>
-    /// <param name="timeout">The longest time to wait: zero or more, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
+    /// <param name="timeout">The longest time to wait: zero to 24 days, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
     /// <returns>Whether it is running; if not, <see cref="Session.WhyNotRunning"/> says why.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The timeout is negative, or longer than 24 days.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The timeout is neither.</exception>
     /// <exception cref="InvalidOperationException">
     /// The thread ended with an exception, the inner one; or this is the session's own thread, which would wait for itself.
     /// </exception>
@@ -189,15 +188,11 @@ public sealed class PeerThread : IDisposable
     /// <param name="state">The state.</param>
     /// <param name="timeout">The longest time to wait: zero to 24 days, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
     /// <param name="cancellation">Cancels the task.</param>
-    /// <returns>
-    /// The task. It fails with a <see cref="TimeoutException"/> if the time is over, whose message is <see cref="Session.WhyNotRunning"/>,
-    /// and with an <see cref="InvalidOperationException"/> if the session ends instead, whose message is <see cref="Session.EndReason"/>,
-    /// or if the thread does.
-    /// </returns>
+    /// <returns>It fails with a <see cref="TimeoutException"/> if the time is over, which says <see cref="Session.WhyNotRunning"/>, and with
+    /// an <see cref="InvalidOperationException"/> if the session ends instead, which says <see cref="Session.EndReason"/>, or the thread does.</returns>
     /// <remarks>From any thread. What follows an <c>await</c> never runs on the session's thread.</remarks>
-    /// <exception cref="ArgumentOutOfRangeException">The timeout is negative, or longer than 24 days.</exception>
-    public Task WhenState(SessionState state, TimeSpan timeout, CancellationToken cancellation = default) =>
-        waiters.When(state, timeout, cancellation);
+    /// <exception cref="ArgumentOutOfRangeException">The timeout is neither.</exception>
+    public Task WhenState(SessionState state, TimeSpan timeout, CancellationToken cancellation = default) => waiters.When(state, timeout, cancellation);
 
     /// <summary>The contact notices given in the session's options; null if none were, and before there is a world.</summary>
     public ContactNotices? Contacts => Session.World?.Contacts;
@@ -230,11 +225,6 @@ public sealed class PeerThread : IDisposable
             isOwner = false;
             owner.Release();
             throw;
-        }
-
-        if (Session.WarmsUpFor is LateEventStrategy strategy)
-        {
-            warmUp(strategy);
         }
     }
 
@@ -317,7 +307,7 @@ public sealed class PeerThread : IDisposable
         try
         {
             TSession session = make();
-            peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.BeginOnce);
+            peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.Before);
             setUp?.Invoke(session);
             peer.Start();
             return peer;
@@ -350,6 +340,8 @@ public sealed class PeerThread : IDisposable
     internal SimDuration Step()
     {
         owner.Enter();
+        warmUp?.Invoke(Session);
+        warmUp = null;
         requests.AnswerAll();
         return refused.SayUnheard(Session.Step());
     }

@@ -223,8 +223,8 @@ public abstract record SessionOptions
     /// its kind in a process may reach the other peers' worlds some hundredths of a second late.
     /// </summary>
     /// <remarks>
-    /// It runs once per process and strategy, in memory, on a background thread of its own, and takes a second or so. The session does not
-    /// wait for it: a host answers from the start. With ahead-of-time compilation, as by IL2CPP or native AOT, nothing is done. Sessions
+    /// It runs once per process and strategy, in memory, on a background thread, and takes some tenths of a second. A client asks to be let
+    /// in that much later; a host does not wait for it, and answers from the start. With ahead-of-time compilation, as by IL2CPP or native AOT, nothing is done. Sessions
     /// that are stepped without a <see cref="PeerThread"/> are not affected.
     /// </remarks>
     public bool Warmup { get; init; } = true;

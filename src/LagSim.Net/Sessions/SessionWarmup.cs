@@ -44,7 +44,7 @@ internal sealed class SessionWarmup
     private const int TurnsAFrame = 3;
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
-    private static readonly List<LateEventStrategy> Begun = new(); // the strategies warmed up for so far, or now; also the lock
+    private static readonly Dictionary<LateEventStrategy, Task> Begun = new(); // also the lock
 
     private readonly ManualClock clock = new();
     private readonly WarmupPort hostPort;
@@ -93,27 +93,44 @@ internal sealed class SessionWarmup
     internal SessionCounters ClientCounters => client.Session.Counters;
 
     /// <summary>
-    /// Begins to warm up for a strategy, once per process, on a thread beside the sessions, which go on meanwhile: a host answers. Does
-    /// nothing where no code is compiled at run time. From any thread.
+    /// Warms up for a session that is about to take its first step, on a thread beside it; once per process and strategy. A host does not
+    /// wait for that: others ask it already. A client does: events of one that is in before it is warm could come too late. Does nothing
+    /// where no code is compiled at run time.
     /// </summary>
-    internal static void BeginOnce(LateEventStrategy strategy)
+    internal static void Before(Session session)
     {
-        if (!RuntimeFeature.IsDynamicCodeCompiled)
+        if (RuntimeFeature.IsDynamicCodeCompiled)
         {
-            return;
+            Before(session, Begin);
         }
+    }
 
+    /// <summary>The same, by a given warm-up.</summary>
+    internal static void Before(Session session, Func<LateEventStrategy, Task> begin)
+    {
+        if (session.WarmsUpFor is LateEventStrategy strategy)
+        {
+            Task warm = begin(strategy);
+            if (session is ClientSession)
+            {
+                warm.Wait();
+            }
+        }
+    }
+
+    private static Task Begin(LateEventStrategy strategy)
+    {
         lock (Begun)
         {
-            if (Begun.Contains(strategy))
+            if (!Begun.TryGetValue(strategy, out Task? warm))
             {
-                return;
+                warm = Task.Factory.StartNew(
+                    () => Run(strategy), CancellationToken.None, TaskCreationOptions.LongRunning, TaskScheduler.Default);
+                Begun.Add(strategy, warm);
             }
 
-            Begun.Add(strategy);
+            return warm;
         }
-
-        new Thread(() => Run(strategy)) { Name = "LagSim warm-up", IsBackground = true, Priority = ThreadPriority.BelowNormal }.Start();
     }
 
     private static void Run(LateEventStrategy strategy)

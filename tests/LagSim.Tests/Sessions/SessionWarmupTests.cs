@@ -49,22 +49,43 @@ public sealed class SessionWarmupTests
     [Theory]
     [InlineData(true, LateEventStrategy.FullRollback)]
     [InlineData(false)]
-    public async Task Start_OfAThread_BeginsToWarmUpOnce_UnlessItIsSwitchedOff(bool isOn, params LateEventStrategy[] expected)
+    public async Task Step_OfAThread_WarmsUpOnceBeforeAnythingIsAnswered_UnlessItIsSwitchedOff(bool isOn, params LateEventStrategy[] expected)
     {
         using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
         HostOptions options = new() { Warmup = isOn, Strategy = LateEventStrategy.FullRollback };
         List<LateEventStrategy> warmed = [];
         HostSession session = new(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7);
-        using PeerThread thread = new(session, port, "test", ownsPort: false, warmed.Add);
+        using PeerThread thread = new(session, port, "test", ownsPort: false, started => warmed.AddRange(started.WarmsUpFor is LateEventStrategy one ? [one] : []));
         Task<int> asked = thread.Ask(_ => warmed.Count);
 
-        thread.Step(); // by hand: nothing is warmed up
-        Assert.Equal(0, await asked);
-        thread.Start();
-        Assert.Equal(SessionState.Waiting, await thread.Ask(session => session.State));
+        thread.Step();
+        thread.Step();
 
         Assert.Equal(expected, warmed);
+        Assert.Equal(expected.Length, await asked);
         Assert.True(new HostOptions().Warmup);
+    }
+
+    /// <summary>A warm-up that is not over keeps a host from nothing: a client that asks meanwhile is let in. A client waits for its own.</summary>
+    [Fact]
+    public async Task Before_OfAHost_DoesNotWait_AndOfAClientDoes()
+    {
+        TaskCompletionSource over = new(TaskCreationOptions.RunContinuationsAsynchronously);
+        List<LateEventStrategy> begun = [];
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5));
+        SessionWarmup.Before(group.Host, Begin);
+        group.Connect();
+        Task client = Task.Run(() => SessionWarmup.Before(group.Client(1), Begin), TestContext.Current.CancellationToken);
+        Assert.NotSame(client, await Task.WhenAny(client, Task.Delay(50, TestContext.Current.CancellationToken)));
+        over.SetResult();
+        await client;
+        Assert.Equal([LateEventStrategy.Healing, LateEventStrategy.Healing], begun);
+
+        Task Begin(LateEventStrategy strategy)
+        {
+            begun.Add(strategy);
+            return over.Task;
+        }
     }
 
     [Fact]
