@@ -8,7 +8,6 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
-using LagSim.Time;
 using Xunit;
 
 namespace LagSim.Tests.Sessions;

@@ -4,7 +4,6 @@ using LagSim.Events;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -1,9 +1,6 @@
-using LagSim.Events;
-using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
-using LagSim.Testing.Running;
 using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;

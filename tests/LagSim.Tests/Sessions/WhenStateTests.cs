@@ -24,8 +24,9 @@ public sealed class WhenStateTests
         using PeerThread client = PeerThread.Join(host.LocalAddress.ToEndPoint());
         foreach (PeerThread peer in new[] { host, client })
         {
-            await peer.WhenRunning(Deadline, TestContext.Current.CancellationToken).ConfigureAwait(false);
-            Assert.DoesNotContain("LagSim", Thread.CurrentThread.Name ?? "", StringComparison.Ordinal);
+            Task<string> after = peer.WhenRunning(Deadline, TestContext.Current.CancellationToken).ContinueWith(
+                _ => Thread.CurrentThread.Name ?? "", TestContext.Current.CancellationToken, TaskContinuationOptions.ExecuteSynchronously, TaskScheduler.Default);
+            Assert.DoesNotContain("LagSim", await after, StringComparison.Ordinal);
             Assert.Equal(SessionState.Running, peer.State);
             Assert.Null(peer.Session.WhyNotRunning);
             Assert.True(peer.WhenRunning(TimeSpan.Zero, TestContext.Current.CancellationToken).IsCompletedSuccessfully); // as it is

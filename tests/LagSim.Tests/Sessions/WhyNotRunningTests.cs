@@ -1,8 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Events;
-using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
