@@ -18,14 +18,14 @@ using PeerThread me = args is ["join", string address]
     : PeerThread.Host(scene, udpPort: 5000, new HostOptions { Unprotected = true }, setUp: Watch); // or a Protection
 if (!me.WaitUntilRunning(TimeSpan.FromSeconds(15)))
 {
-    Console.Error.WriteLine(me.Session.EndReason);
+    Console.Error.WriteLine(me.Session.WhyNotRunning);
     return 1;
 }
 
 BodyId ball = me.Session.Scene!.BodyNamed("ball"); // a client gets the scene from the host
-for (int frame = 0; frame < 60 * 10 && me.State == SessionState.Running; frame++)
+for (int frame = 0; frame < 60 * 60 && me.State != SessionState.Ended; frame++)
 {
-    if (frame % 120 == 60)
+    if (frame % 120 == 60 && me.State == SessionState.Running) // not while a client that lost its host asks to be let in again
     {
         _ = me.Do(PlayerAction.Impulse(ball, new Vector3D(0, 6, 0))); // a kick every two seconds, 6 N s upwards
     }
@@ -38,6 +38,7 @@ for (int frame = 0; frame < 60 * 10 && me.State == SessionState.Running; frame++
     Thread.Sleep(1000 / 60);
 }
 
+Console.WriteLine(me.Session.EndReason); // nothing while it goes on
 return 0;
 
 static void Watch(Session session) => session.StateCommitted +=

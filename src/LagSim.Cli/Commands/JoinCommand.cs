@@ -33,7 +33,7 @@ internal static class JoinCommand
         };
         HostTrust trust = new();
         Option<string?> pass = CommonOptions.File(
-            "--pass", "Come back as the same player after a restart: the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
+            "--pass", "Come back as the same player, after a restart too: the host keeps the number for a while (its --rejoin-s) when this client leaves, and the file holds the player's pass, and is created if it is missing. Keep it secret: it is all that is needed to take the player's place.");
         Command command = new(
             "join",
             "Joins a session; the scene comes from the host. Exits with 0 if this peer stays for --for-s or, without it, until the host ends the session; with 3"
@@ -82,6 +82,7 @@ internal static class JoinCommand
             ClientSession session = new(null, carrier.Port, new StopwatchClock(), options, address, Session.DrawNumber());
             if (passFile is not null)
             {
+                session.KeepsPlace = true; // a pass is kept to come back with
                 PlayerPass former = options.Pass;
                 session.PassGiven += given =>
                 {

@@ -119,6 +119,21 @@ public sealed class ClientSession : Session
     public PlayerPass? Pass => client.Seat.Pass;
 
     /// <summary>
+    /// Whether the host is to keep this player's number when it leaves, by <see cref="Session.Leave"/> or with its
+    /// <see cref="PeerThread"/>, as it does for one that fell silent: who comes back with <see cref="Pass"/> is the same player. Default
+    /// false: it gives up number and pass. Set it before it leaves; from any thread.
+    /// </summary>
+    /// <remarks>
+    /// The host keeps it for its <see cref="SessionOptions.RejoinTime"/>, or until no other is left for a newcomer. A session that fails
+    /// leaves as if this were set.
+    /// </remarks>
+    public bool KeepsPlace
+    {
+        get => client.Connection.KeepsPlace;
+        set => client.Connection.KeepsPlace = value;
+    }
+
+    /// <summary>
     /// The number of own events that wait for the host's verdict, at most <see cref="MaxUnconfirmedEvents"/>. On the session's thread.
     /// </summary>
     public int UnconfirmedEvents

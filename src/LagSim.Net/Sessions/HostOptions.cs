@@ -50,8 +50,8 @@ public sealed record HostOptions : SessionOptions
     /// it.
     /// </summary>
     /// <remarks>
-    /// Without keys, numbers go by order of arrival and are reused, and with them whatever a scene grants to a number. The dictionary is
-    /// copied: later changes to it have no effect.
+    /// Without keys, numbers go by order of arrival, those that nobody has had first, and are reused. One to which the scene grants something
+    /// is reused at once, with what it grants. The dictionary is copied: later changes to it have no effect.
     /// </remarks>
     public IReadOnlyDictionary<byte, string> PlayerKeys
     {

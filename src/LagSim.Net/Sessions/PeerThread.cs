@@ -6,7 +6,6 @@ using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions.Core;
-using LagSim.Net.Strategies;
 using LagSim.Scenes;
 using LagSim.Time;
 
@@ -40,29 +39,30 @@ public sealed class PeerThread : IDisposable
     private readonly SessionOwner owner;
     private readonly ActionRefusals refused;
     private readonly WorldThread thread;
-    private readonly ManualResetEventSlim decided = new(); // set once running or ended
+    private readonly StateWaiters waiters;
     private readonly object ending = new(); // held while a thread cleans up
     private readonly bool ownsPort;
     private volatile bool isOwner; // from Start to the end of the thread
     private volatile bool isDisposed;
     private bool hasLeftPort; // it no longer wakes the thread, and is disposed if owned
     private volatile bool isWarmupSkipped;
-    private Action<LateEventStrategy, Func<bool>>? warmUp; // null once done; for the session's thread only
+    private Action<Session, Func<bool>>? warmUp; // null once called; for the session's thread only
 
     /// <summary>Gives the session a thread, which is not started yet. The port is not disposed with it.</summary>
     public PeerThread(Session session, IDatagramPort port, string name)
-        : this(session, port, name, ownsPort: false, SessionWarmup.Once)
+        : this(session, port, name, ownsPort: false, SessionWarmup.Before)
     {
     }
 
-    // The thread calls warmUp before its first step, with the session's strategy, and with what tells it to end early.
-    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<LateEventStrategy, Func<bool>> warmUp)
+    // The thread calls warmUp before its first step, with what tells it to wait no longer.
+    internal PeerThread(Session session, IDatagramPort port, string name, bool ownsPort, Action<Session, Func<bool>> warmUp)
     {
         this.ownsPort = ownsPort;
         this.warmUp = warmUp;
         Session = session ?? throw new ArgumentNullException(nameof(session));
         this.port = port ?? throw new ArgumentNullException(nameof(port));
         owner = session.Parts.Owner;
+        waiters = new StateWaiters(session.Parts.Status);
         refused = new(owner, session.Parts.Clock);
         actions = new ActionRequests(refused, owner.Failures);
         thread = new WorldThread(name, Step, session.Interrupt, End);
@@ -162,19 +162,34 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>Waits until the world is running or the session has ended.</summary>
-    /// <param name="timeout">The longest time to wait: zero or more, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
-    /// <returns>Whether it is running; if the session has ended instead, <see cref="Session.EndReason"/> says why.</returns>
-    /// <exception cref="ArgumentOutOfRangeException">The timeout is negative, or longer than 24 days.</exception>
+    /// <summary>Waits until the world is running or the session has ended. Blocks the caller; <see cref="WhenRunning"/> does not.</summary>
+    /// <param name="timeout">The longest time to wait: zero to 24 days, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
+    /// <returns>Whether it is running; if not, <see cref="Session.WhyNotRunning"/> says why.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">The timeout is neither.</exception>
     /// <exception cref="InvalidOperationException">
     /// The thread ended with an exception, the inner one; or this is the session's own thread, which would wait for itself.
     /// </exception>
     public bool WaitUntilRunning(TimeSpan timeout)
     {
         ThrowIfOwn(nameof(WaitUntilRunning));
-        decided.Wait(timeout);
+        waiters.Wait(SessionState.Running, timeout);
         return State == SessionState.Running;
     }
+
+    /// <summary>A task that completes once the world is running: <see cref="WhenState"/> with <see cref="SessionState.Running"/>.</summary>
+    /// <inheritdoc cref="WhenState"/>
+    public Task WhenRunning(TimeSpan timeout, CancellationToken cancellation = default) =>
+        WhenState(SessionState.Running, timeout, cancellation);
+
+    /// <summary>A task that completes once the session is in a state, at once if it is. No thread waits for it.</summary>
+    /// <param name="state">The state.</param>
+    /// <param name="timeout">The longest time to wait: zero to 24 days, or <see cref="Timeout.InfiniteTimeSpan"/>.</param>
+    /// <param name="cancellation">Cancels the task.</param>
+    /// <returns>It fails with a <see cref="TimeoutException"/> if the time is over, which says <see cref="Session.WhyNotRunning"/>, and with
+    /// an <see cref="InvalidOperationException"/> if the session ends instead, which says <see cref="Session.EndReason"/>, or the thread does.</returns>
+    /// <remarks>From any thread. What follows an <c>await</c> never runs on the session's thread.</remarks>
+    /// <exception cref="ArgumentOutOfRangeException">The timeout is neither.</exception>
+    public Task WhenState(SessionState state, TimeSpan timeout, CancellationToken cancellation = default) => waiters.When(state, timeout, cancellation);
 
     /// <summary>The contact notices given in the session's options; null if none were, and before there is a world.</summary>
     public ContactNotices? Contacts => Session.World?.Contacts;
@@ -289,7 +304,7 @@ public sealed class PeerThread : IDisposable
         try
         {
             TSession session = make();
-            peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.Once);
+            peer = new PeerThread(session, carrier, name, ownsPort: true, SessionWarmup.Before);
             setUp?.Invoke(session);
             peer.Start();
             return peer;
@@ -301,18 +316,7 @@ public sealed class PeerThread : IDisposable
         }
     }
 
-    /// <summary>Warms up on this thread, not the game's, before any answer, so that an action waits for it once at most.</summary>
-    private void WarmUp()
-    {
-        if (Session.WarmsUpFor is LateEventStrategy strategy)
-        {
-            warmUp?.Invoke(strategy, () => isDisposed || isWarmupSkipped);
-        }
-
-        warmUp = null;
-    }
-
-    /// <summary>Ends the warm-up early, so that what was asked is answered soon. From any thread, at any time.</summary>
+    /// <summary>Has the warm-up waited for no longer, so that what was asked is answered soon. From any thread, at any time.</summary>
     internal void SkipWarmup() => isWarmupSkipped = true;
 
     private bool IsOwnThread => isOwner && owner.IsCaller;
@@ -336,15 +340,10 @@ public sealed class PeerThread : IDisposable
     internal SimDuration Step()
     {
         owner.Enter();
-        WarmUp();
+        warmUp?.Invoke(Session, () => isDisposed || isWarmupSkipped);
+        warmUp = null;
         requests.AnswerAll();
-        SimDuration wait = refused.SayUnheard(Session.Step());
-        if (Session.State is SessionState.Running or SessionState.Ended)
-        {
-            decided.Set();
-        }
-
-        return wait;
+        return refused.SayUnheard(Session.Step());
     }
 
     /// <summary>
@@ -382,7 +381,7 @@ public sealed class PeerThread : IDisposable
                 }
             }
 
-            decided.Set();
+            waiters.Close(hasFailed ? fault : null);
             refused.SayUnheard();
             requests.Close(hasFailed ? fault : null);
             if (isOwner)

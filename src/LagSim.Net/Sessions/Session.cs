@@ -169,6 +169,12 @@ public abstract class Session
     /// </summary>
     public string? EndReason => parts.Status.EndReason;
 
+    /// <summary>
+    /// Why the session does not run, as a sentence: what it waits for, such as no answer from the host for 5 s, or
+    /// <see cref="EndReason"/>; null while it runs. From any thread, as of the last step.
+    /// </summary>
+    public string? WhyNotRunning => parts.Status.WhyNotRunning;
+
     /// <summary>The cause of the session's end. From any thread, as <see cref="EndReason"/>.</summary>
     public SessionEnd EndedBy => parts.Status.EndedBy;
 

@@ -220,12 +220,12 @@ public abstract record SessionOptions
     public SimDuration DisplayDelay { get; init; } = Interpolation.DefaultDelay;
 
     /// <summary>
-    /// Whether a <see cref="PeerThread"/> compiles the code that events need before it first steps its session; default true. Without it,
-    /// the first event of its kind in a process may reach the other peers' worlds some hundredths of a second late.
+    /// Whether a <see cref="PeerThread"/> that starts has the code compiled that events need; default true. Without it, the first event of
+    /// its kind in a process may reach the other peers' worlds some hundredths of a second late.
     /// </summary>
     /// <remarks>
-    /// It runs once per process and strategy, in memory, on the session's thread, and takes some tenths of a second. The session starts
-    /// that much later and is otherwise unaffected. With ahead-of-time compilation, as by IL2CPP or native AOT, nothing is done. Sessions
+    /// It runs once per process and strategy, in memory, on a background thread, and takes some tenths of a second. A client asks to be let
+    /// in that much later; a host does not wait for it, and answers from the start. With ahead-of-time compilation, as by IL2CPP or native AOT, nothing is done. Sessions
     /// that are stepped without a <see cref="PeerThread"/> are not affected.
     /// </remarks>
     public bool Warmup { get; init; } = true;

@@ -45,25 +45,21 @@ internal sealed class SessionWarmup
 
     private static readonly SimDuration Frame = SimDuration.FromMilliseconds(15);
     private static readonly TimeSpan LookInterval = TimeSpan.FromMilliseconds(20);
-    private static readonly object Gate = new();
-    private static readonly List<LateEventStrategy> Done = new(); // the strategies warmed up so far
+    private static readonly Dictionary<LateEventStrategy, Task> Begun = new(); // also the lock
 
     private readonly ManualClock clock = new();
     private readonly WarmupPort hostPort;
     private readonly WarmupPort clientPort;
     private readonly PeerThread host;
     private readonly PeerThread client;
-    private readonly Func<bool>? isOver;
 
     // These threads are never started: the caller steps the sessions.
-    private SessionWarmup(LateEventStrategy strategy, Scene scene, Func<bool>? isOver)
+    private SessionWarmup(LateEventStrategy strategy, Scene scene)
     {
-        this.isOver = isOver;
         (hostPort, clientPort) = WarmupPort.Pair();
         host = new PeerThread(new HostSession(scene, hostPort, clock, Options(strategy, MaxSpawnedBodies), 1), hostPort, "warm-up host");
         for (int n = 0; n < FramesToStart; n++)
         {
-            ThrowIfOver();
             clock.Now += Frame;
             host.Step();
         }
@@ -98,63 +94,68 @@ internal sealed class SessionWarmup
     internal SessionCounters ClientCounters => client.Session.Counters;
 
     /// <summary>
-    /// Warms up for a strategy, once per process; a concurrent caller waits until it is done. Does nothing where no code is compiled at run
-    /// time. From any thread.
+    /// Warms up for a session that is about to take its first step, on a thread beside it; once per process and strategy. A host does not
+    /// wait for that: others ask it already. A client does: events of one that is in before it is warm could come too late. Does nothing
+    /// where no code is compiled at run time.
     /// </summary>
-    /// <param name="strategy">How late events are handled; <see cref="SessionOptions.Strategy"/>.</param>
-    /// <param name="isOver">Whether the caller wants an end, within a frame; then the next caller warms up.</param>
-    internal static void Once(LateEventStrategy strategy, Func<bool> isOver)
+    /// <param name="session">The session.</param>
+    /// <param name="isOver">Whether the client is to wait no longer.</param>
+    internal static void Before(Session session, Func<bool> isOver)
     {
-        while (RuntimeFeature.IsDynamicCodeCompiled && !isOver())
+        if (RuntimeFeature.IsDynamicCodeCompiled)
         {
-            if (Monitor.TryEnter(Gate, LookInterval))
+            Before(session, isOver, Begin);
+        }
+    }
+
+    /// <summary>The same, by a given warm-up.</summary>
+    internal static void Before(Session session, Func<bool> isOver, Func<LateEventStrategy, Task> begin)
+    {
+        if (session.WarmsUpFor is LateEventStrategy strategy)
+        {
+            Task warm = begin(strategy);
+            while (session is ClientSession && !isOver() && !warm.Wait(LookInterval))
             {
-                try
-                {
-                    OnceOfAll(strategy, isOver);
-                    return;
-                }
-                finally
-                {
-                    Monitor.Exit(Gate);
-                }
+                // until it is warm, or need not be
             }
         }
     }
 
-    private static void OnceOfAll(LateEventStrategy strategy, Func<bool> isOver)
+    private static Task Begin(LateEventStrategy strategy)
     {
-        if (Done.Contains(strategy))
+        lock (Begun)
         {
-            return;
-        }
+            if (!Begun.TryGetValue(strategy, out Task? warm))
+            {
+                warm = Task.Factory.StartNew(
+                    () => Run(strategy), CancellationToken.None, TaskCreationOptions.LongRunning, TaskScheduler.Default);
+                Begun.Add(strategy, warm);
+            }
 
+            return warm;
+        }
+    }
+
+    private static void Run(LateEventStrategy strategy)
+    {
         try
         {
-            Run(strategy, EveryKind, few: true, isOver);
-            Run(strategy, EveryKind, few: false, isOver);
-        }
-        catch (OperationCanceledException)
-        {
-            return;
+            Run(strategy, EveryKind, few: true);
+            Run(strategy, EveryKind, few: false);
         }
         catch (Exception failure) when (failure is not OutOfMemoryException)
         {
-            // The session just loses some milliseconds at its first event.
+            // The sessions just lose some milliseconds at their first events.
         }
-
-        Done.Add(strategy);
     }
 
     /// <summary>Warms up, even if it was done before.</summary>
     /// <param name="strategy">How late events are handled; <see cref="SessionOptions.Strategy"/>.</param>
     /// <param name="kinds">The kinds of events to play.</param>
     /// <param name="few">Whether among a few bodies of all kinds, or among many; <see cref="WarmupScene.Of"/>.</param>
-    /// <param name="isOver">Whether to end early; looked at in every frame.</param>
-    /// <exception cref="OperationCanceledException">It ended early.</exception>
-    internal static SessionWarmup Run(LateEventStrategy strategy, IReadOnlyList<EventKind> kinds, bool few, Func<bool>? isOver = null)
+    internal static SessionWarmup Run(LateEventStrategy strategy, IReadOnlyList<EventKind> kinds, bool few)
     {
-        SessionWarmup warmup = new(strategy, WarmupScene.Of(few), isOver);
+        SessionWarmup warmup = new(strategy, WarmupScene.Of(few));
         warmup.Play(kinds);
         return warmup;
     }
@@ -238,19 +239,10 @@ internal sealed class SessionWarmup
         }
     }
 
-    private void ThrowIfOver()
-    {
-        if (isOver?.Invoke() == true)
-        {
-            throw new OperationCanceledException();
-        }
-    }
-
     private void Run(int frames)
     {
         for (int n = 0; n < frames; n++)
         {
-            ThrowIfOver();
             clock.Now += Frame;
             for (int turn = 0; turn < TurnsAFrame; turn++)
             {

@@ -26,4 +26,7 @@ internal enum LeaveReason : byte
 
     /// <summary>The host's world ended, or its session failed otherwise: the session is over for all peers.</summary>
     HostFailed = 8,
+
+    /// <summary>It left on its own and may come back: the host keeps its number for it, as for one that fell silent.</summary>
+    Away = 9,
 }

@@ -47,7 +47,7 @@ public sealed class Scene
         Spawners = spawners;
         Box = box;
         SensorArray = sensors;
-        Hash = ComputeHash();
+        (Hash, HashButSeed) = ComputeHashes();
     }
 
     /// <summary>The name of the scene.</summary>
@@ -101,6 +101,12 @@ public sealed class Scene
 
     /// <summary>A hash of everything above but the name: equal on two peers exactly if they mean the same world (to 64 bits).</summary>
     public ulong Hash { get; }
+
+    /// <summary>
+    /// The same hash without <see cref="Seed"/>: equal for the scenes of two matches that differ in nothing but their random numbers. By it a
+    /// host tells whether a client expects its scene.
+    /// </summary>
+    public ulong HashButSeed { get; }
 
     /// <summary>Those of the forces that are a program's own, which a peer must have to share the scene.</summary>
     public IReadOnlyList<IAcceleration> Accelerations { get; }
@@ -207,7 +213,7 @@ public sealed class Scene
         return supplied;
     }
 
-    private ulong ComputeHash()
+    private (ulong All, ulong ButSeed) ComputeHashes()
     {
         StableHash hash = default;
         hash.Add(Gravity);
@@ -280,7 +286,14 @@ public sealed class Scene
         }
 
         AddRules(ref hash);
-        return hash.Value;
+        ulong butSeed = hash.Value;
+        if (Seed != 0)
+        {
+            hash.Add(1UL << 56); // as below: a scene without has the hash it always had
+            hash.Add(Seed);
+        }
+
+        return (hash.Value, butSeed);
     }
 
     // As below: a scene without has the hash it always had.
@@ -297,12 +310,6 @@ public sealed class Scene
             {
                 hash.Add(1UL << 54);
             }
-        }
-
-        if (Seed != 0)
-        {
-            hash.Add(1UL << 56);
-            hash.Add(Seed);
         }
     }
 

@@ -103,7 +103,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
         if (!peer.WaitUntilRunning(TimeSpan.FromSeconds(15)))
         {
-            Console.Error.WriteLine(peer.Session.EndReason);
+            Console.Error.WriteLine(peer.Session.WhyNotRunning);
             return;
         }
 
@@ -216,7 +216,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         using PeerThread client = PeerThread.Join(new IPEndPoint(IPAddress.Loopback, 5000));
         if (!client.WaitUntilRunning(TimeSpan.FromSeconds(15)))
         {
-            throw new InvalidOperationException(client.Session.EndReason);
+            throw new InvalidOperationException(client.Session.WhyNotRunning);
         }
 
         // each frame
@@ -294,7 +294,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         using PeerThread peer = PeerThread.Join(new IPEndPoint(IPAddress.Parse("192.0.2.1"), 5000));
         if (!peer.WaitUntilRunning(TimeSpan.FromSeconds(10)))
         {
-            Console.Error.WriteLine(peer.Session.EndReason);
+            Console.Error.WriteLine(peer.Session.WhyNotRunning);
         }
 
         BodyId ball = peer.Session.Scene!.BodyNamed("ball");

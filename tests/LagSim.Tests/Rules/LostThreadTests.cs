@@ -125,7 +125,7 @@ public sealed class LostThreadTests
         ClientSession session = new(null, port, new StopwatchClock(), options with { RuleTimeout = RuleWatchdog.MinLimit }, host.LocalAddress, Session.DrawNumber());
         int ended = 0;
         session.Ended += () => ended++;
-        PeerThread lost = new(session, port, "lost", ownsPort: true, SessionWarmup.Once);
+        PeerThread lost = new(session, port, "lost", ownsPort: true, SessionWarmup.Before);
         lost.Start();
         Assert.True(host.WaitUntilRunning(Deadline) && other.WaitUntilRunning(Deadline) && lost.WaitUntilRunning(Deadline));
         byte number = session.Peer;

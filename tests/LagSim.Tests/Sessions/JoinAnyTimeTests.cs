@@ -167,7 +167,13 @@ public sealed class JoinAnyTimeTests
     {
         SessionGroup group = new SessionGroup(
             ScriptedActions.Box(), 2, LinkProfiles.PureDelay(10), 3,
-            _ => new HostOptions { Timeout = SimDuration.FromSeconds(2), KeepAlive = SimDuration.FromSeconds(0.5), RejoinTime = SimDuration.Zero }).Connect();
+            peer => new HostOptions
+            {
+                Timeout = SimDuration.FromSeconds(2),
+                KeepAlive = SimDuration.FromSeconds(0.5),
+                RejoinTime = SimDuration.FromSeconds(peer == 0 ? 60 : 0),
+                MaxClientsPerAddress = 1, // so it gets the number that its machine had
+            }).Connect();
         new ScriptedActions(1).DoIn(group, 5);
         group.Cut(0, 1);
         group.Cut(1, 0);

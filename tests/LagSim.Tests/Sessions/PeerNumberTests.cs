@@ -11,7 +11,9 @@ namespace LagSim.Tests.Sessions;
 /// <summary>There are as many numbers as clients. Who gets one that others had goes on where their events ended, so no two are ever the same.</summary>
 public sealed class PeerNumberTests
 {
-    private readonly SessionGroup group = new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5)).Connect();
+    // With a place for one of each machine, who joins again from one gets the number that it had.
+    private readonly SessionGroup group = new SessionGroup(
+        ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), options: _ => new HostOptions { MaxClientsPerAddress = 1 }).Connect();
 
     [Fact]
     public void Join_AfterHundredsWhoDidNothing_IsLetIn()
@@ -64,8 +66,9 @@ public sealed class PeerNumberTests
         RawClient liar = new(group);
         liar.Claim(1, ExternalEvent.SetVelocity(group.Host.SharedTime.Now, liar.Peer, 1, First, V(1e300)));
         Assert.Equal(Verdict.Invalid, group.Log[1].Verdict);
+        byte number = liar.Peer;
         liar.Leave();
-        RawClient next = new(group, 100);
-        Assert.Equal((liar.Peer, 1u), (next.Peer, next.LastSequence));
+        liar.Join(2);
+        Assert.Equal((number, 1u), (liar.Peer, liar.LastSequence));
     }
 }

@@ -85,7 +85,7 @@ public sealed class PlayerLimitsTests
         Assert.Equal([4, 6, 8, 10], Said(group, Verdict.NoRight));
         Assert.Null(group.Difference());
 
-        // Who gets its number gets its bodies, and anyone may remove them; others have their own.
+        // Who gets its number, here the next from its machine, gets its bodies, and anyone may remove them; others have their own.
         many.Leave();
         group.Do(1, PlayerAction.Spawn(Ball(0.25), V(0, 30)));
         many.Join(99);
@@ -166,7 +166,7 @@ public sealed class PlayerLimitsTests
         new SessionGroup(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5), 1, _ => Options(speed, bodies, force, power)).Connect();
 
     private static HostOptions Options(double speed, int bodies, double force = 0, double power = 0) =>
-        new() { MaxGivenSpeed = speed, MaxSpawned = bodies, MaxHandForce = force, MaxHandPower = power, ExtraHistory = SimDuration.FromSeconds(60) };
+        new() { MaxGivenSpeed = speed, MaxSpawned = bodies, MaxHandForce = force, MaxHandPower = power, ExtraHistory = SimDuration.FromSeconds(60), MaxClientsPerAddress = 1 };
 
     private static PlayerAction Above(int place) => PlayerAction.Spawn(Ball(0.25), V(0, 10 + place));
 

@@ -17,7 +17,7 @@ public sealed class PlayerPlacesTests
     private static readonly SimDuration Kept = SimDuration.FromSeconds(30);
 
     [Fact]
-    public void AnyComingAndGoing_GivesTheLeastThatNobodyHas_AndOfThoseThatAreKeptTheOldest()
+    public void AnyComingAndGoing_GivesTheLeastThatNobodyHad_ThenThatGivenUpFirst_ThenThatKeptLongest()
     {
         for (int seed = 0; seed < 50; seed++)
         {
@@ -27,15 +27,16 @@ public sealed class PlayerPlacesTests
             HostOptions options = new() { RejoinTime = Kept, PlayerKeys = keys, MaxClientsPerAddress = SessionOptions.MaxClients };
             SimTime now = SimTime.FromSeconds(100);
             PlayerPlaces places = new(options, now);
-            Dictionary<byte, SimTime?> left = []; // of those that nobody has: since when kept, or null
+            Dictionary<byte, (SimTime At, bool IsKept)> left = []; // of those that somebody had and nobody has
             HashSet<byte> taken = [];
             for (int step = 0; step < 300; step++)
             {
                 now += SimDuration.FromSeconds(random.NextDouble() * 4);
                 IEnumerable<byte> numbers = Enumerable.Range(1, SessionOptions.MaxClients).Select(n => (byte)n);
                 byte[] free = [.. numbers.Where(n => !taken.Contains(n) && n != keyed)];
-                byte[] unkept = [.. free.Where(n => left.GetValueOrDefault(n) is not SimTime since || now - since > Kept)];
-                byte expected = unkept.Length > 0 ? unkept.Min() : free.OrderBy(n => left[n]).FirstOrDefault();
+                byte[] fresh = [.. free.Where(n => !left.ContainsKey(n))];
+                byte[] givenUp = [.. free.Except(fresh).Where(n => !left[n].IsKept || now - left[n].At > Kept)];
+                byte expected = fresh.Length > 0 ? fresh.Min() : (givenUp.Length > 0 ? givenUp : free).OrderBy(n => left[n].At).FirstOrDefault();
                 Assert.Equal(expected, places.Free(now, 0, default));
                 if (expected > 0 && random.Next(2) == 0)
                 {
@@ -53,7 +54,7 @@ public sealed class PlayerPlacesTests
                     Assert.Equal(isKept ? pass : null, places[leaver].Pass);
                     Assert.Equal(isKept ? LeaveReason.TimedOut : LeaveReason.Left, places.WhyGone((ulong)step));
                     taken.Remove(leaver);
-                    left[leaver] = isKept ? now : null;
+                    left[leaver] = (now, isKept);
                 }
             }
 

@@ -132,7 +132,7 @@ public sealed class RejoiningTests
             Assert.True(PlayerPass.TryParse($"1-{random.NextInt64():x16}{random.NextInt64():x16}", out PlayerPass guessed));
             ClientSession stranger = group.Join(7, 77 + (ulong)n, new ClientOptions { Pass = guessed });
             Assert.True(group.RunUntil(() => stranger.State == SessionState.Running, 2));
-            Assert.Equal((3, 3), (stranger.Peer, group.Host.ClientCount));
+            Assert.Equal((3 + (n % (SessionOptions.MaxClients / 2)), 3), (stranger.Peer, group.Host.ClientCount)); // as anybody
             Assert.NotEqual(guessed, stranger.Pass);
             stranger.Leave();
             group.Run(0.1);
@@ -151,7 +151,7 @@ public sealed class RejoiningTests
         group.Run(0.1);
         group.DropLast();
         ClientSession next = Running(group, 10, left);
-        Assert.Equal(1, next.Peer); // as anybody: the least that is free
+        Assert.Equal(2, next.Peer); // as anybody: the least that nobody had
         Assert.NotEqual(left, next.Pass);
 
         // It falls silent, and somebody else needs its number.
@@ -160,7 +160,7 @@ public sealed class RejoiningTests
         group.Run(Timeout.ToSeconds() + 1);
         Assert.Equal(0, group.Host.ClientCount);
         List<ClientSession> others = [.. Enumerable.Range(20, SessionOptions.MaxClients).Select(node => Running(group, node, default))];
-        Assert.Equal(Enumerable.Range(2, SessionOptions.MaxClients - 1).Append(1), others.Select(s => (int)s.Peer)); // its number last of all
+        Assert.Equal(Enumerable.Range(3, SessionOptions.MaxClients - 2).Concat([1, 2]), others.Select(s => (int)s.Peer)); // its number last of all
         ClientSession again = group.Join(40, 40, new ClientOptions { Pass = former, RejoinTime = SimDuration.FromSeconds(3) });
         group.Run(2);
         Assert.Equal(SessionState.Joining, again.State); // who had a place asks on: somebody may leave
@@ -185,20 +185,34 @@ public sealed class RejoiningTests
         Assert.Equal(5, client.Peer); // the number that is free now: its own is another's
     }
 
+    /// <summary>Of two numbers, the one that is kept is the last to be given away. That time over, the one that is free longer is the first.</summary>
     [Theory]
     [InlineData(10, 1)]
-    [InlineData(30, 2)]
+    [InlineData(30, 0)]
     public void Number_OfOneWhoFellSilent_IsKeptForTheHostsRejoinTime(double seconds, int expected)
     {
-        SessionGroup group = Group(2, _ => SimDuration.FromSeconds(20));
+        SessionGroup group = new SessionGroup(
+            ScriptedActions.Box(), 1, LinkProfiles.PureDelay(5), options: _ => new HostOptions { Timeout = Timeout, RejoinTime = SimDuration.FromSeconds(20), SpectatorPlaces = 2 }).Connect();
         int gone = 0;
         group.Host.ClientGone += _ => gone++;
-        group.DropLast();
-        group.Run(Timeout.ToSeconds() - 0.5);
-        Assert.Equal((0, 1), (gone, group.Host.ClientCount));
-        group.Run(0.6 + seconds);
-        Assert.Equal((1, 0), (gone, group.Host.ClientCount));
-        Assert.Equal(3 - expected, Running(group, 7, default).Peer);
+        byte[] numbers = [Watch(5).Peer, 0];
+        group.DropLast(); // killed: it says nothing
+        ClientSession other = Watch(6);
+        numbers[1] = other.Peer;
+        Assert.Equal((0, 2), (gone, group.Host.ClientCount));
+        Assert.True(group.RunUntil(() => gone == 1, Timeout.ToSeconds() + 0.1));
+        group.Run(0.1);
+        other.Leave();
+        group.Run(seconds);
+        Assert.Equal(0, group.Host.ClientCount);
+        Assert.Equal(numbers[expected], Watch(7).Peer);
+
+        ClientSession Watch(int node)
+        {
+            ClientSession session = group.Join(node, (ulong)node, new ClientOptions { Role = PeerRole.Spectator, Timeout = Timeout });
+            Assert.True(group.RunUntil(() => session.State == SessionState.Running, 2), session.WhyNotRunning);
+            return session;
+        }
     }
 
     [Fact]

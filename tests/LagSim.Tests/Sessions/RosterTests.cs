@@ -151,11 +151,12 @@ public sealed class RosterTests
     [Fact]
     public void Roster_WhenANumberPassesToAnother_TellsThatOneIsGoneAndAnotherCame()
     {
-        SessionGroup group = Named(LinkProfiles.PureDelay(100), "Hedy", "Ann", "Bob");
+        Scene seats = new SceneBuilder("seats").AddPlane("floor", Vector3D.Up, V(0)).AddBody("Bob's", Ball(), V(0, 2), players: PeerSet.Of(2)).Build();
+        SessionGroup group = Named(LinkProfiles.PureDelay(100), static _ => false, seats, "Hedy", "Ann", "Bob");
         group.Run(1);
         List<string> told = [];
         group.Client(1).RosterChanged += change => told.Add($"{change}");
-        group.Client(2).Leave();
+        group.Client(2).Leave(); // of a seat, which the next one takes
         group.Join(9, 90, new ClientOptions { Name = "Bob", Timeout = Timeout });
         group.Run(5);
         Assert.Equal(["gone: 2 player Bob", "came: 2 player Bob"], told);
@@ -306,9 +307,12 @@ public sealed class RosterTests
     /// <summary>A host and clients, which come in one after the other.</summary>
     private static SessionGroup Named(LinkProfile link, params string[] names) => Named(link, static _ => false, names);
 
-    private static SessionGroup Named(LinkProfile link, Func<ReadOnlyMemory<byte>, bool> isLost, params string[] names)
+    private static SessionGroup Named(LinkProfile link, Func<ReadOnlyMemory<byte>, bool> isLost, params string[] names) =>
+        Named(link, isLost, ScriptedActions.Box(), names);
+
+    private static SessionGroup Named(LinkProfile link, Func<ReadOnlyMemory<byte>, bool> isLost, Scene scene, params string[] names)
     {
-        SessionGroup group = new(ScriptedActions.Box(), 1, link, options: _ => Host(names[0]));
+        SessionGroup group = new(scene, 1, link, options: _ => Host(names[0]));
         group.Network.Lose((_, _, datagram) => isLost(datagram));
         group.Connect();
         for (int peer = 1; peer < names.Length; peer++)

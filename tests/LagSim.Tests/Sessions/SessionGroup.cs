@@ -109,11 +109,11 @@ internal sealed class SessionGroup
         (ClientSession)Add(address, null, options ?? new ClientOptions(), nonce, host);
 
     /// <summary>Kills the host, and starts one at its address that knows nothing of it.</summary>
-    internal HostSession RestartHost(HostOptions options)
+    internal HostSession RestartHost(HostOptions options, Scene? scene = null)
     {
         ports[0].Dispose();
         IDatagramPort port = Network.CreatePort(0);
-        HostSession session = new(Scene, port, new SkewedClock(Clock, 0, SimDuration.FromSeconds(1)), options, SessionId + 1);
+        HostSession session = new(scene ?? Scene, port, new SkewedClock(Clock, 0, SimDuration.FromSeconds(1)), options, SessionId + 1);
         ports[0] = port;
         IsTapped = false; // its log is another one
         steps.Replace(0, session, port);

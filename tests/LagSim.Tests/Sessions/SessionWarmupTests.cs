@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Harness.SceneFiles;
@@ -56,7 +55,7 @@ public sealed class SessionWarmupTests
         HostOptions options = new() { Warmup = isOn, Strategy = LateEventStrategy.FullRollback };
         List<LateEventStrategy> warmed = [];
         HostSession session = new(BuiltInScenes.Pair(), port, new VirtualClock(), options, 7);
-        using PeerThread thread = new(session, port, "test", ownsPort: false, (strategy, _) => warmed.Add(strategy));
+        using PeerThread thread = new(session, port, "test", ownsPort: false, (started, _) => warmed.AddRange(started.WarmsUpFor is LateEventStrategy one ? [one] : []));
         Task<int> asked = thread.Ask(_ => warmed.Count);
 
         thread.Step();
@@ -71,17 +70,18 @@ public sealed class SessionWarmupTests
     [Theory]
     [InlineData(true)]
     [InlineData(false)]
-    public async Task Thread_SkippedOrDisposedWhileItWarmsUp_EndsTheWarmupAndAnswers(bool isSkipped)
+    public async Task Thread_SkippedOrDisposedWhileItWarmsUp_WaitsNoLongerAndAnswers(bool isSkipped)
     {
-        using IDatagramPort port = new VirtualNetwork(new VirtualClock(), 1).CreatePort(0);
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5));
         using ManualResetEventSlim begun = new();
-        bool hasEndedEarly = false;
-        HostSession session = new(BuiltInScenes.Pair(), port, new VirtualClock(), new HostOptions(), 7);
-        using PeerThread thread = new(session, port, "test", ownsPort: false, (_, isOver) =>
+        TaskCompletionSource never = new(TaskCreationOptions.RunContinuationsAsynchronously);
+        bool hasEnded = false;
+        using PeerThread thread = new(group.Client(1), group.Ports[1], "test", ownsPort: false, (session, isOver) =>
         {
             Assert.False(isOver()); // the control: nobody has asked for an end yet
             begun.Set();
-            hasEndedEarly = SpinWait.SpinUntil(isOver, TimeSpan.FromSeconds(30));
+            SessionWarmup.Before(session, isOver, _ => never.Task);
+            hasEnded = true;
         });
         thread.Start();
         Assert.True(begun.Wait(TimeSpan.FromSeconds(30), TestContext.Current.CancellationToken));
@@ -93,23 +93,30 @@ public sealed class SessionWarmupTests
         }
 
         thread.Dispose();
-        Assert.True(hasEndedEarly);
+        Assert.True(hasEnded);
         Assert.True(asked.IsCompleted);
     }
 
-    [Theory]
-    [InlineData(0)]
-    [InlineData(10)] // while the host is alone
-    [InlineData(100)]
-    public void Run_ToldToEnd_EndsWithinAFrame(int frames)
+    /// <summary>A warm-up that is not over keeps a host from nothing: a client that asks meanwhile is let in. A client waits for its own.</summary>
+    [Fact]
+    public async Task Before_OfAHost_DoesNotWait_AndOfAClientDoes()
     {
-        int looks = 0;
-        Assert.Throws<OperationCanceledException>(
-            () => SessionWarmup.Run(LateEventStrategy.Healing, SessionWarmup.EveryKind, few: true, () => looks++ == frames));
-        Assert.Equal(frames + 1, looks);
-        SessionWarmup whole = SessionWarmup.Run(LateEventStrategy.Healing, SessionWarmup.EveryKind, few: true, () => looks++ < 0);
-        Assert.Equal(PlayersKinds, whole.HeardByHost); // the control: it goes to its end unless it is told to
-        Assert.InRange(looks, 150, int.MaxValue);
+        TaskCompletionSource over = new(TaskCreationOptions.RunContinuationsAsynchronously);
+        List<LateEventStrategy> begun = [];
+        SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.PureDelay(5));
+        SessionWarmup.Before(group.Host, () => false, Begin);
+        group.Connect();
+        Task client = Task.Run(() => SessionWarmup.Before(group.Client(1), () => false, Begin), TestContext.Current.CancellationToken);
+        Assert.NotSame(client, await Task.WhenAny(client, Task.Delay(50, TestContext.Current.CancellationToken)));
+        over.SetResult();
+        await client;
+        Assert.Equal([LateEventStrategy.Healing, LateEventStrategy.Healing], begun);
+
+        Task Begin(LateEventStrategy strategy)
+        {
+            begun.Add(strategy);
+            return over.Task;
+        }
     }
 
     [Fact]

@@ -26,6 +26,7 @@ internal sealed class ClientProtocol : ISessionProtocol
     private readonly ClientUpdates updates;
     private readonly SuspendDetector suspend;
     private readonly RosterFollower peers;
+    private readonly JoinProgress progress;
 
     internal ClientProtocol(SessionParts parts, ClientOptions options, PeerAddress host, ulong nonce)
     {
@@ -34,9 +35,10 @@ internal sealed class ClientProtocol : ISessionProtocol
         suspend = new SuspendDetector(options.Timeout / 2);
         Connection = new HostConnection(host, options.OtherAddresses, parts.Links, parts.Self, parts.Sender, parts.Counters);
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
-        UnprovenAnswers unproven = new();
+        LastAnswer answer = new();
+        progress = new JoinProgress(attempts, Connection, answer, parts.World, parts.Status, options.IsProtected);
         requests = new JoinRequests(
-            attempts, Connection, Seat, unproven, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
+            attempts, Connection, Seat, answer, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
         snapshot = new SnapshotClient(
             attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, new SceneCode(options.Accelerations, options.Rules));
         entry = new WorldEntry(attempts, Connection, parts.Start, parts.SharedTime, parts.Status, parts.Clock, options.Timeout);
@@ -44,7 +46,7 @@ internal sealed class ClientProtocol : ISessionProtocol
             Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
         updates = new ClientUpdates(Connection, attempts, parts.World, parts.SharedTime, parts.KeepAlive, parts.Sender);
         peers = new RosterFollower(Connection, parts.Peers, parts.SharedTime, parts.Sender, parts.Counters, options.Timeout / 2);
-        Loss = new HostLoss(attempts, Connection, unproven, parts.World, parts.Status, parts.Counters, parts.Clock, options);
+        Loss = new HostLoss(attempts, Connection, progress, answer, parts.World, parts.Status, parts.Counters, parts.Clock, options);
         Finder = new DivergenceFinder(
             Connection, parts.World, parts.Journal, parts.Self, parts.Sender, parts.Counters, parts.Clock, options.Timeout);
         parts.Commits.Compared += Finder.OnCompared;
@@ -68,7 +70,9 @@ internal sealed class ClientProtocol : ISessionProtocol
 
     internal DivergenceFinder Finder { get; }
 
-    public void Farewell(string? failure) => Connection.Farewell();
+    public void Farewell(string? failure) => Connection.Farewell(isChosen: failure is null);
+
+    public string WaitsFor(SimTime now) => progress.WaitsFor(now);
 
     public void WipeKeys()
     {

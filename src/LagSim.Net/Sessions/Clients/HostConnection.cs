@@ -19,6 +19,7 @@ internal sealed class HostConnection
     private readonly PlayerIdentity self;
     private readonly DatagramSender sender;
     private readonly SessionCounters counters;
+    private volatile bool keepsPlace;
 
     internal HostConnection(
         PeerAddress host, IEnumerable<PeerAddress> others, LinkFactory links, PlayerIdentity self, DatagramSender sender,
@@ -83,6 +84,13 @@ internal sealed class HostConnection
 
     /// <summary>Whether the host still sends the start: it does until it knows that it has arrived here.</summary>
     internal bool IsStartTold { get; set; }
+
+    /// <summary>Whether the host is asked to keep this peer's number when it leaves. From any thread.</summary>
+    internal bool KeepsPlace
+    {
+        get => keepsPlace;
+        set => keepsPlace = value;
+    }
 
     /// <summary>Begins a new link from the host's welcome.</summary>
     /// <param name="welcome">The welcome.</param>
@@ -157,13 +165,15 @@ internal sealed class HostConnection
     {
         if (Link is not null)
         {
-            sender.SayGoodbye(Link, self.Number, LeaveReason.Left);
+            sender.SayGoodbye(Link, self.Number, keepsPlace ? LeaveReason.Away : LeaveReason.Left);
         }
     }
 
     /// <summary>Says goodbye several times, so that one of them arrives.</summary>
-    internal void Farewell()
+    /// <param name="isChosen">Whether this peer leaves of its own will; who does not may come back as who it was.</param>
+    internal void Farewell(bool isChosen)
     {
+        keepsPlace |= !isChosen;
         for (int n = 0; n < DatagramSender.Goodbyes; n++)
         {
             SayGoodbye();

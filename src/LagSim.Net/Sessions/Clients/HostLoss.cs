@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// snapshot. Where rejoining is disabled or pointless, it ends the session.
 /// </summary>
 internal sealed class HostLoss(
-    JoinAttempts attempts, HostConnection connection, UnprovenAnswers unproven, SharedWorld world, SessionStatus status,
+    JoinAttempts attempts, HostConnection connection, JoinProgress progress, LastAnswer answer, SharedWorld world, SessionStatus status,
     SessionCounters counters, IClock clock, ClientOptions options)
 {
     private const int MaxFailedAttempts = 3;
@@ -61,7 +61,7 @@ internal sealed class HostLoss(
         }
         else if (world.Live is null)
         {
-            AskAgainOrEnd(now, SessionEnd.HostSilent, connection.Link is null ? NoAnswer(now) : Silence);
+            AskAgainOrEnd(now, SessionEnd.HostSilent, connection.Link is null ? NotLetIn(now) : $"{Silence} {progress.Stage(now)}");
         }
         else
         {
@@ -123,7 +123,7 @@ internal sealed class HostLoss(
         bool isUseless = !isSilence && useless >= (by == SessionEnd.LinkTooSlow ? 1 : MaxFailedAttempts);
         if (options.RejoinTime == SimDuration.Zero || isUseless)
         {
-            connection.Farewell(); // otherwise its place stays taken until the timeout
+            connection.Farewell(isChosen: false); // otherwise its place stays taken until the timeout
             if (isUseless)
             {
                 why += useless == 1 ? " A fresh copy was of no use." : $" {useless} fresh copies in a row were of no use.";
@@ -203,7 +203,7 @@ internal sealed class HostLoss(
         {
             status.End(rejoiningFor, FormattableString.Invariant(
                 $"{status.RejoiningBecause} This peer asked for {options.RejoinTime.ToSeconds():0.###} s to be let in again, in vain.")
-                + unproven.Sentence);
+                + answer.Sentence);
         }
         else if (isWelcome && connection.Link is UpdateLink link && now - link.Heard > options.Timeout)
         {
@@ -238,11 +238,8 @@ internal sealed class HostLoss(
     /// <summary>
     /// Names the longest time that certainly passed without an answer; a client with a pass asks for longer than the timeout.
     /// </summary>
-    private string NoAnswer(SimTime now)
-    {
-        SimDuration named = options.Pass.Number > 0 && now - attempts.Since > options.RejoinTime ? LongestComing : options.Timeout;
-        return FormattableString.Invariant($"No answer from the {connection.Name} within {named.ToSeconds():0.###} s.") + unproven.Sentence;
-    }
+    private string NotLetIn(SimTime now) =>
+        progress.NotLetIn(options.Pass.Number > 0 && now - attempts.Since > options.RejoinTime ? LongestComing : options.Timeout);
 
     private string Sentence(LeaveReason reason, string said) => reason switch
     {

@@ -11,7 +11,7 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>Asks a host to let this peer in: connect request, cookie, join, and then a welcome or a refusal.</summary>
 internal sealed class JoinRequests(
-    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, UnprovenAnswers unproven, SharedWorld world,
+    JoinAttempts attempts, HostConnection connection, PlayerSeat seat, LastAnswer answer, SharedWorld world,
     SessionStatus status, DatagramSender sender, SessionCounters counters, IClock clock, ClientOptions options)
 {
     /// <summary>
@@ -226,7 +226,7 @@ internal sealed class JoinRequests(
         else if (challenge.Identity.IsNone)
         {
             counters.DatagramsIgnored++;
-            unproven.NoteNoProtection();
+            answer.NoteNoProtection();
         }
         else if (!joins.TrySpend(now))
         {
@@ -238,7 +238,7 @@ internal sealed class JoinRequests(
             if (handshake is null)
             {
                 counters.DatagramsForged++;
-                unproven.NoteOtherHost();
+                answer.NoteOtherHost();
                 return;
             }
 
@@ -257,14 +257,14 @@ internal sealed class JoinRequests(
     {
         PlayerPass former = seat.Pass ?? default;
         return new JoinDatagram(
-            nonce, cookie, JoinCookies.Prove(options.ConnectKey, nonce, cookie, binding), world.Scene?.Hash ?? 0, (uint)Simulation.FoldVersion,
+            nonce, cookie, JoinCookies.Prove(options.ConnectKey, nonce, cookie, binding), world.Scene?.HashButSeed ?? 0, (uint)Simulation.FoldVersion,
             former.Number, former.Number == 0 ? default : JoinCookies.Prove(former.Secret, nonce, cookie, binding), (byte)options.Role, options.Name);
     }
 
     private void Enter(JoinAttempt attempt, PreparedJoin? answered, in WelcomeDatagram welcome, LinkSeal? seal)
     {
         SimTime now = clock.Now;
-        unproven.Forget();
+        answer.Forget();
         attempt.Take(welcome, answered, now);
         connection.Open(welcome, seal, now);
         status.State = status.State == SessionState.Joining ? SessionState.Synchronising : status.State;
@@ -282,7 +282,7 @@ internal sealed class JoinRequests(
         else if (options.IsProtected)
         {
             counters.DatagramsForged++;
-            unproven.NoteRefusal(why);
+            answer.NoteUnproven(why);
         }
         else
         {
@@ -293,15 +293,17 @@ internal sealed class JoinRequests(
 
     private void End(RefusalReason? reason, string why)
     {
+        string sentence = $"The {connection.Name} refused: {why}";
         bool isKnown = status.IsRejoining || (options.Pass.Number > 0 && clock.Now - attempts.Began <= options.RejoinTime);
         if (isKnown && reason is RefusalReason.Full or RefusalReason.TooManyFromOneAddress or RefusalReason.TooManyWrongKeys)
         {
             attempts.Restart(clock.Now + SimDuration.FromSeconds(1)); // a place may become free
             connection.Close();
+            answer.NoteRefusal(sentence);
         }
         else
         {
-            status.Refuse(reason, $"The {connection.Name} refused: {why}");
+            status.Refuse(reason, sentence);
         }
     }
 }

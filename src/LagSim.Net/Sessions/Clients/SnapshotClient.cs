@@ -63,7 +63,7 @@ internal sealed class SnapshotClient(
         attempt.Download = null;
         if (error is not null)
         {
-            connection.Farewell();
+            connection.Farewell(isChosen: false);
             status.End(SessionEnd.Failed, $"The copy of the world that the {connection.Name} sent cannot be used: {error}");
         }
     }

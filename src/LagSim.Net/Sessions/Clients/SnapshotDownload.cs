@@ -41,6 +41,12 @@ internal sealed class SnapshotDownload
         due = now;
     }
 
+    /// <summary>The length of the whole snapshot, in bytes.</summary>
+    internal int Length => length;
+
+    /// <summary>How many bytes have arrived in order.</summary>
+    internal int Received => have;
+
     internal bool IsComplete => next == count;
 
     /// <summary>The whole snapshot, once it is complete.</summary>

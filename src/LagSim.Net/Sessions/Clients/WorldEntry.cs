@@ -31,7 +31,7 @@ internal sealed class WorldEntry(
             }
             catch (SceneException failure)
             {
-                connection.Farewell();
+                connection.Farewell(isChosen: false);
                 status.End(
                     SessionEnd.Failed, $"The state that the {connection.Name} sent is no world of its scene. {failure.Message}");
                 return false;
@@ -43,7 +43,7 @@ internal sealed class WorldEntry(
         }
         else if (told < EarliestStart(attempt))
         {
-            connection.Farewell();
+            connection.Farewell(isChosen: false);
             status.End(SessionEnd.Failed, FormattableString.Invariant(
                 $"The {connection.Name} says that the session began {(sharedTime.Now - told).ToSeconds():0} s ago and sent no")
                 + " state of it: that is more than history and time-out allow.");

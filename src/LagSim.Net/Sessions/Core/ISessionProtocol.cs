@@ -30,6 +30,9 @@ internal interface ISessionProtocol : IDatagramHandler
     /// <summary>When something is due next, by the local clock, if nothing arrives.</summary>
     SimTime NextDue(SimTime now);
 
+    /// <summary>What this peer waits for while it does not run, as a sentence; asked only then.</summary>
+    string WaitsFor(SimTime now);
+
     /// <summary>Says goodbye.</summary>
     /// <param name="failure">What failed, as a sentence, which a host tells its clients; null if nothing did.</param>
     void Farewell(string? failure);

@@ -86,12 +86,21 @@ internal sealed class SessionLoop
             due = StepWorld(now, due);
         }
 
+        SayWhatIsWaitedFor(now);
         if (taken == MaxDatagramsAStep)
         {
             return SimDuration.Zero; // there may be more
         }
 
         return due == SimTime.MaxValue ? SimDuration.MaxValue : due - parts.Clock.Now; // the time of the step itself is not waited again
+    }
+
+    private void SayWhatIsWaitedFor(SimTime now)
+    {
+        if (parts.Status.State is not (SessionState.Running or SessionState.Ended))
+        {
+            parts.Status.WaitsFor = protocol.WaitsFor(now);
+        }
     }
 
     /// <summary>Advances the world.</summary>

@@ -3,12 +3,13 @@ using LagSim.Net.Wire;
 
 namespace LagSim.Net.Sessions.Core;
 
-/// <summary>Where a session stands, and why it ended or was interrupted.</summary>
+/// <summary>Where a session stands, and why it does not run: what it waits for, or why it ended or was interrupted.</summary>
 /// <remarks>Changed on the session's thread; read from any thread, except <see cref="RejoiningBecause"/>.</remarks>
 internal sealed class SessionStatus
 {
     private volatile SessionState state;
     private volatile string? endReason;
+    private volatile string waitsFor = "The session has not begun: its thread was not started, or has not done a step yet.";
     private volatile SessionEnd endedBy;
     private volatile RefusalReason refusedFor; // 0 for none
     private volatile Exception? failure;
@@ -18,10 +19,20 @@ internal sealed class SessionStatus
     /// <summary>Raised once, on the thread that ended the session.</summary>
     internal event Action? Ended;
 
+    /// <summary>Raised with each new state, on the thread that changed it.</summary>
+    internal event Action<SessionState>? Changed;
+
     internal SessionState State
     {
         get => state;
-        set => state = value;
+        set
+        {
+            if (state != value)
+            {
+                state = value;
+                Changed?.Invoke(value);
+            }
+        }
     }
 
     internal bool HasEnded => state == SessionState.Ended;
@@ -32,6 +43,20 @@ internal sealed class SessionStatus
     internal string? EndReason => endReason;
 
     internal SessionEnd EndedBy => endedBy;
+
+    /// <summary>What a session that does not run and has not ended waits for, as a sentence.</summary>
+    internal string WaitsFor
+    {
+        set => waitsFor = value;
+    }
+
+    /// <summary>Why the session does not run, as a sentence: what it waits for, or why it ended; null while it runs.</summary>
+    internal string? WhyNotRunning => state switch
+    {
+        SessionState.Running => null,
+        SessionState.Ended => endReason,
+        _ => waitsFor,
+    };
 
     /// <summary>What the host's refusal says that ended it; null if none did, or it was for another version of the protocol.</summary>
     internal RefusalReason? RefusedFor => refusedFor == 0 ? null : refusedFor;
@@ -46,7 +71,7 @@ internal sealed class SessionStatus
     internal void Rejoin(string why)
     {
         RejoiningBecause = why;
-        state = SessionState.Rejoining;
+        State = SessionState.Rejoining;
     }
 
     /// <summary>Records that the world has begun.</summary>
@@ -54,7 +79,7 @@ internal sealed class SessionStatus
     {
         if (state is not (SessionState.Ended or SessionState.Rejoining))
         {
-            state = SessionState.Running;
+            State = SessionState.Running;
         }
     }
 
@@ -84,7 +109,7 @@ internal sealed class SessionStatus
         endedBy = by;
         failure = cause;
         endReason = reason; // set first, so that a reader that sees the end sees the reason
-        state = SessionState.Ended;
+        State = SessionState.Ended;
         Ended?.Invoke();
     }
 }

@@ -126,6 +126,10 @@ internal sealed class SharedWorld
         Take(copied, snapshot);
     }
 
+    /// <summary>How long it is until the start, as a sentence. The world must exist.</summary>
+    internal string BeginsIn => FormattableString.Invariant(
+        $"The session begins in {Math.Max(0, (live!.Simulation.Start - sharedTime.Now).ToSeconds()):0.#} s.");
+
     /// <summary>Whether there is a world and its start has come.</summary>
     internal bool HasBegunBy(SimTime shared) => live is LiveWorld world && shared >= world.Simulation.Start;
 

@@ -91,7 +91,7 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
 
     /// <summary>Removes a client.</summary>
     /// <param name="client">The client.</param>
-    /// <param name="why">The reason. Its number is reserved for it unless it left or was kicked.</param>
+    /// <param name="why">The reason. Its number is reserved for it unless it left for good or was kicked.</param>
     /// <returns>False if it was gone already.</returns>
     internal bool Disconnect(Client client, LeaveReason why)
     {

@@ -29,7 +29,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Parts = parts;
         this.options = options;
         SimTime now = parts.Clock.Now;
-        PlayerPlaces places = new(options, now);
+        PlayerPlaces places = new(options, now, parts.World.Scene);
         Roster = new ClientRoster(places, parts.Sender, parts.Clock);
         Watermark = new Watermark(
             parts.SharedTime, parts.World, options.Window.History, options.ConfirmsEarly ? Roster : null);
@@ -78,6 +78,9 @@ internal sealed class HostProtocol : ISessionProtocol
     internal DesyncReporter DesyncReport { get; }
 
     public ExternalEvent Do(in PlayerAction action, SimTime time) => actions.Do(action, time);
+
+    public string WaitsFor(SimTime now) => Parts.World.Live is not null ? Parts.World.BeginsIn
+        : $"{Roster.PlayerCount} of the {options.ExpectedClients} players that this host waits for are in.";
 
     public void Farewell(string? failure) => Roster.Farewell(failure);
 
@@ -227,7 +230,7 @@ internal sealed class HostProtocol : ISessionProtocol
     private void OnLeave(in LeaveDatagram leave, PeerAddress from)
     {
         if (Roster.Of(leave.SessionId) is not Client client || client.Link.Other != from || (client.Peer != leave.Peer && leave.Peer != 0)
-            || !Roster.Disconnect(client, LeaveReason.Left))
+            || !Roster.Disconnect(client, leave.Reason == LeaveReason.Away ? LeaveReason.Away : LeaveReason.Left))
         {
             Parts.Counters.DatagramsIgnored++;
         }

@@ -47,7 +47,7 @@ internal sealed class JoinHandshake
         MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
         server = new SnapshotServer(roster, chunks, challenge, parts.Sender, counters, clock);
         WrongKeys = new WrongKeys(options.JoinLimits, clock.Now);
-        JoinRules rules = new(parts.World.Scene!.Hash, BanList, Seating);
+        JoinRules rules = new(parts.World.Scene!.HashButSeed, BanList, Seating);
         WaitingRoom room = new(roster, Snapshots, options.JoinLimits);
         Admission admission = new(
             sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links,

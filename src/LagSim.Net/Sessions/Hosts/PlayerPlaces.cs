@@ -7,23 +7,30 @@ using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
+using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>The clients' numbers in a session: what is known about each, and which are reserved for a player that is away.</summary>
-/// <remarks>A number is reserved for a player that fell silent, as long as the host's option says and no newcomer needs it.</remarks>
+/// <remarks>
+/// A number is reserved for a player that fell silent, or said that it may come back, as long as the host's option says and no newcomer
+/// needs it. One that a player gave up goes to a newcomer after all that nobody has had, since games keep scores by number; but a seat, a
+/// number to which the scene grants something, is there to be taken again.
+/// </remarks>
 internal sealed class PlayerPlaces
 {
     private readonly Place[] places = new Place[SessionOptions.MaxNumber + 1];
     private readonly HostOptions options;
     private readonly SimTime began;
+    private readonly PeerSet seats;
     private uint visits;
 
-    internal PlayerPlaces(HostOptions options, SimTime now)
+    internal PlayerPlaces(HostOptions options, SimTime now, Scene? scene = null)
     {
         this.options = options;
         began = now;
+        seats = SeatsOf(scene);
         for (byte number = 1; number < places.Length; number++)
         {
             places[number] = new Place(number, new RateLimit(options.MaxEventsPerSecond, options.MaxEventsPerSecond, now));
@@ -66,8 +73,8 @@ internal sealed class PlayerPlaces
         || (places[admission.Number] is { IsTaken: true } place && place.Admission?.PlayerId != admission.PlayerId);
 
     /// <summary>
-    /// Returns the lowest number that is neither taken nor reserved, otherwise the one reserved longest; 0 if all are taken. Never a number
-    /// that has a key.
+    /// Returns a number that is neither taken nor reserved, otherwise the one reserved longest; 0 if all are taken. Of the former it is the
+    /// lowest that is a seat or that nobody has had, then the one given up first. Never a number that has a key.
     /// </summary>
     /// <param name="now">The time by the local clock.</param>
     /// <param name="wanted">
@@ -75,29 +82,55 @@ internal sealed class PlayerPlaces
     /// numbers are reserved it grants that number without proof, if it is free. Where that is not safe enough, players have keys.
     /// </param>
     /// <param name="machine">
-    /// The new player's machine. Once a machine's players hold or reserve as many numbers as one machine may have, it gets one of those
-    /// reserved for it, so that joining again and again takes no numbers from others.
+    /// The new player's machine. Once a machine's players hold, or had until shortly, as many numbers as one machine may have, it gets one of
+    /// those it had, so that joining again and again takes no numbers from others.
     /// </param>
     /// <param name="isSpectator">Whether it is to be a spectator's number.</param>
     internal byte Free(SimTime now, byte wanted, PeerAddress machine, bool isSpectator = false)
     {
-        if (IsFor(wanted, isSpectator) && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, Pass: null }
+        if (IsFor(wanted, isSpectator) && now - began <= options.RejoinTime && places[wanted] is { IsTaken: false, LeftAt: null }
             && !options.PlayerKeys.ContainsKey(wanted))
         {
             return wanted;
         }
 
         bool IsKept(Place place) => place.IsKept(now, options.RejoinTime);
+        bool HasLeft(Place place) => place.HasLeft(now, options.RejoinTime);
         List<Place> all = places.Skip(1).Where(place => IsFor(place.Number, isSpectator)).ToList();
         all = isSpectator ? all.Take(options.SpectatorPlaces).ToList() : all;
         List<Place> free = all
             .Where(place => !place.IsTaken && !options.PlayerKeys.ContainsKey(place.Number) && place.LastSequence != uint.MaxValue)
             .ToList();
-        List<Place> keptHere = free.FindAll(place => place.Machine == machine && IsKept(place));
-        bool hasEnough = all.Count(place => place.Machine == machine && (place.IsTaken || IsKept(place))) >= options.MaxClientsPerAddress;
-        List<Place> choice = hasEnough && keptHere.Count > 0 ? keptHere : free;
-        Place? chosen = choice.Find(place => !IsKept(place)) ?? choice.OrderBy(place => place.LeftAt).FirstOrDefault();
-        return chosen?.Number ?? 0;
+        List<Place> hadHere = free.FindAll(place => place.Machine == machine && HasLeft(place));
+        bool hasEnough = all.Count(place => place.Machine == machine && (place.IsTaken || HasLeft(place))) >= options.MaxClientsPerAddress;
+        List<Place> choice = hasEnough && hadHere.Count > 0 ? hadHere : free;
+        return choice.OrderBy(IsKept).ThenBy(place => IsKept(place) || !seats.Contains(place.Number) ? place.LeftAt ?? SimTime.MinValue : SimTime.MinValue)
+            .FirstOrDefault()?.Number ?? 0;
+    }
+
+    /// <summary>The numbers to which a scene grants what it does not grant to everyone.</summary>
+    private static PeerSet SeatsOf(Scene? scene)
+    {
+        uint mask = 0;
+        foreach (PeerSet granted in scene?.Bodies.Select(body => body.Players).Append(scene.Spawners) ?? [])
+        {
+            mask |= granted == PeerSet.Everyone ? 0 : granted.Mask;
+        }
+
+        return PeerSet.FromMask(mask);
+    }
+
+    /// <summary>
+    /// Gives a number the rate of events of one that the same machine had before, if less is left of that: else one that leaves and joins
+    /// again would have a whole one with each number.
+    /// </summary>
+    internal void CarryRate(Place to, PeerAddress machine, SimTime now)
+    {
+        if (places.Skip(1).Where(place => !place.IsTaken && place.Machine == machine).OrderBy(place => place.Events.Left(now)).FirstOrDefault()
+            is Place former && former.Events.Left(now) < to.Events.Left(now))
+        {
+            (to.Events, former.Events) = (former.Events, to.Events);
+        }
     }
 
     /// <summary>
@@ -128,9 +161,10 @@ internal sealed class PlayerPlaces
         internal byte Number { get; }
 
         /// <summary>
-        /// The rate at which events of this number are validated. It belongs to the number, so that joining again does not reset it.
+        /// The rate at which events of this number are validated. It belongs to the number, so that joining again does not reset it; see
+        /// <see cref="CarryRate"/>.
         /// </summary>
-        internal RateLimit Events { get; }
+        internal RateLimit Events { get; set; }
 
         /// <summary>The sequence number of the last event of this number.</summary>
         internal uint LastSequence { get; set; }
@@ -141,7 +175,7 @@ internal sealed class PlayerPlaces
         /// <summary>Whether a client has it now.</summary>
         internal bool IsTaken { get; private set; }
 
-        /// <summary>When its player fell silent; null if no player had it, or the player left.</summary>
+        /// <summary>When its last player left or fell silent; null if it has a player, or never had one.</summary>
         internal SimTime? LeftAt { get; private set; }
 
         /// <summary>What a backend says of its player; null without a connect token.</summary>
@@ -156,8 +190,11 @@ internal sealed class PlayerPlaces
         /// <summary>Where its player is, or was; null if no player had it.</summary>
         internal PeerAddress? Machine { get; private set; }
 
-        /// <summary>Whether it is reserved for a player that fell silent.</summary>
-        internal bool IsKept(SimTime now, SimDuration time) => !IsTaken && Pass is not null && LeftAt is SimTime left && now - left <= time;
+        /// <summary>Whether it is reserved for a player that fell silent or may come back.</summary>
+        internal bool IsKept(SimTime now, SimDuration time) => Pass is not null && HasLeft(now, time);
+
+        /// <summary>Whether its last player has gone, and not longer ago than that.</summary>
+        internal bool HasLeft(SimTime now, SimDuration time) => !IsTaken && LeftAt is SimTime left && now - left <= time;
 
         /// <summary>Gives the number to the player that has its pass, or to a new player, which gets a new pass.</summary>
         /// <param name="isSamePlayer">Whether it is the player that had it, and keeps its pass.</param>
@@ -185,7 +222,6 @@ internal sealed class PlayerPlaces
         /// <summary>Gives up what was reserved for a player that has another place now.</summary>
         internal void Release()
         {
-            LeftAt = null;
             Pass = null;
             Admission = null;
         }
@@ -198,7 +234,7 @@ internal sealed class PlayerPlaces
         {
             Former = (session, why);
             IsTaken = false;
-            LeftAt = isKept ? now : null;
+            LeftAt = now;
             Pass = isKept ? Pass : null;
             Admission = isKept ? Admission : null;
         }

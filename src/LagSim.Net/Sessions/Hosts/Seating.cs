@@ -89,6 +89,7 @@ internal sealed class Seating(
         }
 
         MakeRoom(place);
+        places.CarryRate(place, address.Machine, now);
         place.Earliest = watermark.Now;
         client.Sit(place);
         if (claimed != place && !claim.IsSpectator)
