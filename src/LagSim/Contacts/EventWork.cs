@@ -21,11 +21,22 @@ internal sealed class EventWork
     /// <summary>The work since it was last cleared.</summary>
     internal double Done { get; private set; }
 
+    /// <summary>The part of it that contact solvers did.</summary>
+    internal double Solved { get; private set; }
+
     /// <summary>Begins another event.</summary>
-    internal void Clear() => Done = 0;
+    internal void Clear()
+    {
+        Done = 0;
+        Solved = 0;
+    }
 
     /// <summary>Counts sweeps over contacts.</summary>
-    internal void CountSweeps(int sweeps, int contacts) => Done += WorkPerVisit * sweeps * contacts;
+    internal void CountSweeps(int sweeps, int contacts)
+    {
+        Solved += WorkPerVisit * sweeps * contacts;
+        Done += WorkPerVisit * sweeps * contacts;
+    }
 
     /// <summary>Counts bodies that were looked at, since they may be near.</summary>
     internal void CountCandidates(int bodies) => Done += WorkPerCandidate * bodies;

@@ -23,6 +23,9 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, EventWork 
     /// <summary>Notified of every event that is processed; null, the default, costs nothing.</summary>
     internal IWorkObserver? Observer { get; set; }
 
+    /// <summary>What was done for the event that was processed last.</summary>
+    internal EventWork Work => work;
+
     /// <summary>An event is about to be processed.</summary>
     internal void Begin()
     {

@@ -46,7 +46,7 @@ internal static class PageDatagrams
         foreach (LeaveDatagram d in Sample(WireGen.Leave, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason), ("sentence", d.Reason == LeaveReason.HostFailed
+                page, DatagramType.Leave, ("session id", d.SessionId), ("peer", d.Peer), ("reason", (byte)d.Reason), ("sentence", d.Reason is LeaveReason.HostFailed or LeaveReason.Kicked
                     ? [.. LayoutPage.Bytes("u16", Encoding.UTF8.GetByteCount(d.Sentence)), .. Encoding.UTF8.GetBytes(d.Sentence)] : Array.Empty<byte>())));
         }
 

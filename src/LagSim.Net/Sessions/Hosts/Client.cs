@@ -13,7 +13,6 @@ internal sealed class Client
         Snapshot = snapshot;
         Welcome = welcome;
         DesyncQueries = new DesyncQueries(link.Heard);
-        Speaking = new SpeakingLimit(link);
     }
 
     /// <summary>Its number; 0 until it is in.</summary>
@@ -51,8 +50,8 @@ internal sealed class Client
     /// <summary>Whether it knows when the session starts.</summary>
     internal bool HasBegun { get; set; }
 
-    /// <summary>How far the host speaks to it by itself.</summary>
-    internal SpeakingLimit Speaking { get; }
+    /// <summary>Whether an update from it has arrived. Until then it is sent none.</summary>
+    internal bool HasWritten { get; set; }
 
     /// <summary>The number of log entries that it has.</summary>
     internal uint Acknowledged => Link.Outgoing.Acknowledged;

@@ -73,7 +73,7 @@ internal sealed class ClientTimeouts
         }
     }
 
-    private SimDuration TimeoutWith(Client client) => client.Speaking.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
+    private SimDuration TimeoutWith(Client client) => client.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
 
     /// <summary>Whether a client is so far behind, without getting closer, that a fresh snapshot is faster.</summary>
     /// <remarks>

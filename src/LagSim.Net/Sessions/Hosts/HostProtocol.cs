@@ -220,7 +220,7 @@ internal sealed class HostProtocol : ISessionProtocol
         due = options.ConfirmsEarly && Parts.World.Live is not null ? SimTime.Min(due, now + Hosts.Watermark.Pace) : due;
         foreach (Client client in Roster.All)
         {
-            due = SimTime.Min(due, client.Speaking.IsAllowed ? client.Link.Due : timeouts.NextLook(client, now));
+            due = SimTime.Min(due, client.HasWritten ? client.Link.Due : timeouts.NextLook(client, now));
             due = client.Incoming.HasNext ? SimTime.Min(due, now + options.ResendInterval) : due;
         }
 
@@ -252,7 +252,7 @@ internal sealed class HostProtocol : ISessionProtocol
 
         client.Link.CountReceived(update.EncodedLength);
         client.States.NoteEcho(update.EchoNumber);
-        client.Speaking.HasWritten = true;
+        client.HasWritten = true;
         if (update.Ready && client.Peer == 0 && (!Handshake.TrySeat(client, now) || Roster.Of(update.SessionId) != client))
         {
             return; // refused; or a handler sent it away as soon as it was in
@@ -275,7 +275,6 @@ internal sealed class HostProtocol : ISessionProtocol
             return;
         }
 
-        client.Speaking.IsIn = true;
         if (update.EventsReceived <= LogLength)
         {
             client.Link.Acknowledge(update.EventsReceived, now);

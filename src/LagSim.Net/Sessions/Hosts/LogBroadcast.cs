@@ -73,7 +73,7 @@ internal sealed class LogBroadcast
     {
         foreach (Client client in roster.All)
         {
-            for (int n = 0; n < SendWindow.MaxDatagramsAtOnce && client.Speaking.IsAllowed && client.Link.IsDue(now); n++)
+            for (int n = 0; n < SendWindow.MaxDatagramsAtOnce && client.HasWritten && client.Link.IsDue(now); n++)
             {
                 SendUpdate(client, now);
             }
@@ -97,8 +97,7 @@ internal sealed class LogBroadcast
         uint last = update.FirstIndex + (uint)update.Held.Length - 1;
         update.Watermark = world.Live is null ? SimTime.MinValue : last < lines.Count ? lines.WatermarkAfter(last) : watermark.Now;
         bool isUrgent = client.Acknowledged < Math.Min(log.LastUrgent, view.Last);
-        SimDuration rest = keepAlive.RestAfterUpdate(link, isToBegin, now, keepAlive.Overdue) * client.Speaking.Patience;
-        client.Speaking.NoteSent();
+        SimDuration rest = keepAlive.RestAfterUpdate(link, isToBegin, now, keepAlive.Overdue);
         sender.Send(link.Complete(view, now, rest, isUrgent), link);
     }
 }

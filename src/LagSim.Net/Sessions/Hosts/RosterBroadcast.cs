@@ -45,7 +45,7 @@ internal sealed class RosterBroadcast
         SimTime due = SimTime.MaxValue;
         foreach (Client client in clients.All)
         {
-            due = client.Peer > 0 && client.Speaking.IsAllowed && client.Roster.Acknowledged < newest ? SimTime.Min(due, client.Roster.Due) : due;
+            due = client.Peer > 0 && client.HasWritten && client.Roster.Acknowledged < newest ? SimTime.Min(due, client.Roster.Due) : due;
         }
 
         return due;
@@ -57,7 +57,7 @@ internal sealed class RosterBroadcast
         Refresh();
         foreach (Client client in clients.All)
         {
-            if (client.Peer > 0 && client.Speaking.IsAllowed && client.Roster.IsDue(newest, now))
+            if (client.Peer > 0 && client.HasWritten && client.Roster.IsDue(newest, now))
             {
                 Send(client, now);
             }
@@ -152,7 +152,6 @@ internal sealed class RosterBroadcast
 
         SimDuration trip = link.Trips.IsMeasured ? link.Trips.Mean + (link.Trips.Mean / 4) : SimDuration.Zero;
         SimDuration pause = trip > parts.Options.ResendInterval ? trip : parts.Options.ResendInterval;
-        client.Speaking.NoteSent();
         client.Roster.NoteSent(page.UpTo, newest, now, pause);
         parts.Sender.Send(buffer.AsSpan(0, page.Encode(buffer)), link);
     }
