@@ -106,7 +106,7 @@ public sealed record HostOptions : SessionOptions
     /// for as long. What it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are
     /// stopped; see <see cref="HostSession.PlayerExpelled"/>.</para>
     /// <para>Work is counted, not timed, so a machine that has little time for the host sends nobody away.</para>
-    /// <para>A late event on a body in free flight counts 12 units or more. The default <see cref="MaxEventsPerSecond"/> stays far from the
+    /// <para>A late event on a body in free flight counts some 5 units or more. The default <see cref="MaxEventsPerSecond"/> stays far from the
     /// budget; if you allow thousands a second, raise the budget in proportion.</para>
     /// </remarks>
     public PlayerBudget? PlayerBudget { get; init; } = PlayerBudget.Default;
