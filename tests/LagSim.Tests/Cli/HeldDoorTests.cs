@@ -30,7 +30,7 @@ public sealed class HeldDoorTests : IAsyncLifetime
 
     private readonly DirectoryInfo folder = Directory.CreateTempSubdirectory("lagsim-page");
     private readonly WebSocketHostPort port = new();
-    private readonly HostOptions options = new() { Warmup = false };
+    private readonly HostOptions options = new() { Warmup = false, Unprotected = true };
     private PeerThread host = null!;
     private PageServer server = null!;
 
