@@ -18,6 +18,7 @@ namespace LagSim.Testing.Links;
 public sealed class VirtualNetwork
 {
     private const ulong SharedByBothWays = ulong.MaxValue; // no generation gets there
+    private const int HeaderBytes = 28; // of IPv4 and UDP
     private const ulong OfTransfers = ulong.MaxValue - 1;
 
     private readonly SeededRandom random;
@@ -62,6 +63,12 @@ public sealed class VirtualNetwork
     /// The number of datagrams that may wait at a port, as in a socket's buffer; newer ones are lost. Default: any number.
     /// </summary>
     internal int PortRoom { get; set; } = int.MaxValue;
+
+    /// <summary>
+    /// The longest packet that passes, in bytes, with the 28 of IPv4 and UDP; longer ones are lost and nobody is told, as where a router
+    /// drops ICMP. Default: any.
+    /// </summary>
+    internal int Mtu { get; set; } = int.MaxValue;
 
     /// <summary>
     /// Creates a node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be created
@@ -281,7 +288,7 @@ public sealed class VirtualNetwork
 
     private bool IsLostByRule(int from, int to, byte[] datagram)
     {
-        bool lost = false;
+        bool lost = datagram.Length > Mtu - HeaderBytes;
         foreach (Func<int, int, ReadOnlyMemory<byte>, bool> rule in lossRules)
         {
             lost |= rule(from, to, datagram);
