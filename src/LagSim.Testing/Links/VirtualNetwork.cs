@@ -18,7 +18,6 @@ namespace LagSim.Testing.Links;
 public sealed class VirtualNetwork
 {
     private const ulong SharedByBothWays = ulong.MaxValue; // no generation gets there
-    private const int HeaderBytes = 28; // of IPv4 and UDP
     private const ulong OfTransfers = ulong.MaxValue - 1;
 
     private readonly SeededRandom random;
@@ -63,12 +62,6 @@ public sealed class VirtualNetwork
     /// The number of datagrams that may wait at a port, as in a socket's buffer; newer ones are lost. Default: any number.
     /// </summary>
     internal int PortRoom { get; set; } = int.MaxValue;
-
-    /// <summary>
-    /// The longest packet that passes, in bytes, with the 28 of IPv4 and UDP; longer ones are lost and nobody is told, as where a router
-    /// drops ICMP. Default: any.
-    /// </summary>
-    internal int Mtu { get; set; } = int.MaxValue;
 
     /// <summary>
     /// Creates a node's port; its address is <see cref="PeerAddress.Virtual"/> of <paramref name="number"/>. A disposed one may be created
@@ -224,6 +217,10 @@ public sealed class VirtualNetwork
         lossRules.Add(rule);
     }
 
+    /// <summary>Gives every path an MTU from now on: longer packets are lost and nobody is told, as where a router drops ICMP.</summary>
+    /// <param name="mtu">The longest packet that passes, in bytes, with the 28 of IPv4 and UDP.</param>
+    internal void LoseAbove(int mtu) => Lose((_, _, datagram) => datagram.Length > mtu - PortTraffic.HeaderBytes);
+
     /// <summary>The queue that one node's datagrams to another pass first; null if there is none.</summary>
     internal LinkQueue? Queue(int from, int to) => Link(from, to).Queue;
 
@@ -288,7 +285,7 @@ public sealed class VirtualNetwork
 
     private bool IsLostByRule(int from, int to, byte[] datagram)
     {
-        bool lost = datagram.Length > Mtu - HeaderBytes;
+        bool lost = false;
         foreach (Func<int, int, ReadOnlyMemory<byte>, bool> rule in lossRules)
         {
             lost |= rule(from, to, datagram);

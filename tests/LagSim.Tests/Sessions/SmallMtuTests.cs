@@ -6,6 +6,7 @@ using LagSim.Harness.SceneFiles;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Time;
@@ -31,7 +32,7 @@ public sealed class SmallMtuTests
     {
         SessionGroup group = Group(isProtected, lossPercent);
         List<int> lengths = LengthsOnceIn(group, 7);
-        group.Network.Mtu = mtu;
+        group.Network.LoseAbove(mtu);
         ClientSession client = group.Join(7, 99, Options(isProtected));
         Assert.True(group.RunUntil(() => client.State == SessionState.Running, 5), client.WhyNotRunning + client.EndReason);
 
@@ -39,11 +40,11 @@ public sealed class SmallMtuTests
         lengths.Clear();
         for (int n = 0; n < 40; n++)
         {
-            group.Host.Do(PlayerAction.Spawn(Ball(), V(n, 50), default));
-            client.Do(PlayerAction.Spawn(Ball(), V(n, 100), default));
+            group.Do(0, PlayerAction.Impulse(First, V(0.01, 0)));
+            group.Do(1, PlayerAction.Impulse(First, V(0, 0.01)));
         }
 
-        Assert.True(group.RunUntil(() => group.Host.Counters.EventsAccepted >= 80 && client.LogLength == group.Host.LogLength, 5));
+        Assert.True(group.Settle(80, 5), $"{client.LogLength} of {group.Host.LogLength}, {group.Host.Counters.EventsAccepted} {client.State}");
         Assert.InRange(lengths.Max(), 300, 548);
     }
 
@@ -51,10 +52,16 @@ public sealed class SmallMtuTests
     public void Join_OverAPathThatDropsLongPackets_SaysSo()
     {
         SessionGroup group = Group(isProtected: false, lossPercent: 0);
-        group.Network.Mtu = 576;
+        group.Network.LoseAbove(576);
         ClientSession client = group.Join(7, 99);
         HashSet<string> said = [];
-        Assert.True(group.RunUntil(() => said.Add(client.WhyNotRunning ?? "") && client.State == SessionState.Running || client.State == SessionState.Running, 5));
+        Assert.True(group.RunUntil(
+            () =>
+            {
+                said.Add(client.WhyNotRunning ?? "");
+                return client.State == SessionState.Running;
+            },
+            5));
         Assert.Contains(said, s => s.EndsWith(" Datagrams of more than 548 bytes do not arrive here, so it comes in short ones.", StringComparison.Ordinal));
     }
 
@@ -62,7 +69,7 @@ public sealed class SmallMtuTests
     public void Join_WhoseRequestsAskForLongChunksAlone_DoesNotGetInAndSaysWhy()
     {
         SessionGroup group = Group(isProtected: false, lossPercent: 0, (address, port) => address == 7 ? new LongChunksPort(port) : port);
-        group.Network.Mtu = 576;
+        group.Network.LoseAbove(576);
         ClientSession client = group.Join(7, 99);
         Assert.False(group.RunUntil(() => client.State == SessionState.Running, 5));
         Assert.EndsWith("The host's other datagrams arrive, but none of the copy does, whether long or short.", client.WhyNotRunning, StringComparison.Ordinal);
@@ -87,7 +94,7 @@ public sealed class SmallMtuTests
         });
         ClientSession client = group.Join(7, 99);
         Assert.True(group.RunUntil(() => client.State == SessionState.Running, 5));
-        Assert.True(requests > 3);
+        Assert.True(requests > 0);
     }
 
     [Fact]
@@ -96,15 +103,64 @@ public sealed class SmallMtuTests
         SessionGroup group = Group(isProtected: false, lossPercent: 0);
         ClientSession client = group.Join(7, 99);
         Assert.True(group.RunUntil(() => client.State == SessionState.Running, 5));
-        group.Network.Mtu = 576;
-        uint before = group.Host.LogLength;
-        for (int n = 0; n < 100; n++)
+        group.Network.LoseAbove(576);
+        List<int> lengths = LengthsOnceIn(group, 7);
+        for (int round = 0; round < 10; round++)
         {
-            group.Host.Do(PlayerAction.Spawn(Ball(), V(n, 50), default));
+            for (int n = 0; n < 60; n++)
+            {
+                group.Do(0, PlayerAction.Impulse(First, V(0.001, 0)));
+            }
+
+            group.Run(0.2);
         }
 
-        Assert.Equal(before + 100, group.Host.LogLength);
-        Assert.True(group.RunUntil(() => client.LogLength == group.Host.LogLength, 5), $"{client.LogLength} of {group.Host.LogLength}");
+        // Without an eye on lengths, what the window makes of the losses: 94 long ones in 4 s, and a log that is 160 events late after 2 s.
+        Assert.InRange(lengths.Count(length => length > 548), 8, 40);
+        Assert.Equal(group.Host.LogLength, client.LogLength);
+    }
+
+    [Fact]
+    public void PathSize_OfLongUpdatesLostInARow_IsShortAndOfOneThatCameInBetweenIsNot()
+    {
+        PathSize path = new();
+        for (int n = 0; n < 100; n++)
+        {
+            path.NoteLost(577 - 1); // as long as any path carries
+            path.NoteLost(1228);
+            path.NoteArrived(100);
+            path.NoteArrived(n % 7 == 6 ? 577 : 576);
+            Assert.Equal(1200, path.Bytes);
+        }
+
+        for (int n = 0; n < 8; n++)
+        {
+            path.NoteLost(577);
+            path.NoteArrived(576);
+        }
+
+        Assert.Equal((548, 525, 386), (path.Bytes, path.PlainBytes, path.UpdateRoom));
+    }
+
+    [Fact]
+    public void Session_OverALinkThatLosesOneInTen_KeepsItsLongDatagrams()
+    {
+        SessionGroup group = Group(isProtected: false, lossPercent: 10);
+        List<int> lengths = LengthsOnceIn(group, 7);
+        ClientSession client = group.Join(7, 99);
+        Assert.True(group.RunUntil(() => client.State == SessionState.Running, 5));
+        for (int round = 0; round < 20; round++)
+        {
+            lengths.Clear();
+            for (int n = 0; n < 40; n++)
+            {
+                group.Do(0, PlayerAction.Impulse(First, V(0.001, 0)));
+            }
+
+            group.Run(0.2);
+        }
+
+        Assert.True(lengths.Max() > 548, $"{lengths.Max()}");
     }
 
     private static List<int> LengthsOnceIn(SessionGroup group, int address)

@@ -7,7 +7,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// <remarks>
 /// A request counts as fruitless if none of its chunks arrived in time, though other datagrams of the host did since it was sent. After
 /// <see cref="MostFruitless"/> in a row the other length is tried. A link that loses a tenth each way loses one request in five even if
-/// it asks for one chunk, and so many in a row once in 3,000 times; that costs some headers, and a long chunk that arrives late undoes it.
+/// it asks for one chunk, and so many in a row once in 4,000 times; that costs some headers, and a long chunk that arrives late undoes it.
 /// </remarks>
 internal sealed class ChunkSize
 {
