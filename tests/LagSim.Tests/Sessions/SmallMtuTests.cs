@@ -9,7 +9,6 @@ using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
-using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
