@@ -42,10 +42,10 @@ internal sealed class RosterDatagram
         count = entryBytes = 0;
     }
 
-    /// <summary>Adds an entry at the end, if it fits.</summary>
-    public bool TryAdd(in RosterEntry entry)
+    /// <summary>Adds an entry at the end, if it fits into a datagram of that many bytes before sealing.</summary>
+    public bool TryAdd(in RosterEntry entry, int most = WireFormat.MaxPlainBytes)
     {
-        bool fits = count < MaxEntries && EncodedLength + entry.EncodedLength <= WireFormat.MaxPlainBytes;
+        bool fits = count < MaxEntries && EncodedLength + entry.EncodedLength <= most;
         if (fits)
         {
             entries[count++] = entry;

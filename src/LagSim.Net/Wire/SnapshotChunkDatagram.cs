@@ -6,22 +6,25 @@ namespace LagSim.Net.Wire;
 /// <remarks>Its bytes are those of the datagram it was read from, or will be written from; valid as long as those are.</remarks>
 internal readonly ref struct SnapshotChunkDatagram
 {
-    /// <summary>The length of every chunk but the last.</summary>
+    /// <summary>The length of the longest chunk.</summary>
     public const int MaxData = WireFormat.MaxPlainBytes - WireFormat.EmptySnapshotChunkBytes;
 
+    /// <summary>The length of chunks whose datagrams any path carries; see <see cref="WireFormat.LeastPathBytes"/>.</summary>
+    public const int LeastData = WireFormat.LeastPathBytes - WireFormat.SealBytes - WireFormat.EmptySnapshotChunkBytes;
+
     /// <summary>Creates a chunk from its fields.</summary>
-    public SnapshotChunkDatagram(ulong sessionId, uint index, ReadOnlySpan<byte> data)
+    public SnapshotChunkDatagram(ulong sessionId, uint offset, ReadOnlySpan<byte> data)
     {
         SessionId = sessionId;
-        Index = index;
+        Offset = offset;
         Data = data;
     }
 
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>The index of the chunk, counted from 0.</summary>
-    public uint Index { get; }
+    /// <summary>Where in the copy it begins, in bytes.</summary>
+    public uint Offset { get; }
 
     /// <summary>Its bytes, 1 to <see cref="MaxData"/>.</summary>
     public ReadOnlySpan<byte> Data { get; }
@@ -40,7 +43,7 @@ internal readonly ref struct SnapshotChunkDatagram
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.SnapshotChunk);
         writer.WriteUInt64(SessionId);
-        writer.WriteUInt32(Index);
+        writer.WriteUInt32(Offset);
         writer.WriteBytes(Data);
         return writer.Position;
     }
@@ -53,10 +56,10 @@ internal readonly ref struct SnapshotChunkDatagram
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotChunk);
         ulong session = reader.ReadUInt64();
-        uint index = reader.ReadUInt32();
+        uint offset = reader.ReadUInt32();
         ReadOnlySpan<byte> data = reader.ReadBytes(reader.Remaining);
         reader.Require(data.Length > 0, WireRefusal.TooShort);
-        chunk = new SnapshotChunkDatagram(session, index, data);
+        chunk = new SnapshotChunkDatagram(session, offset, data);
         return reader.Finish(out refusal);
     }
 }

@@ -9,11 +9,16 @@ internal readonly struct SnapshotRequestDatagram
     /// <summary>The most chunks requested at once.</summary>
     public const int MaxChunks = 64;
 
+    /// <summary>The greatest <see cref="Shorter"/>: every path of IPv4 carries datagrams with such chunks.</summary>
+    public const byte MaxShorter = (SnapshotChunkDatagram.MaxData - SnapshotChunkDatagram.LeastData) / ShorterUnit;
+
+    private const int ShorterUnit = 4;
+
     /// <summary>Creates a request from its fields.</summary>
-    public SnapshotRequestDatagram(ulong sessionId, byte peer, uint number, uint first, ulong wanted)
+    public SnapshotRequestDatagram(ulong sessionId, byte shorter, uint number, uint first, ulong wanted)
     {
         SessionId = sessionId;
-        Peer = peer;
+        Shorter = shorter;
         Number = number;
         First = first;
         Wanted = wanted;
@@ -22,27 +27,36 @@ internal readonly struct SnapshotRequestDatagram
     /// <summary>The session.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>The client.</summary>
-    public byte Peer { get; }
+    /// <summary>By how many times four bytes the chunks are to be shorter than the longest, up to <see cref="MaxShorter"/>.</summary>
+    public byte Shorter { get; }
+
+    /// <summary>The length of the chunks, but of the copy's last, in bytes.</summary>
+    public int ChunkBytes => SnapshotChunkDatagram.MaxData - (ShorterUnit * Shorter);
 
     /// <summary>Counts the client's requests; one that was overtaken is not answered.</summary>
     public uint Number { get; }
 
-    /// <summary>The first chunk that is missing, counted from 0.</summary>
+    /// <summary>Where in the copy the first missing chunk begins, in bytes.</summary>
     public uint First { get; }
 
-    /// <summary>Bit n: chunk <see cref="First"/> + n is wanted.</summary>
+    /// <summary>Bit n: the chunk is wanted that begins n times <see cref="ChunkBytes"/> after <see cref="First"/>.</summary>
     public ulong Wanted { get; }
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.SnapshotRequestBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
+    /// <exception cref="InvalidOperationException"><see cref="Shorter"/> is out of range.</exception>
     public int Encode(Span<byte> destination)
     {
+        if (Shorter > MaxShorter)
+        {
+            throw new InvalidOperationException($"Chunks are shorter by 0 to {MaxShorter} times {ShorterUnit} bytes, not {Shorter}.");
+        }
+
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.SnapshotRequest);
         writer.WriteUInt64(SessionId);
-        writer.WriteByte(Peer);
+        writer.WriteByte(Shorter);
         writer.WriteUInt32(Number);
         writer.WriteUInt32(First);
         writer.WriteUInt64(Wanted);
@@ -57,6 +71,7 @@ internal readonly struct SnapshotRequestDatagram
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.SnapshotRequest);
         request = new SnapshotRequestDatagram(reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), reader.ReadUInt32(), reader.ReadUInt64());
+        reader.Require(request.Shorter <= MaxShorter);
         return reader.Finish(out refusal);
     }
 }

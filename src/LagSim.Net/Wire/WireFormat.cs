@@ -117,6 +117,11 @@ internal static class WireFormat
     /// <summary>The longest datagram.</summary>
     public const int MaxBytes = IDatagramPort.MaxDatagramBytes;
 
+    /// <summary>
+    /// The longest datagram that any path of IPv4 carries: 576 bytes, which every host takes (RFC 1122, 3.3.2), less 28 of IP and UDP.
+    /// </summary>
+    public const int LeastPathBytes = 548;
+
     /// <summary>How much longer a datagram is when it is sealed; see <see cref="SealedDatagram"/>.</summary>
     public const int SealBytes = 23;
 

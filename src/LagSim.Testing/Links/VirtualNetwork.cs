@@ -217,6 +217,10 @@ public sealed class VirtualNetwork
         lossRules.Add(rule);
     }
 
+    /// <summary>Gives every path an MTU from now on: longer packets are lost and nobody is told, as where a router drops ICMP.</summary>
+    /// <param name="mtu">The longest packet that passes, in bytes, with the 28 of IPv4 and UDP.</param>
+    internal void LoseAbove(int mtu) => Lose((_, _, datagram) => datagram.Length > mtu - PortTraffic.HeaderBytes);
+
     /// <summary>The queue that one node's datagrams to another pass first; null if there is none.</summary>
     internal LinkQueue? Queue(int from, int to) => Link(from, to).Queue;
 

@@ -49,7 +49,7 @@ public sealed class GettingInTests
             long inThisSecond = 0;
             for (uint n = 1; n <= 100; n++)
             {
-                new SnapshotRequestDatagram(greedy.SessionId, greedy.Peer, (second * 100) + n, 0, ulong.MaxValue).Encode(bytes);
+                new SnapshotRequestDatagram(greedy.SessionId, 0, (second * 100) + n, 0, ulong.MaxValue).Encode(bytes);
                 greedy.Send(bytes);
                 group.Run(0.01);
                 inThisSecond += greedy.Received().Count(d => d.Type == DatagramType.SnapshotChunk);

@@ -61,7 +61,7 @@ internal sealed class Intruder
     internal void Fetch(ulong wanted = ulong.MaxValue)
     {
         byte[] bytes = new byte[WireFormat.SnapshotRequestBytes];
-        new SnapshotRequestDatagram(SessionId, Peer, ++fetches, 0, wanted).Encode(bytes);
+        new SnapshotRequestDatagram(SessionId, 0, ++fetches, 0, wanted).Encode(bytes);
         Send(bytes);
     }
 

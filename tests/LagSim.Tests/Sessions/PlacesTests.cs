@@ -282,7 +282,7 @@ public sealed class PlacesTests(ITestOutputHelper output)
                 return bytes;
             case 3:
                 bytes = new byte[WireFormat.SnapshotRequestBytes];
-                new SnapshotRequestDatagram(session, peer, 1 + (uint)random.Next(999), 0, ulong.MaxValue).Encode(bytes);
+                new SnapshotRequestDatagram(session, 0, 1 + (uint)random.Next(999), 0, ulong.MaxValue).Encode(bytes);
                 return bytes;
             case 4:
                 bytes = new byte[WireFormat.MoveBytes];

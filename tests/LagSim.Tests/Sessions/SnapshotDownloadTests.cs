@@ -15,6 +15,7 @@ public sealed class SnapshotDownloadTests
 {
     private static readonly SimDuration Timeout = SimDuration.FromMilliseconds(50);
     private static readonly RoundTrips Trips = new();
+    private const uint Max = SnapshotChunkDatagram.MaxData;
 
     [Fact]
     public void Take_PiecesLostDoubledAndOutOfOrder_ComesTogetherWhole()
@@ -34,13 +35,14 @@ public sealed class SnapshotDownloadTests
                 Assert.True(now < SimTime.FromSeconds(600), $"seed {seed}");
                 if (download.Due <= now)
                 {
-                    SnapshotRequestDatagram ask = download.Ask(1, 1, now, Trips, Timeout);
+                    SnapshotRequestDatagram ask = download.Ask(1, now, SimTime.MinValue, Trips, Timeout);
                     for (int n = 0; n < SnapshotRequestDatagram.MaxChunks; n++)
                     {
                         if ((ask.Wanted >> n & 1) != 0)
                         {
-                            askedTwice += asked.Add(ask.First + (uint)n) ? 0 : 1;
-                            onTheWay.AddRange(Enumerable.Repeat(ask.First + (uint)n, random.Next(4) switch { 0 => 0, 1 => 2, _ => 1 }));
+                            uint offset = ask.First + (uint)(n * ask.ChunkBytes);
+                            askedTwice += asked.Add(offset) ? 0 : 1;
+                            onTheWay.AddRange(Enumerable.Repeat(offset, random.Next(4) switch { 0 => 0, 1 => 2, _ => 1 }));
                         }
                     }
                 }
@@ -72,14 +74,14 @@ public sealed class SnapshotDownloadTests
         int asked = 0, requests = 0;
         while (!download.IsComplete)
         {
-            SnapshotRequestDatagram ask = download.Ask(1, 1, now, Trips, Timeout);
+            SnapshotRequestDatagram ask = download.Ask(1, now, SimTime.MinValue, Trips, Timeout);
             asked += BitOperations.PopCount(ask.Wanted);
             requests++;
             for (int n = 0; n < SnapshotRequestDatagram.MaxChunks; n++)
             {
                 if ((ask.Wanted >> n & 1) != 0)
                 {
-                    Give(download, copy, ask.First + (uint)n, now);
+                    Give(download, copy, ask.First + (uint)(n * ask.ChunkBytes), now);
                 }
             }
         }
@@ -93,17 +95,92 @@ public sealed class SnapshotDownloadTests
     {
         byte[] copy = new byte[(SnapshotChunkDatagram.MaxData * 200) + 7];
         SnapshotDownload download = new(copy.Length, SimTime.Zero);
-        Assert.False(download.Take(new SnapshotChunkDatagram(1, 201, new byte[7]), SimTime.Zero)); // past the end
+        Assert.False(download.Take(new SnapshotChunkDatagram(1, 201 * Max, new byte[7]), SimTime.Zero)); // past the end
         Assert.False(download.Take(new SnapshotChunkDatagram(1, uint.MaxValue, new byte[7]), SimTime.Zero));
-        Assert.False(download.Take(new SnapshotChunkDatagram(1, 64, copy.AsSpan(0, SnapshotChunkDatagram.MaxData)), SimTime.Zero)); // beyond the window
+        Assert.False(download.Take(new SnapshotChunkDatagram(1, 64 * Max, copy.AsSpan(0, SnapshotChunkDatagram.MaxData)), SimTime.Zero)); // beyond the window
         Assert.False(download.Take(new SnapshotChunkDatagram(1, 0, copy.AsSpan(0, 5)), SimTime.Zero)); // of another length
         Assert.True(download.Take(new SnapshotChunkDatagram(1, 0, copy.AsSpan(0, SnapshotChunkDatagram.MaxData)), SimTime.Zero));
         Assert.False(download.Take(new SnapshotChunkDatagram(1, 0, copy.AsSpan(0, SnapshotChunkDatagram.MaxData)), SimTime.Zero)); // again
     }
 
-    private static bool Give(SnapshotDownload download, byte[] copy, uint index, SimTime now)
+    [Fact]
+    public void Ask_WhereNoLongChunkComesThoughTheHostIsHeard_AsksForShortOnes()
     {
-        int at = (int)index * SnapshotChunkDatagram.MaxData;
-        return download.Take(new SnapshotChunkDatagram(1, index, copy.AsSpan(at, Math.Min(SnapshotChunkDatagram.MaxData, copy.Length - at))), now);
+        byte[] copy = new byte[5000];
+        new Random(1).NextBytes(copy);
+        SnapshotDownload download = new(copy.Length, SimTime.Zero);
+        (List<int> lengths, SimTime now) = ([], SimTime.Zero);
+        while (!download.IsComplete)
+        {
+            Assert.True(now < SimTime.FromSeconds(5));
+            SnapshotRequestDatagram ask = download.Ask(1, now, now - SimDuration.OneTick, Trips, Timeout);
+            lengths.Add(ask.ChunkBytes);
+            foreach (int n in Enumerable.Range(0, SnapshotRequestDatagram.MaxChunks).Where(n => (ask.Wanted >> n & 1) != 0 && ask.ChunkBytes < 600))
+            {
+                Assert.True(Give(download, copy, ask.First + (uint)(n * ask.ChunkBytes), now, ask.ChunkBytes));
+            }
+
+            now = SimTime.Max(now, download.IsComplete ? now : download.Due);
+        }
+
+        Assert.Equal(copy, download.Bytes.ToArray());
+        Assert.Equal([.. Enumerable.Repeat(1161, 5), 509], lengths.Take(6));
+        Assert.All(lengths.Skip(5), length => Assert.Equal(509, length));
     }
+
+    [Fact]
+    public void Ask_WhereNothingOfTheHostComes_AsksForNothingShorter()
+    {
+        SnapshotDownload download = new(5000, SimTime.Zero);
+        for (SimTime now = SimTime.Zero; now < SimTime.FromSeconds(60); now = download.Due)
+        {
+            Assert.Equal(1161, download.Ask(1, now, SimTime.MinValue, Trips, Timeout).ChunkBytes);
+        }
+    }
+
+    [Fact]
+    public void Ask_WhereShortChunksDoNotComeEither_TriesLongOnesAgain()
+    {
+        SnapshotDownload download = new(5000, SimTime.Zero);
+        List<int> lengths = [];
+        for (SimTime now = SimTime.Zero; lengths.Count < 11; now = download.Due)
+        {
+            lengths.Add(download.Ask(1, now, now - SimDuration.OneTick, Trips, Timeout).ChunkBytes);
+        }
+
+        Assert.Equal((509, 1161), (lengths[5], lengths[10]));
+        Assert.Equal(" The host's other datagrams arrive, but none of the copy does, whether long or short.", download.Size.Sentence);
+    }
+
+    [Fact]
+    public void Take_LongChunkThatWasLate_GoesBackToLongOnes()
+    {
+        byte[] copy = new byte[5000];
+        new Random(2).NextBytes(copy);
+        SnapshotDownload download = new(copy.Length, SimTime.Zero);
+        SimTime now = SimTime.Zero;
+        while (download.Ask(1, now, now - SimDuration.OneTick, Trips, Timeout).ChunkBytes > 600)
+        {
+            now = download.Due;
+        }
+
+        Assert.True(Give(download, copy, 509, now, 509)); // a short one, early
+        Assert.True(Give(download, copy, 0, now));
+        Assert.Equal(1161, download.Received);
+        for (int rounds = 0; !download.IsComplete; rounds++)
+        {
+            Assert.True(rounds < 10);
+            SnapshotRequestDatagram ask = download.Ask(1, now, now, Trips, Timeout);
+            Assert.Equal(1161, ask.ChunkBytes);
+            foreach (int n in Enumerable.Range(0, SnapshotRequestDatagram.MaxChunks).Where(n => (ask.Wanted >> n & 1) != 0))
+            {
+                Give(download, copy, ask.First + (uint)(n * ask.ChunkBytes), now);
+            }
+        }
+
+        Assert.Equal(copy, download.Bytes.ToArray());
+    }
+
+    private static bool Give(SnapshotDownload download, byte[] copy, uint offset, SimTime now, int length = SnapshotChunkDatagram.MaxData) =>
+        download.Take(new SnapshotChunkDatagram(1, offset, copy.AsSpan((int)offset, Math.Min(length, copy.Length - (int)offset))), now);
 }

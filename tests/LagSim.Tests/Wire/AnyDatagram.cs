@@ -55,7 +55,7 @@ internal static class AnyDatagram
             case DatagramType.SnapshotRequest:
                 return SnapshotRequestDatagram.TryDecode(bytes, out SnapshotRequestDatagram asked, out refusal) ? Bytes(asked.Encode) : null;
             case DatagramType.SnapshotChunk:
-                return SnapshotChunkDatagram.TryDecode(bytes, out SnapshotChunkDatagram chunk, out refusal) ? ChunkBytes(chunk.SessionId, chunk.Index, chunk.Data) : null;
+                return SnapshotChunkDatagram.TryDecode(bytes, out SnapshotChunkDatagram chunk, out refusal) ? ChunkBytes(chunk.SessionId, chunk.Offset, chunk.Data) : null;
             case DatagramType.Join:
                 return JoinDatagram.TryDecode(bytes, out JoinDatagram join, out refusal) ? Bytes(join.Encode) : null;
             case DatagramType.Welcome:

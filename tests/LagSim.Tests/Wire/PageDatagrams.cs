@@ -74,7 +74,7 @@ internal static class PageDatagrams
                 page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce),
                 ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie), ("role", 3), ("name", "Zoë")));
             yield return (AnyDatagram.ChunkBytes(nonce, 77, cookie), page => Datagram(
-                page, DatagramType.SnapshotChunk, ("session id", nonce), ("index", 77), ("data", cookie)));
+                page, DatagramType.SnapshotChunk, ("session id", nonce), ("offset", 77), ("data", cookie)));
         }
 
         foreach (SeatDatagram d in Sample(WireGen.Seat, each))
@@ -105,7 +105,7 @@ internal static class PageDatagrams
         foreach (SnapshotRequestDatagram d in Sample(WireGen.SnapshotRequest, each))
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
-                page, DatagramType.SnapshotRequest, ("session id", d.SessionId), ("peer", d.Peer), ("number", d.Number), ("first", d.First), ("wanted", d.Wanted)));
+                page, DatagramType.SnapshotRequest, ("session id", d.SessionId), ("shorter", d.Shorter), ("number", d.Number), ("first", d.First), ("wanted", d.Wanted)));
         }
 
         foreach (DesyncQueryDatagram d in Sample(WireGen.DesyncQuery, each))

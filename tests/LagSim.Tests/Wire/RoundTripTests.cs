@@ -42,7 +42,7 @@ public class RoundTripTests
     [Fact]
     public void Encode_AnySnapshotChunk_DecodesToTheSame() => Holds(WireGen.Chunk, bytes =>
         SnapshotChunkDatagram.TryDecode(bytes, out SnapshotChunkDatagram again, out _)
-        && bytes.AsSpan().SequenceEqual(AnyDatagram.ChunkBytes(again.SessionId, again.Index, again.Data)));
+        && bytes.AsSpan().SequenceEqual(AnyDatagram.ChunkBytes(again.SessionId, again.Offset, again.Data)));
 
     [Fact]
     public void Encode_AnyWelcome_DecodesToTheSame() => Holds(WireGen.Welcome, welcome =>

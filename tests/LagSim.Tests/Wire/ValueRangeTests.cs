@@ -32,6 +32,19 @@ public class ValueRangeTests
 
     private static readonly BodySpec Ball = new(0.5, 1, 0.8);
 
+    [Fact]
+    public void SnapshotRequest_ForChunksShorterThanAnyPathNeeds_IsRefused()
+    {
+        byte[] bytes = new byte[WireFormat.SnapshotRequestBytes];
+        new SnapshotRequestDatagram(1, SnapshotRequestDatagram.MaxShorter, 1, 0, 1).Encode(bytes);
+        Assert.True(SnapshotRequestDatagram.TryDecode(bytes, out SnapshotRequestDatagram shortest, out _));
+        Assert.Equal(509, shortest.ChunkBytes);
+        bytes[12]++;
+        Assert.False(SnapshotRequestDatagram.TryDecode(bytes, out _, out WireRefusal refusal));
+        Assert.Equal(WireRefusal.BadValue, refusal);
+        Assert.Throws<InvalidOperationException>(() => new SnapshotRequestDatagram(1, SnapshotRequestDatagram.MaxShorter + 1, 1, 0, 1).Encode(bytes));
+    }
+
     [Theory]
     [InlineData(double.NaN)]
     [InlineData(double.PositiveInfinity)]

@@ -119,11 +119,11 @@ internal static class WireGen
 
     internal static readonly Gen<SnapshotRequestDatagram> SnapshotRequest =
         from session in Bits64
-        from peer in Byte
+        from shorter in Gen.Choose(0, SnapshotRequestDatagram.MaxShorter)
         from number in Bits32
         from first in Bits32
         from wanted in Bits64
-        select new SnapshotRequestDatagram(session, peer, number, first, wanted);
+        select new SnapshotRequestDatagram(session, (byte)shorter, number, first, wanted);
 
     internal static readonly Gen<DesyncQueryDatagram> DesyncQuery =
         from session in Bits64

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
-using LagSim.Events;
 using LagSim.Harness.SceneFiles;
 using LagSim.Scenes;
 using LagSim.Testing.Links;

@@ -21,7 +21,7 @@ internal sealed class JoinProgress(
         null => world.BeginsIn,
         { IsWelcome: false } => Asking(now - attempts.Since),
         { Download: SnapshotDownload download } => FormattableString.Invariant(
-            $"This peer has {download.Received / 1000.0:0.#} of {download.Length / 1000.0:0.#} kB of the copy of the world."),
+            $"This peer has {download.Received / 1000.0:0.#} of {download.Length / 1000.0:0.#} kB of the copy of the world.{download.Size.Sentence}"),
         { Clock: { IsReady: false } } => $"This peer measures the offset of its clock from that of the {connection.Name}.",
         { Seat: null } => $"The {connection.Name} has not given this peer a number yet.",
         _ => $"This peer is in. The {connection.Name} has not begun the session: it waits for other players.",

@@ -28,7 +28,9 @@ internal sealed class SnapshotClient(
         UpdateLink link = connection.Link!;
         SimDuration guessed = attempt.Took < MaxTripGuess ? attempt.Took : MaxTripGuess;
         Span<byte> bytes = stackalloc byte[WireFormat.SnapshotRequestBytes];
-        sender.Send(bytes.Slice(0, download.Ask(link.SessionId, link.Self, now, link.Trips, guessed).Encode(bytes)), link);
+        SnapshotRequestDatagram request = download.Ask(link.SessionId, now, link.Heard, link.Trips, guessed);
+        link.Path.Bytes = request.ChunkBytes + WireFormat.EmptySnapshotChunkBytes + WireFormat.SealBytes;
+        sender.Send(bytes.Slice(0, request.Encode(bytes)), link);
     }
 
     internal void OnSnapshotChunk(in SnapshotChunkDatagram chunk, int length)

@@ -21,9 +21,9 @@ internal sealed class SnapshotDownload
 
     private readonly byte[]?[] early = new byte[SnapshotRequestDatagram.MaxChunks][];
     private readonly int length;
-    private readonly uint count;
     private byte[] bytes = Array.Empty<byte>();
     private int have;
+    private int start; // where chunk 0 of this length begins
     private uint next;
     private uint requests;
     private uint asked; // one past the last chunk requested so far
@@ -37,17 +37,19 @@ internal sealed class SnapshotDownload
     internal SnapshotDownload(int length, SimTime now)
     {
         this.length = length;
-        count = (uint)((length + SnapshotChunkDatagram.MaxData - 1) / SnapshotChunkDatagram.MaxData);
         due = now;
     }
 
     /// <summary>The length of the whole snapshot, in bytes.</summary>
     internal int Length => length;
 
+    /// <summary>How long the chunks are that it asks for.</summary>
+    internal ChunkSize Size { get; } = new();
+
     /// <summary>How many bytes have arrived in order.</summary>
     internal int Received => have;
 
-    internal bool IsComplete => next == count;
+    internal bool IsComplete => have == length;
 
     /// <summary>The whole snapshot, once it is complete.</summary>
     internal ReadOnlySpan<byte> Bytes => bytes.AsSpan(0, have);
@@ -55,25 +57,36 @@ internal sealed class SnapshotDownload
     /// <summary>When the next request is due.</summary>
     internal SimTime Due => IsComplete ? SimTime.MaxValue : due;
 
+    private uint Count => (uint)((length - start + Size.Data - 1) / Size.Data);
+
     /// <summary>Takes in a chunk; false if it is not one that is missing.</summary>
     internal bool Take(in SnapshotChunkDatagram chunk, SimTime now)
     {
-        uint ahead = chunk.Index - next; // wraps for a chunk that is there already
-        bool fits = chunk.Index < count && chunk.Data.Length == LengthOf(chunk.Index);
-        if (!fits || ahead >= SnapshotRequestDatagram.MaxChunks || early[chunk.Index % SnapshotRequestDatagram.MaxChunks] is not null)
+        long beyond = (long)chunk.Offset - have;
+        if (beyond == 0 && chunk.Data.Length > Size.Data && chunk.Data.Length == Math.Min(SnapshotChunkDatagram.MaxData, length - have))
+        {
+            Size.Change(); // it was late, not too long
+            StartOver();
+        }
+
+        long ahead = beyond / Size.Data;
+        bool fits = beyond >= 0 && beyond % Size.Data == 0 && chunk.Data.Length == Math.Min(Size.Data, length - chunk.Offset);
+        if (!fits || ahead >= SnapshotRequestDatagram.MaxChunks || early[(next + ahead) % SnapshotRequestDatagram.MaxChunks] is not null)
         {
             return false;
         }
 
+        Size.NoteArrived();
+
         window = hasQueue ? window : Math.Min(window + 1, SnapshotRequestDatagram.MaxChunks);
         if (ahead > 0)
         {
-            early[chunk.Index % SnapshotRequestDatagram.MaxChunks] = chunk.Data.ToArray();
+            early[(next + ahead) % SnapshotRequestDatagram.MaxChunks] = chunk.Data.ToArray();
         }
         else
         {
             Append(chunk.Data);
-            while (next < count && early[next % SnapshotRequestDatagram.MaxChunks] is byte[] waiting)
+            while (!IsComplete && early[next % SnapshotRequestDatagram.MaxChunks] is byte[] waiting)
             {
                 early[next % SnapshotRequestDatagram.MaxChunks] = null;
                 Append(waiting);
@@ -88,12 +101,17 @@ internal sealed class SnapshotDownload
 
     /// <summary>Builds the request that is due; chunks that do not arrive in time are requested again.</summary>
     /// <param name="sessionId">The session id of the link.</param>
-    /// <param name="peer">This peer's number.</param>
     /// <param name="now">The time by the local clock.</param>
+    /// <param name="heard">When the host was last heard, likewise.</param>
     /// <param name="trips">The link's measured round trips.</param>
     /// <param name="guessed">The round trip to assume before one is measured.</param>
-    internal SnapshotRequestDatagram Ask(ulong sessionId, byte peer, SimTime now, RoundTrips trips, SimDuration guessed)
+    internal SnapshotRequestDatagram Ask(ulong sessionId, SimTime now, SimTime heard, RoundTrips trips, SimDuration guessed)
     {
+        if (Size.ChangesBefore(now, heard))
+        {
+            StartOver();
+        }
+
         SimDuration trip = trips.IsMeasured ? (trips.Timeout > trips.Newest ? trips.Timeout : trips.Newest) : guessed + (guessed / 2);
         timeout = trip > MinTimeout ? trip : MinTimeout;
         bool again = asked > next && !isToGoOn;
@@ -106,7 +124,7 @@ internal sealed class SnapshotDownload
         }
 
         ulong wanted = 0;
-        uint end = Math.Min(count, next + Math.Min(window, SnapshotRequestDatagram.MaxChunks));
+        uint end = Math.Min(Count, next + Math.Min(window, SnapshotRequestDatagram.MaxChunks));
         end = again ? end : Math.Max(end, asked);
         for (uint piece = again ? next : Math.Max(asked, next); piece < end; piece++)
         {
@@ -115,10 +133,17 @@ internal sealed class SnapshotDownload
 
         asked = Math.Max(asked, end);
         due = now + timeout + (timeout / 2);
-        return new SnapshotRequestDatagram(sessionId, peer, ++requests, next, wanted);
+        return new SnapshotRequestDatagram(sessionId, Size.Shorter, ++requests, (uint)have, wanted);
     }
 
-    private int LengthOf(uint index) => index == count - 1 ? length - ((int)index * SnapshotChunkDatagram.MaxData) : SnapshotChunkDatagram.MaxData;
+    /// <summary>Goes on with chunks of another length from what is there in order.</summary>
+    private void StartOver()
+    {
+        Array.Clear(early, 0, early.Length);
+        start = have;
+        next = asked = 0;
+        window = FirstWindow;
+    }
 
     private void Append(ReadOnlySpan<byte> data)
     {

@@ -41,8 +41,8 @@ internal sealed class Client
     /// <summary>Its desync queries.</summary>
     internal DesyncQueries DesyncQueries { get; }
 
-    /// <summary>The number of chunks sent to it.</summary>
-    internal long ChunksGiven { get; set; }
+    /// <summary>How many bytes of its snapshot were sent to it, repetitions included.</summary>
+    internal long CopyBytesGiven { get; set; }
 
     /// <summary>Whether it has scene, state, clock and number, and so needs the log.</summary>
     internal bool IsReady => Peer > 0;

@@ -145,7 +145,7 @@ internal sealed class RosterBroadcast
         page.SessionId = link.SessionId;
         page.After = page.UpTo = client.Roster.Acknowledged;
         page.Newest = newest;
-        while (Next(page.UpTo) is int number && page.TryAdd(entries[number]))
+        while (Next(page.UpTo) is int number && page.TryAdd(entries[number], link.Path.PlainBytes))
         {
             page.UpTo = revisions[number];
         }

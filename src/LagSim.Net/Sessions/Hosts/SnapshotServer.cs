@@ -11,7 +11,7 @@ internal sealed class SnapshotServer(
     ClientRoster roster, MachineRates rates, AddressChallenge challenge, DatagramSender sender, SessionCounters counters,
     IClock clock)
 {
-    /// <summary>How often every chunk of a snapshot may be requested on average before no more are sent.</summary>
+    /// <summary>How often every byte of a snapshot may be requested on average before no more are sent.</summary>
     private const int MaxRepeats = 8;
 
     internal void OnSnapshotRequest(in SnapshotRequestDatagram request, PeerAddress from)
@@ -33,6 +33,7 @@ internal sealed class SnapshotServer(
         client.LastRequest = request.Number;
         client.Link.NoteHeard(now);
         client.Link.CountReceived(WireFormat.SnapshotRequestBytes);
+        client.Link.Path.Bytes = request.ChunkBytes + WireFormat.EmptySnapshotChunkBytes + WireFormat.SealBytes;
         SendChunks(client, client.Snapshot.Bytes, request, now);
     }
 
@@ -40,24 +41,23 @@ internal sealed class SnapshotServer(
     private void SendChunks(Client client, ReadOnlySpan<byte> snapshot, in SnapshotRequestDatagram request, SimTime now)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.MaxPlainBytes];
-        long most = MaxRepeats * ((snapshot.Length / SnapshotChunkDatagram.MaxData) + SnapshotRequestDatagram.MaxChunks);
+        long most = MaxRepeats * (snapshot.Length + (SnapshotRequestDatagram.MaxChunks * (long)SnapshotChunkDatagram.MaxData));
         for (int n = 0; n < SnapshotRequestDatagram.MaxChunks; n++)
         {
-            long index = (long)request.First + n;
-            if ((request.Wanted >> n & 1) == 0 || index * SnapshotChunkDatagram.MaxData >= snapshot.Length)
+            long at = request.First + ((long)n * request.ChunkBytes);
+            if ((request.Wanted >> n & 1) == 0 || at >= snapshot.Length)
             {
                 continue;
             }
 
-            if (client.ChunksGiven >= most || !rates.TrySpend(client.Link.Other, now))
+            if (client.CopyBytesGiven >= most || !rates.TrySpend(client.Link.Other, now))
             {
                 return;
             }
 
-            client.ChunksGiven++;
-            int at = (int)index * SnapshotChunkDatagram.MaxData;
             SnapshotChunkDatagram chunk = new(
-                request.SessionId, (uint)index, snapshot.Slice(at, Math.Min(SnapshotChunkDatagram.MaxData, snapshot.Length - at)));
+                request.SessionId, (uint)at, snapshot.Slice((int)at, Math.Min(request.ChunkBytes, snapshot.Length - (int)at)));
+            client.CopyBytesGiven += chunk.Data.Length;
             sender.Send(bytes.Slice(0, chunk.Encode(bytes)), client.Link);
         }
     }

@@ -34,6 +34,9 @@ internal sealed class LinkFlight
 
     internal CongestionControl Congestion { get; }
 
+    /// <summary>How long a datagram may be.</summary>
+    internal PathSize Path { get; } = new();
+
     /// <summary>The longest time for the answer to a datagram sent later, if it arrives.</summary>
     internal SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
 
@@ -88,6 +91,10 @@ internal sealed class LinkFlight
         while (Sent.TryTakeLost(now, LongestTrip, out SentDatagrams.Datagram datagram))
         {
             Lose(datagram, now, trips.HasQueue);
+            if (!trips.HasQueue)
+            {
+                Path.NoteLost(datagram.Bytes);
+            }
         }
     }
 
@@ -120,6 +127,7 @@ internal sealed class LinkFlight
     {
         if (Sent.TryAcknowledge(number, out SentDatagrams.Datagram came))
         {
+            Path.NoteArrived(came.Bytes);
             NoteCame(came, now);
         }
     }

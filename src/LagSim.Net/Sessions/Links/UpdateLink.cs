@@ -91,6 +91,9 @@ internal sealed class UpdateLink
     /// <summary>Chooses which of this peer's entries are sent next.</summary>
     internal SendWindow Outgoing => flight.Window;
 
+    /// <summary>How long a datagram may be.</summary>
+    internal PathSize Path => flight.Path;
+
     internal LinkTraffic Traffic => traffic.Of(Peer, Other, Trips);
 
     /// <summary>The measured round trips.</summary>
@@ -225,7 +228,7 @@ internal sealed class UpdateLink
 
         // What has to be sent must find the window half empty. An update worth its own bytes is not optional traffic.
         int most = congestion.IsHalfFull ? 0 : spare.Bytes;
-        int repeated = Outgoing.Fill(update, source, most, OwnBytes, congestion.DatagramBytes - OwnBytes);
+        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, Path.UpdateRoom));
         int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
