@@ -109,8 +109,8 @@ public sealed class AirHockeyJoinTests(ServedPage served)
         Assert.False(await third.Page.Locator("#second").IsVisibleAsync(), "There is a second place for who has not even one.");
         await third.Page.GetByText("looking on: both mallets are taken").WaitForAsync();
         await SeesTheMatchAsync(third.Page, "You look on");
-        Assert.Equal("Ann, Ann 2", await SidesAsync(third.Page));
-        Assert.Equal(["Ann", "Ann 2"], (await tab.Page.Locator(".pane h2").AllInnerTextsAsync()).Select(title => title.Trim()));
+        Assert.Equal("Ann, Ann-2", await SidesAsync(third.Page));
+        Assert.Equal(["Ann", "Ann-2"], (await tab.Page.Locator(".pane h2").AllInnerTextsAsync()).Select(title => title.Trim()));
         Assert.Empty(third.Complaints);
 
         await tab.Page.Keyboard.DownAsync("w");

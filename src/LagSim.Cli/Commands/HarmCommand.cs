@@ -67,7 +67,7 @@ internal static class HarmCommand
                 throw new UsageException("--starved stops and continues a process by signals, which Windows does not have; it can be played on Linux and macOS.");
             }
 
-            return Run(console, options, parsed.GetValue(worst), again, parsed.GetValue(honest), parsed.GetValue(starved), tool, parsed.GetValue(common.Json));
+            return Run(console, options, parsed.GetValue(worst), again, parsed.GetValue(honest), (parsed.GetValue(starved), parsed.GetValue(share)), tool, parsed.GetValue(common.Json));
         });
         return command;
     }
@@ -76,7 +76,7 @@ internal static class HarmCommand
     internal static PlayerBudget? Budget(double times) =>
         times == 0 ? null : new PlayerBudget(Math.Max(1, PlayerBudget.Default.WorkPerSecond * times), Math.Max(1, PlayerBudget.Default.WorkAtOnce * times));
 
-    private static int Run(ToolConsole console, HarmOptions options, int worst, int again, bool honest, int starved, string[]? tool, bool json)
+    private static int Run(ToolConsole console, HarmOptions options, int worst, int again, bool honest, (int Count, double Budget) starved, string[]? tool, bool json)
     {
         int done = 0;
         IReadOnlyList<HarmOutcome> outcomes = options.Attacks == 0 ? [] : console.WithProgress(
@@ -100,8 +100,8 @@ internal static class HarmCommand
             : [.. ranked.Where(o => o.Case.Scene.Rules is null).Take(again)]; // the tool has no rules
         IReadOnlyList<HarmProcessOutcome> played = toReplay.Length == 0 ? [] : PlayAgain(console, toReplay, tool ?? StallsCommand.ThisTool());
         IReadOnlyList<HonestCost> costs = honest ? PlayHonest(console, options) : [];
-        IReadOnlyList<StarvedOutcome> hungry = starved > 0 ? PlayStarved(console, options.Seed, starved, tool ?? StallsCommand.ThisTool()) : [];
-        bool isStopped = hungry.Count < starved || outcomes.Count < options.Attacks || played.Count < toReplay.Length || (honest && costs.Count < HonestPlay.Scenes.Count);
+        IReadOnlyList<StarvedOutcome> hungry = starved.Count > 0 ? PlayStarved(console, options.Seed, starved, tool ?? StallsCommand.ThisTool()) : [];
+        bool isStopped = hungry.Count < starved.Count || outcomes.Count < options.Attacks || played.Count < toReplay.Length || (honest && costs.Count < HonestPlay.Scenes.Count);
         if (json)
         {
             HarmJson.Write(console.Output, options, outcomes, [.. ranked.Take(worst)], played, costs, hungry, isStopped);
@@ -144,18 +144,18 @@ internal static class HarmCommand
         });
 
     /// <summary>One after the other, since each is to get as little time as it says.</summary>
-    private static IReadOnlyList<StarvedOutcome> PlayStarved(ToolConsole console, ulong seed, int count, string[] tool) => console.WithProgress(
+    private static IReadOnlyList<StarvedOutcome> PlayStarved(ToolConsole console, ulong seed, (int Count, double Budget) asked, string[] tool) => console.WithProgress(
         "sessions of honest players with a starved host",
-        count,
+        asked.Count,
         progress =>
         {
             List<StarvedOutcome> played = [];
-            while (played.Count < count)
+            while (played.Count < asked.Count)
             {
                 StarvedCase drawn = new(seed + (ulong)played.Count);
                 try
                 {
-                    using StarvedRun run = new(drawn, tool, console.Stop);
+                    using StarvedRun run = new(drawn, asked.Budget, tool, console.Stop);
                     played.Add(run.Play());
                 }
                 catch (OperationCanceledException) when (console.Stop.IsCancellationRequested)

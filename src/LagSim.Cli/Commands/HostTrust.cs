@@ -57,7 +57,7 @@ internal sealed class HostTrust
         }
 
         throwIf(fingerprint is not null && memory is not null, $"{memory} contradicts an address with a fingerprint, which says whom to trust.");
-        place = address;
+        place = address.ToLowerInvariant().TrimEnd('/'); // however it is spelled
         Wanted = fingerprint;
         hosts = fingerprint is null && (named ?? (isThisMachine ? null : KnownHosts.UsualFile)) is string used ? new KnownHosts(used) : null;
         if (!isAnew && hosts?.Find(place) is (HostFingerprint known, int at))
@@ -91,7 +91,7 @@ internal sealed class HostTrust
             hosts.Remember(place, Protection!.Host!.Value);
             return $"{told} It is remembered in '{hosts.File}'; another one at {place} will be refused.";
         }
-        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or InputException)
         {
             return $"{told} It is not remembered: {failure.Message}";
         }

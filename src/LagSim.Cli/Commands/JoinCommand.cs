@@ -108,7 +108,7 @@ internal static class JoinCommand
             };
             using SessionRunner runner = new(session, carrier, request, printer, console.Stop);
             int code = runner.Run();
-            if (code == ExitCode.Input && trust.WhyRefused() is string why)
+            if (code == ExitCode.Input && session.Peer == 0 && trust.WhyRefused() is string why)
             {
                 console.Error.WriteLine(why);
             }

@@ -43,9 +43,8 @@ internal sealed class KnownHosts(string file)
     {
         Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(file))!);
         IEnumerable<string> others = Lines().Where((line, n) => Read(line, n + 1)?.Address != address);
-        string draft = $"{file}.{Environment.ProcessId}.new"; // moved into place afterwards, so that a kill in between leaves the old file whole
-        System.IO.File.WriteAllLines(draft, others.Append($"{address} {fingerprint}"));
-        System.IO.File.Move(draft, file, overwrite: true);
+        string[] lines = [.. others, $"{address} {fingerprint}"];
+        SecretFile.Replace(file, draft => System.IO.File.WriteAllLines(draft, lines));
     }
 
     private string[] Lines() => System.IO.File.Exists(file) ? System.IO.File.ReadAllLines(file) : [];

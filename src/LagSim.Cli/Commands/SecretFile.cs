@@ -10,7 +10,7 @@ internal static class SecretFile
 {
     private const string Must = "a file that can be written";
 
-    private const int MaxBytes = 1_000; // the longest secret is one line of 64 characters
+    private const int MaxBytes = 1_000; // the longest secret is a connect key, one line
 
     /// <summary>Reads the line; null if the file does not exist yet, empty if it is too long to be a secret.</summary>
     /// <exception cref="IOException">The file cannot be read.</exception>

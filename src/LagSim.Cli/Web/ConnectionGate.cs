@@ -54,8 +54,14 @@ internal sealed class ConnectionGate
         }
         else if (isPlain && await farewells.WaitAsync(TimeSpan.Zero))
         {
-            await RefuseAsync(connection);
-            farewells.Release();
+            try
+            {
+                await RefuseAsync(connection);
+            }
+            finally
+            {
+                farewells.Release();
+            }
         }
         else
         {

@@ -17,7 +17,7 @@ internal static class PlayerName
     /// Blanks other than the space, separators of lines and paragraphs, what changes the direction of text, and all else that shows nothing:
     /// the categories Zs, Zl, Zp and Cf, what a font may leave out, and fillers.
     /// </summary>
-    private static readonly int[] Unseen =
+    internal static readonly int[] Unseen =
     {
         0x00A0, 0x00A0, 0x00AD, 0x00AD, 0x034F, 0x034F, 0x0600, 0x0605, 0x061C, 0x061C, 0x06DD, 0x06DD, 0x070F, 0x070F, 0x0890, 0x0891,
         0x08E2, 0x08E2, 0x115F, 0x1160, 0x1680, 0x1680, 0x17B4, 0x17B5, 0x180E, 0x180E, 0x2000, 0x200F, 0x2028, 0x202F, 0x205F, 0x206F,
@@ -26,13 +26,13 @@ internal static class PlayerName
     };
 
     /// <summary>Variation selectors: they choose the form of the character before them, and show nothing without one.</summary>
-    private static readonly int[] Selectors = { 0x180B, 0x180D, 0x180F, 0x180F, 0xFE00, 0xFE0F, 0xE0100, 0xE01EF };
+    internal static readonly int[] Selectors = { 0x180B, 0x180D, 0x180F, 0x180F, 0xFE00, 0xFE0F, 0xE0100, 0xE01EF };
 
     /// <summary>Marks that stand over or under the character before them: a digit with one is a digit.</summary>
-    private static readonly int[] Accents = { 0x0300, 0x036F, 0xFE20, 0xFE2F };
+    internal static readonly int[] Accents = { 0x0300, 0x036F, 0xFE20, 0xFE2F };
 
     /// <summary>Decimal digits of all scripts, and numbers that are one character: raised, lowered, circled, Roman, fractions.</summary>
-    private static readonly int[] Digits =
+    internal static readonly int[] Digits =
     {
         0x0030, 0x0039, 0x00B2, 0x00B3, 0x00B9, 0x00B9, 0x00BC, 0x00BE, 0x0660, 0x0669, 0x06F0, 0x06F9, 0x07C0, 0x07C9, 0x0966, 0x096F,
         0x09E6, 0x09EF, 0x0A66, 0x0A6F, 0x0AE6, 0x0AEF, 0x0B66, 0x0B6F, 0x0BE6, 0x0BEF, 0x0C66, 0x0C6F, 0x0CE6, 0x0CEF, 0x0D66, 0x0D6F,
@@ -49,7 +49,7 @@ internal static class PlayerName
     };
 
     /// <summary>Punctuation and symbols, which part words; not the hyphen and the underscore, which join them.</summary>
-    private static readonly int[] Parting =
+    internal static readonly int[] Parting =
     {
         0x0020, 0x002C, 0x002E, 0x002F, 0x003A, 0x0040, 0x005B, 0x005E, 0x0060, 0x0060, 0x007B, 0x007E, 0x00A1, 0x00A9, 0x00AB, 0x00AC,
         0x00AE, 0x00B1, 0x00B4, 0x00B4, 0x00B6, 0x00B8, 0x00BB, 0x00BB, 0x00BF, 0x00BF, 0x00D7, 0x00D7, 0x00F7, 0x00F7, 0x055A, 0x055F,

@@ -102,8 +102,8 @@ public sealed record HostOptions : SessionOptions
     /// <remarks>
     /// <para>At half the budget, a player's actions are refused (<see cref="Wire.Verdict.NoRight"/>) except removals and releases. At the
     /// full budget the player is expelled as by <see cref="HostSession.Kick"/>, is told what it cost, and is not let in for a minute: by its
-    /// token, its key or its pass. If another is expelled from its machine within a minute, nobody without token or key is let in from there
-    /// for as long. What it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are
+    /// token, its key or its pass. If another is expelled from its machine within ten minutes, nobody without token or key is let in from
+    /// there for as long. What it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are
     /// stopped; see <see cref="HostSession.PlayerExpelled"/>.</para>
     /// <para>Work is counted, not timed, so a machine that has little time for the host sends nobody away.</para>
     /// <para>A late event on a body in free flight counts some 5 units or more. The default <see cref="MaxEventsPerSecond"/> stays far from the
@@ -129,8 +129,8 @@ public sealed record HostOptions : SessionOptions
     public IHostProtection? Protection { get; init; }
 
     /// <summary>
-    /// Whether it is meant that nothing protects the session; default false. Without it <see cref="PeerThread"/> refuses to host a session
-    /// that others on the network can reach and that has no <see cref="Protection"/>.
+    /// Whether it is meant that nothing protects the session; default false. Without it <c>PeerThread.Host</c> refuses a session that has
+    /// no <see cref="Protection"/>, unless it is bound to this machine alone or its network is virtual.
     /// </summary>
     public bool Unprotected { get; init; }
 

@@ -113,8 +113,8 @@ public sealed class HostSession : Session
     }
 
     /// <summary>
-    /// Raised on the session's thread for each client that shows a wrong connect key, a handful a second at most: after five wrong ones from
-    /// one machine none from there is looked at for a second, then for twice as long each time, up to a minute.
+    /// Raised on the session's thread for each client that shows a wrong connect key, ten a second at most after the first hundred: after five
+    /// wrong ones from one machine none from there is looked at for a second, then for twice as long each time, up to 64 s.
     /// </summary>
     public event Action<KeyRefusal>? KeyRefused
     {

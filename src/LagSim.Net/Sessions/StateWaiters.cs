@@ -154,6 +154,7 @@ internal sealed class StateWaiters
                 giveUp();
                 source.TrySetCanceled(cancellation);
             });
+            timer.Change(timeout, Timeout.InfiniteTimeSpan);
             source.Task.ContinueWith(
                 _ =>
                 {
@@ -163,7 +164,6 @@ internal sealed class StateWaiters
                 CancellationToken.None,
                 TaskContinuationOptions.None,
                 TaskScheduler.Default);
-            timer.Change(timeout, Timeout.InfiniteTimeSpan);
         }
     }
 }

@@ -201,10 +201,13 @@ function focusWhatIsWrong() {
   }
 }
 
-/** A name of two at one keyboard that would be too long is left out, not cut: the second is then called by its number. */
+/**
+ * The name of the second of two at one keyboard. One that would be too long is left out, not cut, and so is that of somebody without a name:
+ * the second is then called by its number. The hyphen joins the digit to the name: by itself it would read as a player's number, and be refused.
+ */
 function nameOfSecond(first) {
-  const name = `${first} 2`.trim()
-  return exports.WhyNoName(name) ? '' : name
+  const name = `${first}-2`
+  return first === '' || exports.WhyNoName(name) ? '' : name
 }
 
 /** One more peer of this page asks to be let in. Returns whether it does. */

@@ -31,6 +31,12 @@ public sealed class WorkLedger : IWorkObserver
 
     private const double DefaultMaxWorkPerStep = 20_000;
 
+    /// <summary>
+    /// A step ends by the clock too, so that whoever advances the world gets to its other work; one event never takes longer than this, or
+    /// the thread was not at work meanwhile.
+    /// </summary>
+    private const double MaxSecondsPerEvent = 0.02;
+
     /// <summary>The cost of cutting a segment for a late event, besides what is simulated again. Measured by <c>LagSim.Bench -- counted</c>.</summary>
     private const double WorkPerCut = 1;
 
@@ -62,7 +68,8 @@ public sealed class WorkLedger : IWorkObserver
     public double Total { get; private set; }
 
     /// <summary>
-    /// The largest cost of a step before it continues in the next, in units of about a microsecond; above zero, default 20,000.
+    /// The largest cost of a step before it continues in the next, in units of about a microsecond, counted or by the clock, whichever is
+    /// more; above zero, default 20,000.
     /// </summary>
     public double MaxWorkPerStep { get; set; } = DefaultMaxWorkPerStep;
 
@@ -177,16 +184,17 @@ public sealed class WorkLedger : IWorkObserver
     private Cost Measured(double work)
     {
         Total += work;
-        thisStep += work;
         if (clock is null)
         {
+            thisStep += work;
             return new Cost(work, 0);
         }
 
         SimTime now = clock.Now;
-        SimDuration took = now - measured;
+        double took = Math.Max(0, (now - measured).ToSeconds());
         measured = now;
-        return new Cost(work, Math.Max(0, took.ToSeconds()));
+        thisStep += Math.Max(work, Math.Min(took, MaxSecondsPerEvent) * 1e6);
+        return new Cost(work, took);
     }
 
     /// <inheritdoc/>

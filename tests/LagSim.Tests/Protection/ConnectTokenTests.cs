@@ -4,6 +4,7 @@ using LagSim.Events;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
+using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
 using Xunit;
@@ -110,6 +111,40 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.True(group.RunUntil(() => second.State == SessionState.Running && first.State == SessionState.Ended, 5), second.EndReason);
         Assert.Equal((first.Peer, 1), (second.Peer, group.Host.ClientCount));
         Assert.Contains("came in from elsewhere", first.EndReason, StringComparison.Ordinal);
+    }
+
+    /// <summary>Who is sent away for its cost and comes back by its pass may do no more than its token says.</summary>
+    [Theory]
+    [InlineData(PlayerRights.Act, Verdict.NoRight)]
+    [InlineData(PlayerRights.All, Verdict.Accepted)] // the control
+    public void Join_ByThePassOfOneThatWasSentAway_HasTheRightsOfItsToken(PlayerRights rights, Verdict expected)
+    {
+        SessionGroup group = Hosting(new PlayerBudget(1, 60));
+        ClientSession ada = Join(group, 1, issuer.Issue(new PlayerAdmission("ada", "Ada", rights), identity.Fingerprint, now: Noon));
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3), ada.EndReason);
+        PlayerPass pass = ada.Pass!.Value;
+        for (int n = 0; n < 100 && ada.State == SessionState.Running; n++)
+        {
+            ada.Do(PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(0, 1, 0)));
+            group.Run(0.02);
+        }
+
+        Assert.Equal(SessionEnd.Kicked, ada.EndedBy);
+        ClientSession early = Return(2);
+        Assert.True(group.RunUntil(() => early.State == SessionState.Ended, 3));
+        Assert.Contains("shut out this player", early.EndReason, StringComparison.Ordinal);
+        group.Run(61);
+        ClientSession again = Return(3);
+        Assert.True(group.RunUntil(() => again.State == SessionState.Running, 3), again.EndReason);
+        Assert.Equal("ada", group.Host.AdmissionOf(again.Peer)?.PlayerId);
+        Verdict? verdict = null;
+        group.Host.Logged += entry => verdict = entry.Event.Peer == again.Peer ? entry.Verdict : verdict;
+        again.Do(PlayerAction.Spawn(new BodySpec(0.25, 1, 0.5), new Vector3D(0, 2, 0), default));
+        group.Run(0.5);
+        Assert.Equal(expected, verdict);
+
+        ClientSession Return(int address) => group.Join(
+            address, (ulong)(1000 + address), new ClientOptions { Protection = new SecureClient(identity.Fingerprint), Pass = pass });
     }
 
     /// <summary>A token gives no number that another player has, nor one that a key is for; the player may have another number later.</summary>
@@ -328,13 +363,14 @@ public sealed class ConnectTokenTests : IDisposable
         Assert.DoesNotContain(issuer.ToSecretText(), issuer.ToString(), StringComparison.Ordinal);
     }
 
-    private SessionGroup Hosting()
+    private SessionGroup Hosting(PlayerBudget? budget = null)
     {
         SessionGroup group = new(
             ScriptedActions.Box(), 1, LinkProfiles.Loopback, expected: 0,
             options: _ => new HostOptions
             {
                 Protection = new SecureHost(identity, issuer.Key, () => hostClock),
+                PlayerBudget = budget ?? PlayerBudget.Default,
                 PlayerKeys = new System.Collections.Generic.Dictionary<byte, string> { [8] = "a key" },
             });
         group.Run(1);

@@ -93,6 +93,35 @@ public sealed class WrongKeyTests : IDisposable
         Assert.True(hasPass || again.EndReason!.StartsWith("The host refused: too many wrong keys came from this address; it looks at no key from here for another ", StringComparison.Ordinal), again.EndReason);
     }
 
+    /// <summary>A player who is in, and so has a pass, guesses other players' keys with it no faster than anybody.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Guess_WithAPass_IsLimitedLikeAny(bool isProtected)
+    {
+        SessionGroup group = Hosting(isProtected, new JoinLimits());
+        ClientSession ada = group.Join(1, 7, new ClientOptions { Protection = isProtected ? new SecureClient(identity.Fingerprint) : null, ConnectKey = Key });
+        Assert.True(group.RunUntil(() => ada.State == SessionState.Running, 3), ada.EndReason);
+        RefusalReason?[] answers = [.. Enumerable.Range(0, 9).Select(n => Guess(group, PeerAddress.Virtual(50), $"wrong {n}", isProtected, 0.02, ada.Pass!.Value))];
+        Assert.Equal(5, told.Count);
+        Assert.Equal(RefusalReason.TooManyWrongKeys, answers[^1]);
+        Assert.Null(Guess(group, PeerAddress.Virtual(50), Key, isProtected, 0.02, ada.Pass!.Value)); // the control: with the right key it comes back
+    }
+
+    /// <summary>Where there is no key there is nothing to guess: wrong ones are refused, and keep nobody out.</summary>
+    [Fact]
+    public void Guess_AtAHostWithoutAKey_KeepsNobodyOut()
+    {
+        SessionGroup group = Hosting(true, new JoinLimits { WrongKeyBurstOfAll = 3, WrongKeysPerSecondOfAll = 0.001 }, "");
+        for (int n = 0; n < 20; n++)
+        {
+            Assert.Equal(RefusalReason.WrongKey, Guess(group, PeerAddress.Virtual(50), $"wrong {n}", true, 0.02));
+        }
+
+        Assert.Empty(told);
+        Assert.Null(Guess(group, PeerAddress.Virtual(50), "", true, 0.02));
+    }
+
     /// <summary>On a slow link a join comes several times before it is answered. A typing error is one all the same.</summary>
     [Fact]
     public void Join_WithATypingErrorOverASlowLink_CountsOnce()
@@ -109,20 +138,20 @@ public sealed class WrongKeyTests : IDisposable
         Assert.Equal((1, 0L), (told.Single().Count, told.Single().Pause.Ticks));
     }
 
-    private SessionGroup Hosting(bool isProtected, JoinLimits limits)
+    private SessionGroup Hosting(bool isProtected, JoinLimits limits, string key = Key)
     {
         limits.HandshakeBurst = 1_000_000; // another limit, of which this is not about
         limits.HandshakesPerSecondOfAll = 1e6;
         SessionGroup group = new(
             ScriptedActions.Box(), 1, LinkProfiles.Loopback, expected: 0, wrap: network.Wrap,
-            options: _ => new HostOptions { Protection = isProtected ? new SecureHost(identity) : null, ConnectKey = Key, JoinLimits = limits });
+            options: _ => new HostOptions { Protection = isProtected ? new SecureHost(identity) : null, ConnectKey = key, JoinLimits = limits });
         group.Host.KeyRefused += told.Add;
         group.Run(1);
         return group;
     }
 
     /// <summary>Asks to be let in with a key; null if the host lets it in, 0 if it says nothing.</summary>
-    private RefusalReason? Guess(SessionGroup group, PeerAddress from, string key, bool isProtected, double seconds)
+    private RefusalReason? Guess(SessionGroup group, PeerAddress from, string key, bool isProtected, double seconds, PlayerPass pass = default)
     {
         byte[] bytes = new byte[WireFormat.MaxBytes];
         nonce++;
@@ -134,7 +163,9 @@ public sealed class WrongKeyTests : IDisposable
         using IClientHandshake? handshake = isProtected
             ? SecureJoinDatagram.Begin(nonce, challenge.Cookie, challenge.Identity, new SecureClient(identity.Fingerprint)) : null;
         handshake?.WriteBinding(binding);
-        JoinDatagram join = new(nonce, challenge.Cookie, JoinCookies.Prove(key, nonce, challenge.Cookie, binding), 0, (uint)Simulation.FoldVersion);
+        JoinDatagram join = new(
+            nonce, challenge.Cookie, JoinCookies.Prove(key, nonce, challenge.Cookie, binding), 0, (uint)Simulation.FoldVersion, pass.Number,
+            pass.Number == 0 ? default : JoinCookies.Prove(pass.Secret, nonce, challenge.Cookie, binding));
         int length = isProtected ? IHostProtection.HandshakeOverhead + join.EncodedLength : join.Encode(bytes);
         if (isProtected)
         {

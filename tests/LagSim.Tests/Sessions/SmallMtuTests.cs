@@ -123,19 +123,29 @@ public sealed class SmallMtuTests
     public void PathSize_OfLongUpdatesLostInARow_IsShortAndOfOneThatCameInBetweenIsNot()
     {
         PathSize path = new();
+        uint number = 0;
         for (int n = 0; n < 100; n++)
         {
-            path.NoteLost(577 - 1); // as long as any path carries
-            path.NoteLost(1228);
-            path.NoteArrived(100);
-            path.NoteArrived(n % 7 == 6 ? 577 : 576);
+            path.NoteLost(++number, 577 - 1); // as long as any path carries
+            path.NoteLost(++number, 1228);
+            path.NoteArrived(++number, 100);
+            path.NoteArrived(++number, n % 7 == 6 ? 577 : 576);
             Assert.Equal(1200, path.Bytes);
         }
 
+        // A burst: what arrived after it is told first.
+        number += 40;
+        path.NoteArrived(number, 1228);
+        for (uint lost = number - 20; lost < number; lost++)
+        {
+            path.NoteLost(lost, 1228);
+        }
+
+        Assert.Equal(1200, path.Bytes);
         for (int n = 0; n < 8; n++)
         {
-            path.NoteLost(577);
-            path.NoteArrived(576);
+            path.NoteLost(++number, 577);
+            path.NoteArrived(++number, 576);
         }
 
         Assert.Equal((548, 525, 386), (path.Bytes, path.PlainBytes, path.UpdateRoom));

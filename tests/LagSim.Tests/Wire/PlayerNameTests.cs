@@ -18,6 +18,24 @@ public sealed class PlayerNameTests
     private const string Unseen = "which nobody sees";
     private const string Alone = "by itself, which reads as a player's number";
 
+    /// <summary>The page on the wire has the ranges, so that another implementation need not guess.</summary>
+    [Fact]
+    public void Ranges_OfThePage_AreThoseOfTheCode()
+    {
+        (string Kind, int[] Ranges)[] all =
+        [
+            ("unseen", PlayerName.Unseen), ("selectors", PlayerName.Selectors), ("accents", PlayerName.Accents), ("digits", PlayerName.Digits),
+            ("parting", PlayerName.Parting),
+        ];
+        string[] page = LayoutPage.Read("WIRE.md");
+        foreach ((string kind, int[] ranges) in all)
+        {
+            IEnumerable<string> written = Enumerable.Range(0, ranges.Length / 2)
+                .Select(n => ranges[2 * n] == ranges[(2 * n) + 1] ? $"{ranges[2 * n]:X4}" : $"{ranges[2 * n]:X4}-{ranges[(2 * n) + 1]:X4}");
+            Assert.Contains($"| {kind} | {string.Join(", ", written)} |", page);
+        }
+    }
+
     public static TheoryData<string, string> NoNames => new()
     {
         { "Ann\u202Enna", $"it holds U+202E, {Unseen}" },

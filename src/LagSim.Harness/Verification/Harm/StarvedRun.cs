@@ -14,7 +14,11 @@ namespace LagSim.Harness.Verification.Harm;
 /// its cores with programs that spin.
 /// </summary>
 /// <remarks>For Unix: it takes a shell, and the signals by which a process is stopped.</remarks>
-public sealed class StarvedRun(StarvedCase drawn, IReadOnlyList<string> tool, CancellationToken cancellation) : IDisposable
+/// <param name="drawn">The session.</param>
+/// <param name="budget">The host's budget for each player, as a multiple of the default; 0 for none.</param>
+/// <param name="tool">The tool's program, and the arguments that it needs before its own.</param>
+/// <param name="cancellation">Ends it early.</param>
+public sealed class StarvedRun(StarvedCase drawn, double budget, IReadOnlyList<string> tool, CancellationToken cancellation) : IDisposable
 {
     private const double StartSeconds = 120;
     private const double PeriodSeconds = 0.1;
@@ -25,7 +29,7 @@ public sealed class StarvedRun(StarvedCase drawn, IReadOnlyList<string> tool, Ca
     /// <summary>Plays it, in about <see cref="StarvedCase.Seconds"/> and the time that five processes take to start.</summary>
     public StarvedOutcome Play()
     {
-        StallProcess host = Run("host", "--scene", drawn.SceneName, "--joiners", Text(StarvedCase.Players), "--for-s", Text(StarvedCase.From + StarvedCase.Seconds + 1), "--json");
+        StallProcess host = Run("host", "--scene", drawn.SceneName, "--joiners", Text(StarvedCase.Players), "--budget", Text(budget), "--for-s", Text(StarvedCase.From + StarvedCase.Seconds + 1), "--json");
         if (host.Await("listening on ", StartSeconds, cancellation) is not string address)
         {
             return new StarvedOutcome(drawn, 0, 0, [$"The host does not listen: {Last(host)}"]);
@@ -80,12 +84,12 @@ public sealed class StarvedRun(StarvedCase drawn, IReadOnlyList<string> tool, Ca
         if (drawn.Share < 1)
         {
             string runs = Text(PeriodSeconds * drawn.Share), stands = Text(PeriodSeconds * (1 - drawn.Share));
-            others.Add(Shell($"while kill -STOP {host.Id}; do sleep {stands}; kill -CONT {host.Id}; sleep {runs}; done"));
+            others.Add(Shell($"while kill -0 {Environment.ProcessId} && kill -STOP {host.Id}; do sleep {stands}; kill -CONT {host.Id}; sleep {runs}; done; kill -CONT {host.Id}"));
         }
 
         for (int n = 0; n < drawn.Spinning; n++)
         {
-            others.Add(Shell("while :; do :; done"));
+            others.Add(Shell($"while kill -0 {Environment.ProcessId}; do for n in 1 2 3 4 5 6 7 8 9; do :; done; done"));
         }
     }
 
@@ -144,5 +148,5 @@ public sealed class StarvedRun(StarvedCase drawn, IReadOnlyList<string> tool, Ca
 
     private static string Last(StallProcess process) => process.Lines.LastOrDefault(line => line.Length > 2) ?? "it said nothing.";
 
-    private static string Text(double value) => value.ToString("0.###", CultureInfo.InvariantCulture);
+    private static string Text(double value) => value.ToString("0.######", CultureInfo.InvariantCulture);
 }

@@ -15,6 +15,9 @@ internal sealed class Admission(
 {
     private ulong joins;
 
+    /// <summary>Whether there is a key to guess.</summary>
+    private bool HasKeys => options.ConnectKey.Length > 0 || options.PlayerKeys.Count > 0;
+
     /// <summary>Admits a client that has proved its address.</summary>
     /// <param name="join">What it claims.</param>
     /// <param name="token">Its connect token; empty for none.</param>
@@ -25,7 +28,8 @@ internal sealed class Admission(
     internal Client? Admit(in JoinDatagram join, ReadOnlySpan<byte> token, PeerAddress from, JoinReply reply, SimTime now)
     {
         JoinIdentity who = identification.Of(join, token, reply.Binding);
-        if (who.Claimed is null && !who.IsByToken && MayBeGuessing(from, reply, now))
+        bool isNoGuesser = who.Key is not null && (who.Claimed is not null || who.IsByToken);
+        if (!isNoGuesser && HasKeys && MayBeGuessing(from, reply, now))
         {
             counters.DatagramsIgnored++;
             return null;
@@ -33,7 +37,7 @@ internal sealed class Admission(
 
         if (rules.WhyNot(join, who, from, now) is RefusalReason reason)
         {
-            if (reason == RefusalReason.WrongKey)
+            if (reason == RefusalReason.WrongKey && HasKeys)
             {
                 wrongKeys.Add(from, join.Proof, now);
             }

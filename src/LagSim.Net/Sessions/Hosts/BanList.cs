@@ -17,6 +17,9 @@ internal sealed class BanList
 
     private static readonly SimDuration Longest = SimDuration.FromSeconds(3600);
 
+    /// <summary>How long a machine is remembered from which somebody was sent away: an attack that comes again every few minutes ends it.</summary>
+    private static readonly SimDuration Warned = SimDuration.FromSeconds(600);
+
     private readonly Dictionary<string, Ban> players = new();
     private readonly Dictionary<PeerAddress, Ban> machines = new();
     private readonly Dictionary<PeerAddress, SimTime> warned = new(); // when somebody there was sent away, and the machine was not
@@ -37,7 +40,7 @@ internal sealed class BanList
 
     /// <summary>
     /// Shuts a player out for a while. Its machine as well if nothing proves who it is, and somebody was sent away from there within the
-    /// last minute or the machine was out before.
+    /// last ten minutes or the machine was out before.
     /// </summary>
     internal void ShutOutForAWhile(PlayerNames who, PeerAddress machine, SimTime now)
     {
@@ -51,7 +54,7 @@ internal sealed class BanList
             return;
         }
 
-        if (machines.ContainsKey(machine) || (warned.TryGetValue(machine, out SimTime last) && now - last <= First))
+        if (machines.ContainsKey(machine) || (warned.TryGetValue(machine, out SimTime last) && now - last <= Warned))
         {
             machines[machine] = Longer(machines, machine, machine, now);
         }
@@ -59,9 +62,9 @@ internal sealed class BanList
         warned[machine] = now;
     }
 
-    /// <summary>Whether a player is not let in from a machine.</summary>
+    /// <summary>Whether a player is not let in from a machine. One that is proven is not out for what others did there for a while.</summary>
     internal bool IsShutOut(PlayerNames who, PeerAddress machine, SimTime now) =>
-        IsOut(machines, machine, now) || who.All.Any(name => IsOut(players, name, now));
+        (IsOut(machines, machine, now) && (!who.AreProven || machines[machine].IsForGood)) || who.All.Any(name => IsOut(players, name, now));
 
     /// <summary>Lets a machine, and the players who were sent away from it, in again; false if none of them was shut out.</summary>
     internal bool LetInAgain(PeerAddress machine, SimTime now)
@@ -85,11 +88,13 @@ internal sealed class BanList
         where T : notnull
     {
         SimDuration span = !bans.TryGetValue(who, out Ban last) ? First : last.For > Longest / 2 ? Longest : last.For * 2;
-        return last.Until == SimTime.MaxValue ? last : new Ban(now + span, span, machine);
+        return last.IsForGood ? last : new Ban(now + span, span, machine);
     }
 
     private readonly record struct Ban(SimTime Until, SimDuration For, PeerAddress Machine)
     {
+        internal bool IsForGood => Until == SimTime.MaxValue;
+
         internal static Ban ForGood(PeerAddress machine) => new(SimTime.MaxValue, Longest, machine);
     }
 }

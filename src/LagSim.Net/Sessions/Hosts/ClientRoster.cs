@@ -135,14 +135,17 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         return all.Count;
     }
 
-    /// <summary>Sends a player away that keeps its pass: while it is shut out, the pass tells who it is.</summary>
+    /// <summary>
+    /// Sends a player away that keeps its pass, and what its token says of it: while it is shut out, the pass tells who it is, and afterwards
+    /// it may do no more than before.
+    /// </summary>
     internal void Expel(Client client, string why)
     {
         PlayerPlaces.Place place = places[client.Peer];
-        Token128? pass = place.Pass;
+        (Token128? pass, PlayerAdmission? admission) = (place.Pass, place.Admission);
         if (Kick(j => j == client, why) > 0 && !place.IsTaken)
         {
-            place.Keep(pass);
+            place.Keep(pass, admission);
         }
     }
 

@@ -226,8 +226,8 @@ internal sealed class PlayerPlaces
             Admission = null;
         }
 
-        /// <summary>Keeps the pass of the player that was sent away, until another gets the number.</summary>
-        internal void Keep(Token128? pass) => Pass = pass;
+        /// <summary>Keeps the pass of the player that was sent away, and what its token says, until another gets the number.</summary>
+        internal void Keep(Token128? pass, PlayerAdmission? admission) => (Pass, Admission) = (pass, admission);
 
         /// <summary>Called when its player is gone: the number is reserved or free from then on.</summary>
         internal void Leave(bool isKept, ulong session, LeaveReason why, SimTime now)

@@ -11,8 +11,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// Slows down who guesses connect keys: each machine after its first few wrong ones, for twice as long each time, and all machines together.
 /// </summary>
 /// <remarks>
-/// A machine that waits is told so without a look at its key, so it learns nothing of it. Who shows a player's pass or a connect token is no
-/// guesser. Memory is bounded: only wrong keys make an entry, and of those all machines together have few a second. For one thread.
+/// A machine that waits is told so whatever its key is, so it learns nothing of it. Who shows the right key with a player's pass or a connect
+/// token is no guesser. Memory is bounded: only wrong keys make an entry, and of those all machines together have few a second. For one thread.
 /// </remarks>
 internal sealed class WrongKeys
 {

@@ -93,7 +93,7 @@ internal sealed class LinkFlight
             Lose(datagram, now, trips.HasQueue);
             if (!trips.HasQueue)
             {
-                Path.NoteLost(datagram.Bytes);
+                Path.NoteLost(datagram.Number, datagram.Bytes);
             }
         }
     }
@@ -127,7 +127,7 @@ internal sealed class LinkFlight
     {
         if (Sent.TryAcknowledge(number, out SentDatagrams.Datagram came))
         {
-            Path.NoteArrived(came.Bytes);
+            Path.NoteArrived(came.Number, came.Bytes);
             NoteCame(came, now);
         }
     }

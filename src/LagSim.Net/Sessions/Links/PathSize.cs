@@ -5,7 +5,8 @@ namespace LagSim.Net.Sessions.Links;
 /// <summary>How long a datagram the path of a link is known to carry: the longest there is, or the least that every path carries.</summary>
 /// <remarks>
 /// A path with a small MTU that drops ICMP loses long datagrams and carries short ones (RFC 8899). A lossy link loses both, so it is
-/// judged by long updates lost in a row, each overtaken by a short one that arrived, where no queue explains it. At a loss of 15 %, more
+/// judged by long updates lost in a row, none of those sent between them having arrived, where a later short one did and no queue
+/// explains it. At a loss of 15 %, more
 /// than that of the worst link that is reported on, <see cref="Suspicious"/> in a row have a chance of 3 in 10 million.
 /// </remarks>
 internal sealed class PathSize
@@ -13,6 +14,7 @@ internal sealed class PathSize
     private const int Suspicious = 8;
 
     private int lost;
+    private uint arrived; // the newest long one that arrived; numbers begin at 1
 
     /// <summary>The longest datagram to send, sealed or not, without UDP and IP headers.</summary>
     internal int Bytes { get; set; } = WireFormat.MaxBytes;
@@ -23,13 +25,22 @@ internal sealed class PathSize
     /// <summary>The most bytes that the entries of an update take.</summary>
     internal int UpdateRoom => PlainBytes - WireFormat.EmptyUpdateBytes - WireFormat.MaxHashBytes - WireFormat.StartBytes;
 
-    /// <summary>Records that an update arrived, by its length with UDP and IP headers.</summary>
-    internal void NoteArrived(int bytes) => lost = IsLong(bytes) ? 0 : lost;
-
-    /// <summary>Records that an update was lost though a later one arrived, by its length with UDP and IP headers.</summary>
-    internal void NoteLost(int bytes)
+    /// <summary>Records that an update arrived, by its number, and its length with UDP and IP headers.</summary>
+    internal void NoteArrived(uint number, int bytes)
     {
-        lost += IsLong(bytes) ? 1 : 0;
+        if (IsLong(bytes) && number > arrived)
+        {
+            (lost, arrived) = (0, number);
+        }
+    }
+
+    /// <summary>
+    /// Records that an update was lost though a later one arrived, likewise. Losses are told after arrivals: one before a long update that
+    /// arrived says nothing.
+    /// </summary>
+    internal void NoteLost(uint number, int bytes)
+    {
+        lost += IsLong(bytes) && number > arrived ? 1 : 0;
         if (lost >= Suspicious)
         {
             Bytes = WireFormat.LeastPathBytes;

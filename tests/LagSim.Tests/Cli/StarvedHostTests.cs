@@ -1,0 +1,39 @@
+using System;
+using System.Linq;
+using System.Text.Json;
+using LagSim.Harness.Verification.Harm;
+using Xunit;
+
+namespace LagSim.Tests.Cli;
+
+/// <summary>Honest players stay with a host that gets little time, with real processes.</summary>
+[Trait("Time", "real")]
+public sealed class StarvedHostTests
+{
+    /// <summary>A host at a half of a core, and one beside sixteen spinning programs. The control: with next to no budget the players are sent away.</summary>
+    [Theory]
+    [InlineData("--seed 1", true)]
+    [InlineData("--seed 2", true)]
+    [InlineData("--seed 1 --budget 0.0001", false)]
+    public void Harm_OfHonestPlayersWithAStarvedHost_SeesWhetherTheyStay(string options, bool stay)
+    {
+        Assert.SkipWhen(OperatingSystem.IsWindows(), "Windows has no signals by which a process is stopped.");
+        using ToolProcess harm = ToolProcess.Start($"harm --attacks 0 --starved 1 {options} --json");
+        harm.Ends(stay ? 0 : 1);
+        using JsonDocument result = JsonDocument.Parse(string.Join("\n", harm.Output.Lines));
+        JsonElement session = Assert.Single(result.RootElement.GetProperty("starved").EnumerateArray());
+        string failures = string.Join(" ", session.GetProperty("failures").EnumerateArray().Select(failure => failure.GetString()));
+        Assert.True(session.GetProperty("late_ms").GetDouble() > 0); // it was starved
+        Assert.Equal(stay, failures.Length == 0);
+        Assert.True(stay || failures.Contains("is disconnected: what it did took", StringComparison.Ordinal), failures);
+    }
+
+    [Fact]
+    public void Draw_ManySeeds_HaveEverySceneAndKind()
+    {
+        StarvedCase[] cases = [.. Enumerable.Range(0, 18).Select(seed => new StarvedCase((ulong)seed))];
+        Assert.Equal(18, cases.Select(one => one.ToString()).Distinct().Count());
+        Assert.All(cases, one => Assert.All(one.Actions, actions => Assert.InRange(actions.Length, 10, 200)));
+        Assert.Equal(cases[5].Actions, new StarvedCase(5).Actions); // the seed is all there is to it
+    }
+}
