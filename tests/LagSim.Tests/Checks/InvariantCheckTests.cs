@@ -58,6 +58,17 @@ public sealed class InvariantCheckTests
     public void Run_ClientWhoseCopyBeginsWhileAHandPresses_HasTheSameBits() =>
         Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = 6_628, ShrinkingPlays = 0 }).Failures);
 
+    /// <summary>
+    /// A player whose link carries 12 to 18 kbit/s and falls to a fifth for five of every few seconds gets in. It did not while a host gave a copy no longer than it takes at 1,000
+    /// bytes a second, a link did not count round trips above 10 s and so saw no queue, and clock readings were exchanged fifty times a second until the first answer.
+    /// </summary>
+    [Theory]
+    [InlineData(502_977UL)]
+    [InlineData(310_675UL)]
+    [InlineData(2_007_019UL)]
+    public void Run_PlayerWhoseLinkCarriesLittle_GetsIn(ulong seed) =>
+        Assert.Empty(Run(new CheckOptions { Sessions = 1, Seed = seed, Rules = RulesOfSessions.None, ShrinkingPlays = 0 }).Failures);
+
     /// <summary>A session that takes more events than it may is named, and no failure; the control may take them.</summary>
     [Fact]
     public void Run_SessionOfTooManyEvents_IsUnfinished()

@@ -25,8 +25,11 @@ internal sealed class JoinLimits
     /// </summary>
     internal int MinSnapshots { get; set; } = 4;
 
-    /// <summary>The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second.</summary>
-    internal double SlowestDownload { get; set; } = 1_000;
+    /// <summary>
+    /// The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second: half of what a link of 12 kbit/s
+    /// carries that falls to a fifth for five of every six seconds. A slower download holds no place, only its share of <see cref="SnapshotBytes"/>.
+    /// </summary>
+    internal double SlowestDownload { get; set; } = 300;
 
     /// <summary>The rate at which one machine is sent chunks, for all its clients together: 2.3 MB/s.</summary>
     internal double ChunksPerSecond { get; set; } = 2000;

@@ -12,8 +12,11 @@ namespace LagSim.Net.Sessions.Links;
 /// </remarks>
 internal sealed class RoundTrips
 {
-    /// <summary>The longest accepted round trip; a longer one is discarded, since the other peer's own times are not verified.</summary>
-    private static readonly SimDuration Longest = SimDuration.FromSeconds(10);
+    /// <summary>
+    /// The longest accepted round trip; a longer one is discarded, since the other peer's own times are not verified. A queue of 2 s that is
+    /// emptied at a fifth of its rate, in both directions, takes 20 s: a link that did not count such a trip would see no queue.
+    /// </summary>
+    private static readonly SimDuration Longest = SimDuration.FromSeconds(60);
 
     /// <summary>
     /// How long the shortest round trip is remembered, and so how long a path that has become longer can be taken for a queue.
