@@ -106,6 +106,8 @@ public sealed class WirePageTests
             [DatagramType.Reset] = WireFormat.ResetBytes,
             [DatagramType.Roster] = WireFormat.EmptyRosterBytes + RosterEntry.GoneBytes,
             [DatagramType.RosterReceived] = WireFormat.RosterReceivedBytes,
+            [DatagramType.KeyExchange] = WireFormat.KeyExchangeBytes,
+            [DatagramType.KeyExchangeReply] = WireFormat.KeyExchangeBytes,
             [DatagramType.Sealed] = SealedDatagram.PrologueBytes + 1 + IDatagramCipher.TagBytes,
         };
         Assert.Equal($"{WireFormat.Version}", HeaderVersion(Page));

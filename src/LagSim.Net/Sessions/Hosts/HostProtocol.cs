@@ -22,6 +22,7 @@ internal sealed class HostProtocol : ISessionProtocol
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
     private readonly RosterBroadcast peers;
+    private readonly KeyAnswers keys;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
@@ -39,6 +40,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
         timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestDownload, now);
         Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts, Watermark);
+        keys = new KeyAnswers(Roster, parts.Sender, parts.Counters, parts.Clock);
         peers = new RosterBroadcast(Roster, places, timeouts, parts);
         Handshake.Seating.Came += _ => peers.Refresh();
         Roster.Gone += _ => peers.Refresh();
@@ -113,7 +115,7 @@ internal sealed class HostProtocol : ISessionProtocol
         switch (type)
         {
             case DatagramType.ConnectRequest when counters.IsWellFormed(ConnectRequestDatagram.TryDecode(datagram, out ConnectRequestDatagram request, out _)):
-                Handshake.Challenge(request.Nonce, from);
+                Handshake.Challenge(request, from);
                 break;
             case DatagramType.Join when counters.IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
                 Handshake.OnJoin(join, from);
@@ -135,12 +137,16 @@ internal sealed class HostProtocol : ISessionProtocol
                 RosterReceivedDatagram.TryDecode(datagram, out RosterReceivedDatagram received, out _)):
                 peers.OnReceived(received, from);
                 break;
+            case DatagramType.KeyExchange when counters.IsWellFormed(
+                KeyExchangeDatagram.TryDecode(datagram, type, out KeyExchangeDatagram offer, out _)):
+                keys.OnOffer(offer, from);
+                break;
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave, from);
                 break;
             case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.SnapshotChunk
                 or DatagramType.DesyncReport or DatagramType.Seat or DatagramType.MoveChallenge or DatagramType.SecureWelcome
-                or DatagramType.SecureRefusal or DatagramType.Reset or DatagramType.Roster:
+                or DatagramType.SecureRefusal or DatagramType.Reset or DatagramType.Roster or DatagramType.KeyExchangeReply:
                 counters.DatagramsIgnored++; // only a host sends these
                 break;
         }

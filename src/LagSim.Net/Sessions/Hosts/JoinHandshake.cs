@@ -41,7 +41,7 @@ internal sealed class JoinHandshake
         sender = parts.Sender;
         counters = parts.Counters;
         clock = parts.Clock;
-        challenge = new AddressChallenge(PublicIdentity.Of(options.Protection), cookies, parts.Sender, clock);
+        challenge = new AddressChallenge(options.Protection, cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress, watermark);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
         MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
@@ -69,7 +69,7 @@ internal sealed class JoinHandshake
     internal Seating Seating { get; }
 
     /// <summary>Makes a sender that wants to join prove its address before it is answered.</summary>
-    internal void Challenge(ulong nonce, PeerAddress from) => challenge.Send(nonce, from);
+    internal void Challenge(in ConnectRequestDatagram request, PeerAddress from) => challenge.Send(request.Nonce, request.Wanted, from);
 
     /// <summary>Makes a client prove the new address from which it wrote.</summary>
     internal void Challenge(UpdateLink link, PeerAddress from) => challenge.Send(link, from);
