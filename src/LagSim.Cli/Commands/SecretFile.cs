@@ -147,7 +147,16 @@ internal static class SecretFile
     }
 
     /// <summary>The file that a symbolic link leads to, in the end; the file itself if it is none.</summary>
-    internal static string TargetOf(string file) => new FileInfo(file).ResolveLinkTarget(returnFinalTarget: true)?.FullName ?? file;
+    internal static string TargetOf(string file)
+    {
+        const int longest = 40; // links that lead to one another in a circle end as an error of who opens the file
+        for (int n = 0; n < longest && new FileInfo(file).LinkTarget is string next; n++)
+        {
+            file = Path.GetFullPath(next, Path.GetDirectoryName(Path.GetFullPath(file))!); // which need not exist
+        }
+
+        return file;
+    }
 
     private static string DraftOf(string file) => $"{file}.{Environment.ProcessId}.new";
 }

@@ -70,8 +70,7 @@ public sealed class KeyExchangeTests : IDisposable
         Assert.True(acts > 100);
         Assert.All(group.Sessions, s => Assert.Equal(
             (0L, 0L, 0L, 0L), (s.Counters.DatagramsForged, s.Counters.StatesDiffered, s.Counters.EventsLost, s.Counters.Renewals)));
-        Assert.Null(group.Difference());
-        Assert.InRange(attacker.Heard.Count(h => h.Bytes.Length == ExchangeLength), 16, 100); // an idle link pays two datagrams for each
+        Assert.All(group.Sessions, s => Assert.True(s == group.Host || s.Counters.StatesAgreed > 3000));
     }
 
     /// <summary>

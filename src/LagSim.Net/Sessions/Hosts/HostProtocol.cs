@@ -22,7 +22,6 @@ internal sealed class HostProtocol : ISessionProtocol
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
     private readonly RosterBroadcast peers;
-    private readonly KeyAnswers keys;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
@@ -40,7 +39,6 @@ internal sealed class HostProtocol : ISessionProtocol
         Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
         timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestDownload, now);
         Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts, Watermark);
-        keys = new KeyAnswers(Roster, parts.Sender, parts.Counters, parts.Clock);
         peers = new RosterBroadcast(Roster, places, timeouts, parts);
         Handshake.Seating.Came += _ => peers.Refresh();
         Roster.Gone += _ => peers.Refresh();
@@ -139,7 +137,7 @@ internal sealed class HostProtocol : ISessionProtocol
                 break;
             case DatagramType.KeyExchange when counters.IsWellFormed(
                 KeyExchangeDatagram.TryDecode(datagram, type, out KeyExchangeDatagram offer, out _)):
-                keys.OnOffer(offer, from);
+                Handshake.Keys.OnOffer(offer, from);
                 break;
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave, from);

@@ -9,7 +9,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// The host's dealings with clients that are not in yet, or write from another address: challenge, join, snapshot, number.
+/// The host's dealings with clients that are not in yet, write from another address, or want fresh keys: challenge, join, snapshot, number.
 /// </summary>
 internal sealed class JoinHandshake
 {
@@ -53,6 +53,7 @@ internal sealed class JoinHandshake
             sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links,
             counters, WrongKeys);
         intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
+        Keys = new KeyAnswers(roster, sender, counters, clock);
         stray = new StrayReply(places, parts.Status, options.Protection, sender, parts.Clock);
     }
 
@@ -64,6 +65,9 @@ internal sealed class JoinHandshake
 
     /// <summary>The snapshots for joining clients.</summary>
     internal JoinSnapshots Snapshots { get; }
+
+    /// <summary>Agrees with clients on fresh keys for their links.</summary>
+    internal KeyAnswers Keys { get; }
 
     /// <summary>Gives joining clients their numbers.</summary>
     internal Seating Seating { get; }
