@@ -1,5 +1,4 @@
 using System;
-using LagSim.Net.Protection;
 
 namespace LagSim.Net.Wire;
 

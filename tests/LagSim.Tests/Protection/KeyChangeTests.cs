@@ -2,7 +2,6 @@ using System;
 using System.Linq;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
 using Xunit;

@@ -4,7 +4,6 @@ using System.Linq;
 using LagSim.Events;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
-using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
