@@ -19,7 +19,7 @@ public class ProtectionBenchmark
     private readonly byte[] prologue = new byte[WireFormat.JoinPrologueBytes];
     private readonly byte[] claims = new byte[WireFormat.JoinClaimBytes];
     private readonly byte[] join = new byte[IHostProtection.HandshakeOverhead + WireFormat.JoinClaimBytes];
-    private readonly byte[] welcome = new byte[IHostProtection.HandshakeOverhead + WireFormat.SecureWelcomePayloadBytes];
+    private readonly byte[] welcome = new byte[IHostProtection.WelcomeOverhead + WireFormat.SecureWelcomePayloadBytes];
     private readonly byte[] terms = new byte[WireFormat.SecureWelcomePayloadBytes];
     private readonly UpdateDatagram update = new();
     private SecureHost host = null!;
@@ -36,7 +36,7 @@ public class ProtectionBenchmark
     public void SetUp()
     {
         host = new SecureHost(identity);
-        host.WriteIdentity(shown);
+        host.WriteIdentity(new byte[IHostProtection.FingerprintBytes], shown);
         using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue)!;
         client.Write(claims, join);
         using IHostHandshake read = host.TryRead(prologue, join, claims)!;

@@ -60,6 +60,7 @@ internal static class Program
         ExplainCommand.Create(console),
         HostCommand.Create(console),
         JoinCommand.Create(console),
+        KeyCommand.Create(console),
         TokenCommand.Create(console),
         RelayCommand.Create(console),
         DiffCommand.Create(console),

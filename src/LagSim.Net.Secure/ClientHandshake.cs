@@ -7,13 +7,13 @@ internal sealed class ClientHandshake : IClientHandshake
 {
     private readonly NoiseSymmetricState state;
     private readonly Curve25519KeyPair own;
-    private readonly Action finished;
+    private readonly Action<HostFingerprint> finished;
     private readonly byte[] binding;
 
     /// <param name="state">What is known after the tokens of the client's message, before its payload.</param>
     /// <param name="own">The client's key of one use.</param>
-    /// <param name="finished">Called once an answer has proved the host.</param>
-    internal ClientHandshake(NoiseSymmetricState state, Curve25519KeyPair own, Action finished)
+    /// <param name="finished">Called once an answer has proved the host, with the fingerprint that it has from now on.</param>
+    internal ClientHandshake(NoiseSymmetricState state, Curve25519KeyPair own, Action<HostFingerprint> finished)
     {
         this.state = state;
         this.own = own;
@@ -33,14 +33,17 @@ internal sealed class ClientHandshake : IClientHandshake
         Span<byte> key = stackalloc byte[PreSharedKey.Bytes];
         PreSharedKey.Write(connectKey, key);
         using NoiseSymmetricState trial = state.Copy();
-        bool isProved = NoiseHandshake.TryReadSecond(trial, own, key, message, payload);
+        Span<byte> said = stackalloc byte[HostFingerprint.Bytes + payload.Length];
+        bool isProved = message.Length == NoiseHandshake.KeyBytes + said.Length + Aead.TagBytes
+            && NoiseHandshake.TryReadSecond(trial, own, key, message, said);
         System.Security.Cryptography.CryptographicOperations.ZeroMemory(key);
         if (!isProved)
         {
             return null;
         }
 
-        finished();
+        said.Slice(HostFingerprint.Bytes).CopyTo(payload);
+        finished(HostFingerprint.Read(said));
         return NoiseCipher.OfClient(trial);
     }
 

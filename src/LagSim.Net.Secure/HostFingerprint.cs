@@ -46,6 +46,9 @@ public readonly struct HostFingerprint : IEquatable<HostFingerprint>
         return isOne;
     }
 
+    /// <summary>Reads the first 16 bytes.</summary>
+    internal static HostFingerprint Read(ReadOnlySpan<byte> bytes) => new(bytes);
+
     internal void Write(Span<byte> destination)
     {
         BinaryPrimitives.WriteUInt64BigEndian(destination, high);

@@ -3,7 +3,11 @@ using System;
 namespace LagSim.Net.Protection;
 
 /// <summary>A client's handshake message that a host has read.</summary>
-internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey, byte[] binding) : IHostHandshake
+/// <param name="state">What is known after the client's message.</param>
+/// <param name="clientKey">The client's key of one use.</param>
+/// <param name="binding">What the handshake alone has.</param>
+/// <param name="newest">What the host is known by from now on: the key of the handshake vouches for it.</param>
+internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey, byte[] binding, HostFingerprint newest) : IHostHandshake
 {
     /// <inheritdoc/>
     public void WriteBinding(Span<byte> destination) => binding.CopyTo(destination);
@@ -13,7 +17,10 @@ internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey,
     {
         Span<byte> key = stackalloc byte[PreSharedKey.Bytes];
         PreSharedKey.Write(connectKey, key);
-        Answer(key, payload, message);
+        Span<byte> said = stackalloc byte[HostFingerprint.Bytes + payload.Length];
+        newest.Write(said);
+        payload.CopyTo(said.Slice(HostFingerprint.Bytes));
+        Answer(key, said, message);
         System.Security.Cryptography.CryptographicOperations.ZeroMemory(key);
         return NoiseCipher.OfHost(state);
     }

@@ -3,16 +3,21 @@ using System.Security.Cryptography;
 
 namespace LagSim.Net.Protection;
 
-/// <summary>The cipher of a link after a handshake: a chain of keys for each direction.</summary>
+/// <summary>
+/// The cipher of a link after a handshake, or after an exchange of fresh keys: a key for each direction, and a secret for the next exchange.
+/// </summary>
+/// <remarks>No key of a direction is kept but within its cipher, by libsodium out of managed memory. The secret seals nothing.</remarks>
 internal sealed class NoiseCipher : IDatagramCipher
 {
-    private readonly TransportKeys sending;
-    private readonly TransportKeys receiving;
+    private readonly Aead sending;
+    private readonly Aead receiving;
+    private readonly byte[] chain;
 
-    private NoiseCipher(ReadOnlySpan<byte> sending, ReadOnlySpan<byte> receiving)
+    private NoiseCipher(ReadOnlySpan<byte> sending, ReadOnlySpan<byte> receiving, byte[] chain)
     {
-        this.sending = new TransportKeys(sending);
-        this.receiving = new TransportKeys(receiving);
+        this.sending = Aead.Of(sending);
+        this.receiving = Aead.Of(receiving);
+        this.chain = chain;
     }
 
     /// <summary>The client's end of a link whose handshake is complete.</summary>
@@ -26,6 +31,7 @@ internal sealed class NoiseCipher : IDatagramCipher
     {
         sending.Dispose();
         receiving.Dispose();
+        CryptographicOperations.ZeroMemory(chain);
     }
 
     /// <inheritdoc/>
@@ -36,12 +42,36 @@ internal sealed class NoiseCipher : IDatagramCipher
     public bool TryOpen(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> source, Span<byte> plain) =>
         receiving.TryOpen(number, associated, source, plain);
 
+    /// <inheritdoc/>
+    public IKeyExchange BeginExchange(ReadOnlySpan<byte> prologue, Span<byte> message)
+    {
+        NoiseSymmetricState state = NoiseExchange.Begin(prologue, chain);
+        Curve25519KeyPair own = Curve25519KeyPair.Draw();
+        NoiseExchange.WriteFirst(state, own, default, message);
+        return new KeyExchange(state, own);
+    }
+
+    /// <inheritdoc/>
+    public IDatagramCipher? TryAnswerExchange(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> answer)
+    {
+        using NoiseSymmetricState state = NoiseExchange.Begin(prologue, chain);
+        if (message.Length != IDatagramCipher.ExchangeBytes || !NoiseExchange.TryReadFirst(state, message, default))
+        {
+            return null;
+        }
+
+        using Curve25519KeyPair own = Curve25519KeyPair.Draw();
+        bool isAgreed = NoiseExchange.TryWriteSecond(state, own, message.Slice(0, NoiseHandshake.KeyBytes), default, answer);
+        return isAgreed ? OfHost(state) : null;
+    }
+
     private static NoiseCipher Of(NoiseSymmetricState handshake, bool isHost)
     {
         Span<byte> toHost = stackalloc byte[Aead.KeyBytes];
         Span<byte> toClient = stackalloc byte[Aead.KeyBytes];
-        handshake.Split(toHost, toClient);
-        NoiseCipher cipher = isHost ? new(toClient, toHost) : new(toHost, toClient);
+        byte[] chain = new byte[Sha256.Bytes];
+        handshake.Split(toHost, toClient, chain);
+        NoiseCipher cipher = isHost ? new(toClient, toHost, chain) : new(toHost, toClient, chain);
         CryptographicOperations.ZeroMemory(toHost);
         CryptographicOperations.ZeroMemory(toClient);
         return cipher;

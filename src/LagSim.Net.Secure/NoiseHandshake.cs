@@ -98,13 +98,14 @@ internal static class NoiseHandshake
     }
 
     /// <summary>The token e, which with a pre-shared key is mixed into the key too (section 9.2).</summary>
-    private static void MixPublicKey(NoiseSymmetricState state, ReadOnlySpan<byte> publicKey)
+    internal static void MixPublicKey(NoiseSymmetricState state, ReadOnlySpan<byte> publicKey)
     {
         state.MixHash(publicKey);
         state.MixKey(publicKey);
     }
 
-    private static bool TryMixAgreement(NoiseSymmetricState state, Curve25519KeyPair own, ReadOnlySpan<byte> other)
+    /// <summary>The tokens es and ee: what two keys agree on. False if the other's key is none.</summary>
+    internal static bool TryMixAgreement(NoiseSymmetricState state, Curve25519KeyPair own, ReadOnlySpan<byte> other)
     {
         Span<byte> secret = stackalloc byte[KeyBytes];
         bool isSecret = own.TryAgree(other, secret);

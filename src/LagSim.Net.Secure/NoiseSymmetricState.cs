@@ -91,10 +91,11 @@ internal sealed class NoiseSymmetricState : IDisposable
         return true;
     }
 
-    /// <summary>Split.</summary>
+    /// <summary>Split, with a third output of the same HKDF.</summary>
     /// <param name="toHost">Receives the key of what the client sends.</param>
     /// <param name="toClient">Receives the key of what the host sends.</param>
-    internal void Split(Span<byte> toHost, Span<byte> toClient) => Sha256.Hkdf(ck, default, toHost, toClient, default);
+    /// <param name="chain">Receives the secret that the next exchange of keys is mixed with; it seals nothing.</param>
+    internal void Split(Span<byte> toHost, Span<byte> toClient, Span<byte> chain) => Sha256.Hkdf(ck, default, toHost, toClient, chain);
 
     private void ThrowIfNoKey()
     {

@@ -17,6 +17,7 @@ namespace LagSim.Net.Protection;
 public sealed class SecureClient : IClientProtection
 {
     private volatile object? other; // likewise
+    private volatile object? successor; // likewise
     private volatile object? trusted; // a boxed fingerprint, so that other threads read it whole
 
     /// <summary>Joins only the host with this fingerprint.</summary>
@@ -27,9 +28,16 @@ public sealed class SecureClient : IClientProtection
     }
 
     /// <summary>
-    /// The fingerprint of the host that this client joins; null while it joins whichever host answers first, and none has.
+    /// The fingerprint of the host that this client joins; null while it joins whichever host answers first, and none has. It is another one
+    /// once the host has told its <see cref="Successor"/>.
     /// </summary>
     public HostFingerprint? Host => (HostFingerprint?)trusted;
+
+    /// <summary>
+    /// The fingerprint to remember in place of the one that was given: the host changed its key (<see cref="HostIdentity.ChangeKey"/>), and the
+    /// one that this client knew vouched for the new one, in the handshake by which it joined. Null if there is none, and until it has joined.
+    /// </summary>
+    public HostFingerprint? Successor => (HostFingerprint?)successor;
 
     /// <summary>
     /// The fingerprint that the last host showed which answered and is not the one to join; null while none has. Nothing proves it.
@@ -44,6 +52,9 @@ public sealed class SecureClient : IClientProtection
     /// <see cref="Host"/> to the player, and keep it for the next time.
     /// </summary>
     public static SecureClient TrustOnFirstUse() => new();
+
+    /// <inheritdoc/>
+    public void WriteWanted(Span<byte> destination) => (Host ?? default).Write(destination);
 
     /// <inheritdoc/>
     public IClientHandshake? Begin(ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue)
@@ -64,6 +75,13 @@ public sealed class SecureClient : IClientProtection
             return null; // that public key is none
         }
 
-        return new ClientHandshake(state, own, () => trusted ??= shown);
+        return new ClientHandshake(state, own, newest => Trust(shown, newest));
+    }
+
+    /// <summary>The host with a fingerprint has proved itself, and says which one it has from now on.</summary>
+    private void Trust(HostFingerprint shown, HostFingerprint newest)
+    {
+        trusted = newest;
+        successor = newest == shown ? successor : newest;
     }
 }

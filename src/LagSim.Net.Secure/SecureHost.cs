@@ -8,8 +8,8 @@ namespace LagSim.Net.Protection;
 /// </summary>
 /// <remarks>
 /// Give it to <see cref="Sessions.HostOptions.Protection"/>. Clients without a protection of their own are refused. Safe on any thread;
-/// sessions on different ports may share it. Cost: one agreement for each join that is read, two more for each that is answered;
-/// docs/SECURITY.md has times.
+/// sessions on different ports may share it. Cost: one agreement for each join that is read (and one for each newer key, if it is for a
+/// former one), two more for each that is answered; docs/SECURITY.md has times.
 /// </remarks>
 /// <example>
 /// <code>
@@ -51,9 +51,17 @@ public sealed class SecureHost : IHostProtection
     /// <inheritdoc/>
     public TokenReading ReadToken(ReadOnlySpan<byte> token)
     {
-        TokenReading reading = tokens is null
-            ? new TokenReading(TokenFault.OtherIssuer)
-            : ConnectToken.Read(token, Identity.Fingerprint, tokens, clock());
+        TokenReading reading = new(TokenFault.OtherIssuer);
+        DateTimeOffset now = clock();
+        foreach (Curve25519KeyPair keys in tokens is null ? [] : Identity.KeysAt(now))
+        {
+            reading = ConnectToken.Read(token, HostFingerprint.OfPublicKey(keys.PublicKey), tokens!, now);
+            if (reading.Fault != TokenFault.OtherHost)
+            {
+                break; // also for one that names this host by a former key
+            }
+        }
+
         return reading.Fault != TokenFault.None || !ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) ? reading
             : used.Contains(id) ? new TokenReading(TokenFault.Used)
             : used.SecondsForgotten(until) is long seconds
@@ -66,20 +74,34 @@ public sealed class SecureHost : IHostProtection
         ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) && used.Add(id, until);
 
     /// <inheritdoc/>
-    public void WriteIdentity(Span<byte> destination) => Identity.Keys.PublicKey.CopyTo(destination);
+    public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination)
+    {
+        HostFingerprint one = HostFingerprint.Read(wanted);
+        Curve25519KeyPair shown = Identity.Keys;
+        foreach (Curve25519KeyPair keys in Identity.KeysAt(clock()))
+        {
+            shown = HostFingerprint.OfPublicKey(keys.PublicKey) == one ? keys : shown;
+        }
+
+        shown.PublicKey.CopyTo(destination);
+    }
 
     /// <inheritdoc/>
     public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
     {
-        NoiseSymmetricState state = NoiseHandshake.Begin(prologue, Identity.Keys.PublicKey);
         byte[] binding = new byte[IHostProtection.BindingBytes];
-        if (!NoiseHandshake.TryReadFirst(state, Identity.Keys, message, payload, binding))
+        foreach (Curve25519KeyPair keys in Identity.KeysAt(clock()))
         {
+            NoiseSymmetricState state = NoiseHandshake.Begin(prologue, keys.PublicKey);
+            if (NoiseHandshake.TryReadFirst(state, keys, message, payload, binding))
+            {
+                return new HostHandshake(state, message.Slice(0, NoiseHandshake.KeyBytes).ToArray(), binding, Identity.Fingerprint);
+            }
+
             state.Dispose();
-            return null;
         }
 
-        return new HostHandshake(state, message.Slice(0, NoiseHandshake.KeyBytes).ToArray(), binding);
+        return null;
     }
 
     /// <inheritdoc/>

@@ -37,18 +37,8 @@ public static class SecureTranscript
         lines.Add($"welcome {Hex(welcome)}");
         using NoiseCipher clientEnd = NoiseCipher.OfClient(mine);
         using NoiseCipher hostEnd = NoiseCipher.OfHost(its);
-        foreach (ulong first in new ulong[] { 1, 17, TransportKeys.Span - 3, TransportKeys.Span, (3 * TransportKeys.Span) + 17 })
-        {
-            ulong number = first;
-            foreach (int length in new[] { 1, 64, 1166 })
-            {
-                byte[] plain = Bytes(number + (ulong)length, length), up = new byte[length + 16], down = new byte[length + 16];
-                clientEnd.Seal(number, default, plain, up);
-                hostEnd.Seal(number, default, plain, down);
-                lines.Add($"sealed-{number++}-{length} {Hash(up)} {Hash(down)}");
-            }
-        }
-
+        AddSealed(lines, clientEnd, hostEnd, 1, 17, 65_533);
+        AddExchanged(lines, mine);
         byte[] reset = new byte[IHostProtection.ResetKeyBytes];
         new SecureHost(identity).WriteResetKey(Bytes(17, 28), reset);
         lines.Add($"reset {Hex(reset)}");
@@ -61,6 +51,37 @@ public static class SecureTranscript
         token[^1] ^= 1;
         Require(ConnectToken.Read(token, identity.Fingerprint, issuer.Key, DateTimeOffset.UnixEpoch.AddDays(20_000.5)).Fault == TokenFault.Damaged);
         return lines;
+    }
+
+    /// <summary>What an exchange of fresh keys after a handshake makes of fixed keys of one use.</summary>
+    private static void AddExchanged(List<string> lines, NoiseSymmetricState handshake)
+    {
+        byte[] key = new byte[32], chain = new byte[32], offer = new byte[48], answer = new byte[48], prologue = Bytes(19, 12);
+        handshake.Split(key, key, chain);
+        using Curve25519KeyPair client = new(Bytes(21, 32)), host = new(Bytes(23, 32));
+        using NoiseSymmetricState mine = NoiseExchange.Begin(prologue, chain), its = NoiseExchange.Begin(prologue, chain);
+        NoiseExchange.WriteFirst(mine, client, default, offer);
+        Require(NoiseExchange.TryReadFirst(its, offer, default));
+        Require(NoiseExchange.TryWriteSecond(its, host, client.PublicKey, default, answer));
+        Require(NoiseExchange.TryReadSecond(mine, client, answer, default));
+        lines.Add($"key-exchange {Hex(offer)} {Hex(answer)}");
+        using NoiseCipher clientEnd = NoiseCipher.OfClient(mine), hostEnd = NoiseCipher.OfHost(its);
+        AddSealed(lines, clientEnd, hostEnd, 70_000);
+    }
+
+    private static void AddSealed(List<string> lines, NoiseCipher clientEnd, NoiseCipher hostEnd, params ulong[] numbers)
+    {
+        foreach (ulong first in numbers)
+        {
+            ulong number = first;
+            foreach (int length in new[] { 1, 64, 1166 })
+            {
+                byte[] plain = Bytes(number + (ulong)length, length), up = new byte[length + 16], down = new byte[length + 16];
+                clientEnd.Seal(number, default, plain, up);
+                hostEnd.Seal(number, default, plain, down);
+                lines.Add($"sealed-{number++}-{length} {Hash(up)} {Hash(down)}");
+            }
+        }
     }
 
     /// <summary>Bytes that look random and are the same everywhere.</summary>

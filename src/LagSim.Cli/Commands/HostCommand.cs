@@ -46,8 +46,8 @@ internal static class HostCommand
             "What each player's actions may cost before it is disconnected, as a multiple of the default, a tenth of a core; 0: no limit",
             1, 0, 1000);
         Option<string?> identity = CommonOptions.File(
-            "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing."
-                + " Keep it secret: with it anyone can pose as this host. By default the host has a new identity each time.");
+            "--identity", "Keep the host's identity in this file, so that its fingerprint stays the same; it is created if it is missing;"
+                + " lagsim key changes its key. Keep it secret: with it anyone can pose as this host. By default the host has a new identity each time.");
         Option<string?> tokens = new("--tokens")
         {
             Description = "Let in only who has a connect token of the issuer with this public key, the 64 digits that lagsim token prints.",
@@ -112,6 +112,11 @@ internal static class HostCommand
             foreach (string reachable in printer.Addresses)
             {
                 printer.Line(reachable);
+            }
+
+            foreach (FormerHostKey former in self?.FormerKeys.Where(key => key.Until > DateTimeOffset.UtcNow) ?? [])
+            {
+                printer.Line($"also known as {KeyCommand.Text(former)}");
             }
 
             if (page is not null)

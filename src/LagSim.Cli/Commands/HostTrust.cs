@@ -81,6 +81,18 @@ internal sealed class HostTrust
     internal string Remember(string whole)
     {
         string told = $"Trusting the host that answered first. If it is the right one, join it as {whole} from now on.";
+        return Keep(told, $"It is remembered in '{hosts?.File}'; another one at {place} will be refused.");
+    }
+
+    /// <summary>Remembers the new key of a host that has changed it, and returns what to tell of it.</summary>
+    /// <param name="whole">The address with the new fingerprint, to join from then on.</param>
+    internal string Follow(string whole) => Keep(
+        $"The host has changed its key, and its former one vouches for the new. Join it as {whole} from now on.",
+        $"It is remembered in '{hosts?.File}' in place of the former.");
+
+    /// <summary>Remembers the host, if hosts are remembered.</summary>
+    private string Keep(string told, string kept)
+    {
         if (hosts is null)
         {
             return told;
@@ -89,7 +101,7 @@ internal sealed class HostTrust
         try
         {
             hosts.Remember(place, Protection!.Host!.Value);
-            return $"{told} It is remembered in '{hosts.File}'; another one at {place} will be refused.";
+            return $"{told} {kept}";
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException or InputException)
         {

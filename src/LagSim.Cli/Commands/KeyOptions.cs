@@ -14,11 +14,11 @@ internal sealed class KeyOptions
     private readonly Option<string?> key = new("--key")
     {
         Description = $"A secret that clients must present; up to {SessionOptions.MaxKeyLength} characters. None by default. - reads it from a line of"
-            + " standard input: other users of this machine can see a command line.",
+            + " standard input: other users of this machine can see a command line. Blanks around it count.",
         HelpName = "TEXT",
     };
 
-    private readonly Option<string?> file = CommonOptions.File("--key-file", "Read the key from this file, which holds it on a line of its own.");
+    private readonly Option<string?> file = CommonOptions.File("--key-file", "Read the key from this file, which holds it on a line of its own. Blanks around it count, as in --key.");
 
     internal KeyOptions() => key.Validators.Add(result =>
     {
@@ -46,11 +46,11 @@ internal sealed class KeyOptions
         string? text = parsed.GetValue(key);
         if (parsed.GetValue(file) is not string name)
         {
-            return text == Input ? Checked(input.ReadLine()?.Trim(), "--key is '-', and standard input") : text ?? "";
+            return text == Input ? Checked(input.ReadLine(), "--key is '-', and standard input") : text ?? "";
         }
 
         return text is not null ? throw new UsageException("--key contradicts --key-file; leave out one of them.")
-            : Checked(SecretFile.Read(name) ?? throw new InputException($"--key-file is '{name}'; there is no such file."), $"--key-file is '{name}', which");
+            : Checked(SecretFile.ReadLine(name) ?? throw new InputException($"--key-file is '{name}'; there is no such file."), $"--key-file is '{name}', which");
     }
 
     private static string Checked(string? key, string where) =>

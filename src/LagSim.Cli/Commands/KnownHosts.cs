@@ -1,7 +1,9 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.IO;
 using System.Linq;
+using System.Threading;
 using LagSim.Cli.Output;
 using LagSim.Net.Protection;
 
@@ -11,6 +13,8 @@ namespace LagSim.Cli.Commands;
 /// <param name="file">The file, which need not exist yet.</param>
 internal sealed class KnownHosts(string file)
 {
+    private static readonly TimeSpan LongestWait = TimeSpan.FromSeconds(5);
+
     /// <summary>The file in the user's folder for settings; null if the system has none.</summary>
     internal static string? UsualFile =>
         Environment.GetFolderPath(Environment.SpecialFolder.ApplicationData, Environment.SpecialFolderOption.DoNotVerify) is { Length: > 0 } folder
@@ -36,15 +40,40 @@ internal sealed class KnownHosts(string file)
         return null;
     }
 
-    /// <summary>Remembers the host at an address, in place of any other there.</summary>
+    /// <summary>Remembers the host at an address, in place of any other there. What other programs add meanwhile stays.</summary>
     /// <exception cref="IOException">The file cannot be written.</exception>
     /// <exception cref="UnauthorizedAccessException">The file cannot be written, for lack of permission.</exception>
     internal void Remember(string address, HostFingerprint fingerprint)
     {
-        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(file))!);
+        string target = SecretFile.TargetOf(file);
+        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(target))!);
+        using FileStream held = Held(target + ".lock");
         IEnumerable<string> others = Lines().Where((line, n) => Read(line, n + 1)?.Address != address);
         string[] lines = [.. others, $"{address} {fingerprint}"];
         SecretFile.Replace(file, draft => System.IO.File.WriteAllLines(draft, lines));
+    }
+
+    /// <summary>
+    /// Opens a file that only one program can have open at a time, so that none writes over what another adds. It stays there, empty: who
+    /// deleted it could delete one that another program holds.
+    /// </summary>
+    private static FileStream Held(string name)
+    {
+        for (Stopwatch waiting = Stopwatch.StartNew(); ;)
+        {
+            try
+            {
+                return new FileStream(name, FileMode.OpenOrCreate, FileAccess.ReadWrite, FileShare.None);
+            }
+            catch (IOException) when (waiting.Elapsed < LongestWait)
+            {
+                Thread.Sleep(10);
+            }
+            catch (IOException failure)
+            {
+                throw new IOException($"Another program has held '{name}' for {LongestWait.TotalSeconds} s.", failure);
+            }
+        }
     }
 
     private string[] Lines() => System.IO.File.Exists(file) ? System.IO.File.ReadAllLines(file) : [];

@@ -16,6 +16,13 @@ internal static class SecretFile
     /// <exception cref="IOException">The file cannot be read.</exception>
     internal static string? Read(string file)
     {
+        return ReadLine(file)?.Trim();
+    }
+
+    /// <summary>Reads the line with all the blanks that it has; null if the file does not exist yet, empty if it is too long to be a secret.</summary>
+    /// <exception cref="IOException">The file cannot be read.</exception>
+    internal static string? ReadLine(string file)
+    {
         if (!File.Exists(file))
         {
             return null;
@@ -24,7 +31,8 @@ internal static class SecretFile
         using FileStream stream = File.OpenRead(file); // a special file may have no end
         byte[] bytes = new byte[MaxBytes];
         int length = stream.ReadAtLeast(bytes, MaxBytes, throwOnEndOfStream: false);
-        return length < MaxBytes ? Encoding.UTF8.GetString(bytes, 0, length).Trim() : "";
+        string text = length < MaxBytes ? Encoding.UTF8.GetString(bytes, 0, length) : "";
+        return text.EndsWith("\r\n", StringComparison.Ordinal) ? text[..^2] : text.EndsWith('\n') ? text[..^1] : text;
     }
 
     /// <summary>Reads the secret of the file; draws one and keeps it if the file does not exist yet.</summary>
@@ -76,7 +84,7 @@ internal static class SecretFile
 
         try
         {
-            ResultFile.ThrowIfNotWritable(option, DraftOf(file)); // it is written beside the file first
+            ResultFile.ThrowIfNotWritable(option, DraftOf(TargetOf(file))); // it is written beside the file first
         }
         catch (IOException failure) when (failure.InnerException is not null)
         {
@@ -88,13 +96,14 @@ internal static class SecretFile
     internal static void Write(string file, string secret) => Write(file, secret, overwrite: true);
 
     /// <summary>Writes a file beside its place and moves it there, so that a kill or a full disk in between leaves the old one whole.</summary>
-    /// <param name="file">Its place.</param>
+    /// <param name="file">Its place. If that is a symbolic link, the file that it leads to is replaced, and the link stays.</param>
     /// <param name="write">Writes the file of that name, which does not exist. If it fails, what it wrote is deleted.</param>
     /// <param name="overwrite">Whether to replace a file that is there.</param>
     /// <returns>False if one was there and was not to be replaced.</returns>
     /// <exception cref="IOException">It could not be written.</exception>
     internal static bool Replace(string file, Action<string> write, bool overwrite = true)
     {
+        file = TargetOf(file);
         string draft = DraftOf(file);
         try
         {
@@ -135,6 +144,18 @@ internal static class SecretFile
         {
             // Why the file could not be written is told already.
         }
+    }
+
+    /// <summary>The file that a symbolic link leads to, in the end; the file itself if it is none.</summary>
+    internal static string TargetOf(string file)
+    {
+        const int longest = 40; // links that lead to one another in a circle end as an error of who opens the file
+        for (int n = 0; n < longest && new FileInfo(file).LinkTarget is string next; n++)
+        {
+            file = Path.GetFullPath(next, Path.GetDirectoryName(Path.GetFullPath(file))!); // which need not exist
+        }
+
+        return file;
     }
 
     private static string DraftOf(string file) => $"{file}.{Environment.ProcessId}.new";

@@ -46,6 +46,7 @@ public sealed class UdpPort : IDatagramPort
         }
 
         socket = Open(bind);
+        IsForThisMachineAlone = IPAddress.IsLoopback(bind.Address);
         LocalAddress = PeerAddress.From(Reachable((IPEndPoint)socket.LocalEndPoint!));
         receiver = new Thread(Receive) { Name = $"LagSim UDP {LocalAddress}", IsBackground = true };
         receiver.Start();
@@ -56,6 +57,9 @@ public sealed class UdpPort : IDatagramPort
 
     /// <summary>The address of this port; if it is bound to every address, it is reached there from this machine only.</summary>
     public PeerAddress LocalAddress { get; }
+
+    /// <summary>Whether only this machine reaches it; <see cref="LocalAddress"/> does not tell.</summary>
+    internal bool IsForThisMachineAlone { get; }
 
     /// <summary>The number of received datagrams that were discarded: too long, empty, or no room in the ring.</summary>
     public long Dropped => Interlocked.Read(ref dropped);

@@ -24,7 +24,7 @@ public interface IClientHandshake : IDisposable
     /// <param name="connectKey">The key that both must know.</param>
     /// <param name="message">The host's message.</param>
     /// <param name="payload">
-    /// Receives what the host said, in <see cref="IHostProtection.HandshakeOverhead"/> bytes less than the message has.
+    /// Receives what the host said, in <see cref="IHostProtection.WelcomeOverhead"/> bytes less than the message has.
     /// </param>
     /// <returns>The cipher of the link to the host; null if the message is not an answer of this host to this handshake.</returns>
     IDatagramCipher? TryFinish(string connectKey, ReadOnlySpan<byte> message, Span<byte> payload);

@@ -9,6 +9,10 @@ public interface IClientProtection
     /// <summary>Whether it knows which host it wants. Only then may a connect token be told.</summary>
     bool KnowsHost { get; }
 
+    /// <summary>Writes the fingerprint of the host that it wants, which everybody may know.</summary>
+    /// <param name="destination">Receives <see cref="IHostProtection.FingerprintBytes"/> bytes, all 0 if any host will do.</param>
+    void WriteWanted(Span<byte> destination);
+
     /// <summary>Begins a handshake with the host that shows this identity. Cost: one Diffie-Hellman agreement.</summary>
     /// <param name="identity">The identity, of <see cref="IHostProtection.IdentityBytes"/> bytes; it is not proved yet.</param>
     /// <param name="prologue">What both sides know of the handshake so far.</param>

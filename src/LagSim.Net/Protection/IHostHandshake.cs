@@ -14,7 +14,7 @@ public interface IHostHandshake : IDisposable
     /// <param name="connectKey">The key that both must know; the answer can be read with it only.</param>
     /// <param name="payload">What to tell the client.</param>
     /// <param name="message">
-    /// Receives the message, <see cref="IHostProtection.HandshakeOverhead"/> bytes more than the payload has.
+    /// Receives the message, <see cref="IHostProtection.WelcomeOverhead"/> bytes more than the payload has.
     /// </param>
     /// <returns>The cipher of the link to that client.</returns>
     IDatagramCipher Accept(string connectKey, ReadOnlySpan<byte> payload, Span<byte> message);

@@ -14,8 +14,16 @@ public interface IHostProtection
     /// <summary>The length of the identity that a host shows, in bytes.</summary>
     public const int IdentityBytes = 32;
 
-    /// <summary>How much longer a handshake message is than its payload, in bytes.</summary>
+    /// <summary>How much longer a handshake message is than its payload, in bytes; but see <see cref="WelcomeOverhead"/>.</summary>
     public const int HandshakeOverhead = 48;
+
+    /// <summary>The length of what clients name a host by, in bytes (<see cref="IClientProtection.WriteWanted"/>).</summary>
+    public const int FingerprintBytes = 16;
+
+    /// <summary>
+    /// How much longer the answer that lets a client in is than its payload, in bytes: it tells the host's newest fingerprint, too.
+    /// </summary>
+    public const int WelcomeOverhead = HandshakeOverhead + FingerprintBytes;
 
     /// <summary>The length of what a handshake alone has, in bytes (<see cref="IHostHandshake.WriteBinding"/>).</summary>
     public const int BindingBytes = 32;
@@ -31,9 +39,10 @@ public interface IHostProtection
     /// </summary>
     bool RequiresToken { get; }
 
-    /// <summary>Writes the identity that this host shows to everyone: a public key.</summary>
+    /// <summary>Writes the identity that this host shows to a client: the public key that it wants, if that is one of its own, else the newest.</summary>
+    /// <param name="wanted">The fingerprint of the host that the client says it wants; all 0 for any.</param>
     /// <param name="destination">Receives <see cref="IdentityBytes"/> bytes.</param>
-    void WriteIdentity(Span<byte> destination);
+    void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination);
 
     /// <summary>Reads a client's handshake message. Cost: one Diffie-Hellman agreement.</summary>
     /// <param name="prologue">What both sides know of the handshake so far; if theirs differ, the message cannot be read.</param>

@@ -108,10 +108,11 @@ public sealed class PeerThread : IDisposable
     /// <param name="options">How to take part; the default begins at once, and clients may join at any time.</param>
     /// <param name="setUp">Called with the session before its thread starts, so that you can subscribe to its events and miss none.</param>
     /// <exception cref="ArgumentException">An option is out of range, the scene is too large to be shared, or nothing protects the session,
-    /// the network is not virtual, and the options do not say that this is meant: <see cref="HostOptions.Unprotected"/>.</exception>
+    /// the network is not virtual and the carrier no <see cref="UdpPort"/> on a loopback address, and the options do not say that this is meant: <see cref="HostOptions.Unprotected"/>.</exception>
     public static PeerThread Host(
         Scene scene, IDatagramPort carrier, HostOptions? options = null, Action<HostSession>? setUp = null) => Begin(
-            carrier, () => HostSession.Open(scene, carrier, options, isReachable: !carrier.LocalAddress.IsVirtual), "LagSim host", setUp);
+            carrier, () => HostSession.Open(scene, carrier, options, !carrier.LocalAddress.IsVirtual && carrier is not UdpPort { IsForThisMachineAlone: true }),
+            "LagSim host", setUp);
 
     /// <summary>Joins a session over UDP, on a started thread. Disposing it leaves the session and closes the port.</summary>
     /// <param name="host">The host's address: that of one machine, and a port from 1 on.</param>

@@ -11,15 +11,22 @@ namespace LagSim.Net.Wire;
 /// </remarks>
 internal readonly struct ConnectRequestDatagram
 {
-    private const int PaddingBytes = WireFormat.ConnectRequestBytes - WireFormat.HeaderBytes - sizeof(ulong);
+    private const int PaddingBytes = WireFormat.ConnectRequestBytes - WireFormat.HeaderBytes - sizeof(ulong) - Token128.Bytes;
 
-    /// <summary>Creates a request with this nonce.</summary>
-    public ConnectRequestDatagram(ulong nonce) => Nonce = nonce;
+    /// <summary>Creates a request from its fields.</summary>
+    public ConnectRequestDatagram(ulong nonce, Token128 wanted = default)
+    {
+        Nonce = nonce;
+        Wanted = wanted;
+    }
 
     /// <summary>
     /// A random number from the client. Every answer carries it, so that an answer to another attempt is not taken for this one's.
     /// </summary>
     public ulong Nonce { get; }
+
+    /// <summary>The fingerprint of the host that the client wants, so that one that has changed its key can show the former; 0 for any.</summary>
+    public Token128 Wanted { get; }
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.ConnectRequestBytes"/>.</returns>
@@ -29,6 +36,7 @@ internal readonly struct ConnectRequestDatagram
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.ConnectRequest);
         writer.WriteUInt64(Nonce);
+        Wanted.Write(ref writer);
         writer.WriteBytes(stackalloc byte[PaddingBytes]); // so that the answer is no longer than the request
         return writer.Position;
     }
@@ -40,7 +48,7 @@ internal readonly struct ConnectRequestDatagram
     public static bool TryDecode(ReadOnlySpan<byte> datagram, out ConnectRequestDatagram request, out WireRefusal refusal)
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.ConnectRequest);
-        request = new ConnectRequestDatagram(reader.ReadUInt64());
+        request = new ConnectRequestDatagram(reader.ReadUInt64(), Token128.Read(ref reader));
         ulong padding = 0;
         for (int n = 0; n < PaddingBytes; n += sizeof(ulong))
         {

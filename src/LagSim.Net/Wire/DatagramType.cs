@@ -68,4 +68,10 @@ internal enum DatagramType : byte
 
     /// <summary>A <see cref="RosterReceivedDatagram"/>: acknowledges that.</summary>
     RosterReceived = 21,
+
+    /// <summary>A <see cref="KeyExchangeDatagram"/>: a client offers to exchange a link's keys for fresh ones.</summary>
+    KeyExchange = 22,
+
+    /// <summary>A <see cref="KeyExchangeDatagram"/>: the host's answer to that.</summary>
+    KeyExchangeReply = 23,
 }

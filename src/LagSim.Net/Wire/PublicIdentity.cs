@@ -14,8 +14,8 @@ internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
     /// <summary>Whether it is none: the host has no protection.</summary>
     internal bool IsNone => words == default;
 
-    /// <summary>The identity that a host shows.</summary>
-    internal static PublicIdentity Of(IHostProtection? protection)
+    /// <summary>The identity that a host shows to a client that wants the host with a fingerprint.</summary>
+    internal static PublicIdentity Of(IHostProtection? protection, Token128 wanted)
     {
         if (protection is null)
         {
@@ -23,7 +23,9 @@ internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
         }
 
         Span<byte> bytes = stackalloc byte[IHostProtection.IdentityBytes];
-        protection.WriteIdentity(bytes);
+        Span<byte> fingerprint = stackalloc byte[IHostProtection.FingerprintBytes];
+        wanted.CopyTo(fingerprint);
+        protection.WriteIdentity(fingerprint, bytes);
         WireReader reader = new(bytes);
         return Read(ref reader);
     }

@@ -10,23 +10,25 @@ namespace LagSim.Net.Wire;
 /// <remarks>Its bytes are those of the datagram it was read from; valid as long as those are.</remarks>
 internal readonly ref struct SealedDatagram
 {
-    /// <summary>The highest number, 2^48 - 1: enough for 89 years at 100,000 datagrams a second.</summary>
+    /// <summary>The highest number, 2^40 - 1: 127 days at 100,000 datagrams a second, and no session lasts longer than 23.</summary>
     internal const ulong MaxNumber = (1UL << (8 * NumberBytes)) - 1;
 
     /// <summary>The length of the bytes before the encrypted ones.</summary>
-    internal const int PrologueBytes = InnerPrologueBytes + NumberBytes;
+    internal const int PrologueBytes = InnerPrologueBytes + NumberBytes + GenerationBytes;
 
     /// <summary>The length of header and session id, which a sealed datagram has of its own.</summary>
     internal const int InnerPrologueBytes = WireFormat.HeaderBytes + sizeof(ulong);
 
-    private const int NumberBytes = 6;
+    private const int NumberBytes = 5;
+    private const int GenerationBytes = 1;
     private const int TypeBytes = 1;
 
-    private SealedDatagram(ulong sessionId, ulong number, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> body)
+    private SealedDatagram(ulong sessionId, ulong number, byte generation, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> body)
     {
         Prologue = prologue;
         SessionId = sessionId;
         Number = number;
+        Generation = generation;
         Body = body;
     }
 
@@ -36,7 +38,10 @@ internal readonly ref struct SealedDatagram
     /// <summary>The number, from 1 to <see cref="MaxNumber"/>.</summary>
     public ulong Number { get; }
 
-    /// <summary>The bytes before the encrypted ones, which are authenticated with them: header, session id and number.</summary>
+    /// <summary>Which of the link's keys seal it: the low 8 bits of <see cref="KeyExchangeDatagram.Generation"/>.</summary>
+    public byte Generation { get; }
+
+    /// <summary>The bytes before the encrypted ones, which are authenticated with them: header, session id, number and generation.</summary>
     public ReadOnlySpan<byte> Prologue { get; }
 
     /// <summary>The encrypted bytes and the tag.</summary>
@@ -47,14 +52,17 @@ internal readonly ref struct SealedDatagram
     /// <param name="number">Its number.</param>
     /// <param name="cipher">The cipher of the link.</param>
     /// <param name="destination">Receives <see cref="WireFormat.SealBytes"/> more bytes than the datagram has.</param>
+    /// <param name="generation">Which of the link's keys the cipher has.</param>
     /// <returns>The length.</returns>
-    internal static int Encode(ReadOnlySpan<byte> datagram, ulong number, IDatagramCipher cipher, Span<byte> destination)
+    internal static int Encode(
+        ReadOnlySpan<byte> datagram, ulong number, IDatagramCipher cipher, Span<byte> destination, byte generation = 0)
     {
         WireWriter writer = new(destination);
         writer.WriteHeader(DatagramType.Sealed);
         writer.WriteBytes(datagram.Slice(WireFormat.HeaderBytes, sizeof(ulong)));
         writer.WriteUInt32((uint)number);
-        writer.WriteUInt16((ushort)(number >> 32));
+        writer.WriteByte((byte)(number >> 32));
+        writer.WriteByte(generation);
         Span<byte> plain = stackalloc byte[WireFormat.MaxPlainBytes];
         plain = plain.Slice(0, datagram.Length - InnerPrologueBytes + TypeBytes);
         datagram.Slice(WireFormat.HeaderBytes - TypeBytes, TypeBytes).CopyTo(plain);
@@ -96,12 +104,13 @@ internal readonly ref struct SealedDatagram
     {
         WireReader reader = WireReader.Open(datagram, DatagramType.Sealed);
         ulong sessionId = reader.ReadUInt64();
-        ulong number = reader.ReadUInt32() | ((ulong)reader.ReadUInt16() << 32);
+        ulong number = reader.ReadUInt32() | ((ulong)reader.ReadByte() << 32);
+        byte generation = reader.ReadByte();
         reader.Require(number > 0);
         reader.Require(reader.Remaining >= TypeBytes + IDatagramCipher.TagBytes, WireRefusal.TooShort);
         ReadOnlySpan<byte> body = reader.ReadBytes(reader.Remaining);
         bool isOne = reader.Finish(out refusal);
-        sealedDatagram = isOne ? new SealedDatagram(sessionId, number, datagram.Slice(0, PrologueBytes), body) : default;
+        sealedDatagram = isOne ? new SealedDatagram(sessionId, number, generation, datagram.Slice(0, PrologueBytes), body) : default;
         return isOne;
     }
 }

@@ -1,5 +1,4 @@
 using System;
-using LagSim.Net.Protection;
 
 namespace LagSim.Net.Wire;
 
@@ -43,8 +42,8 @@ internal readonly ref struct SecureAnswerDatagram
     {
         WireReader reader = WireReader.Open(datagram, type);
         ulong nonce = reader.ReadUInt64();
-        int payload = type == DatagramType.SecureWelcome ? WireFormat.SecureWelcomePayloadBytes : WireFormat.SecureRefusalPayloadBytes;
-        answer = new SecureAnswerDatagram(nonce, reader.ReadBytes(IHostProtection.HandshakeOverhead + payload));
+        int whole = type == DatagramType.SecureWelcome ? WireFormat.SecureWelcomeBytes : WireFormat.SecureRefusalBytes;
+        answer = new SecureAnswerDatagram(nonce, reader.ReadBytes(whole - PrologueBytes));
         return reader.Finish(out refusal);
     }
 }

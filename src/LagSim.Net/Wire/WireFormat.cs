@@ -54,7 +54,7 @@ internal static class WireFormat
 
     /// <summary>The length of a secure welcome, a <see cref="SecureAnswerDatagram"/>.</summary>
     public const int SecureWelcomeBytes =
-        HeaderBytes + sizeof(ulong) + IHostProtection.HandshakeOverhead + SecureWelcomePayloadBytes;
+        HeaderBytes + sizeof(ulong) + IHostProtection.WelcomeOverhead + SecureWelcomePayloadBytes;
 
     /// <summary>The length of the payload of a secure refusal: the reason, and how far a token is off its time.</summary>
     public const int SecureRefusalPayloadBytes = 1 + sizeof(uint);
@@ -101,6 +101,9 @@ internal static class WireFormat
 
     /// <summary>The length of a <see cref="RosterReceivedDatagram"/>.</summary>
     public const int RosterReceivedBytes = 17;
+
+    /// <summary>The length of a <see cref="KeyExchangeDatagram"/>.</summary>
+    public const int KeyExchangeBytes = HeaderBytes + sizeof(ulong) + sizeof(uint) + IDatagramCipher.ExchangeBytes;
 
     /// <summary>The length of an <see cref="UpdateDatagram"/> without start, state hash and entries.</summary>
     public const int EmptyUpdateBytes = 59;

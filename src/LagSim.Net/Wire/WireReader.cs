@@ -54,7 +54,7 @@ internal ref struct WireReader
         Require(ReadUInt16() == WireFormat.Magic, WireRefusal.NotLagSim);
         Require(ReadByte() == WireFormat.Version, WireRefusal.VersionDiffers);
         DatagramType type = (DatagramType)ReadByte();
-        Require(type is >= DatagramType.ConnectRequest and <= DatagramType.RosterReceived, WireRefusal.UnknownType);
+        Require(type is >= DatagramType.ConnectRequest and <= DatagramType.KeyExchangeReply, WireRefusal.UnknownType);
         return type;
     }
 

@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Linq;
 using LagSim.Cli.Commands;
 using LagSim.Cli.Output;
 using LagSim.Net.Protection;
@@ -46,6 +47,102 @@ public sealed class KnownHostsTests
         using LiveTool anew = ComesIn($"join {address} --trust-new --known-hosts", known);
         Assert.NotEqual(line, File.ReadAllText(known).Trim());
         Assert.Single(File.ReadAllLines(known));
+    }
+
+    /// <summary>
+    /// A host changes its key. Who remembers it joins all the same, is told, and remembers the new one, by which it joins when the former is
+    /// forgotten; who was given the former fingerprint by then does not.
+    /// </summary>
+    [Fact]
+    public void Join_AHostThatChangedItsKey_IsToldAndRemembersTheNewOne()
+    {
+        using TemporaryFolder folder = new();
+        string known = folder["known_hosts"], secret = folder["host.secret"], address, former;
+        using (LiveTool first = LiveTool.Run(Hosting, secret))
+        {
+            address = first.Address;
+            using LiveTool client = ComesIn($"join {address} --known-hosts", known);
+            former = File.ReadAllText(known).Trim().Split(' ')[1];
+        }
+
+        Assert.Contains($"fingerprint {former}", Tool.Run("key", "--identity", secret).Done().Output, StringComparison.Ordinal);
+        string[] said = Tool.Run("key", "--identity", secret, "--change", "--keep-days", "2").Done().Output.Split('\n');
+        string changed = said[0].Split(' ')[1].Trim();
+        Assert.NotEqual(former, changed);
+        Assert.StartsWith($"former {former} until 20", said[1], StringComparison.Ordinal);
+        using (LiveTool second = LiveTool.Run($"{Hosting} {secret} --port", address.Split(':')[1]))
+        {
+            Assert.NotNull(second.Output.WaitFor(line => line.StartsWith($"also known as {former} until 20", StringComparison.Ordinal), LiveTool.Deadline));
+            using LiveTool given = ComesIn($"join lagsim://{address}#{former}");
+            Assert.Contains($"its former one vouches for the new. Join it as lagsim://{address}#{changed} from now on.", given.Error.ToString(), StringComparison.Ordinal);
+            using LiveTool client = ComesIn($"join {address} --known-hosts", known);
+            Assert.Contains($"It is remembered in '{known}' in place of the former.", client.Error.ToString(), StringComparison.Ordinal);
+            Assert.Equal($"{address} {changed}", File.ReadAllText(known).Trim());
+        }
+
+        Assert.DoesNotContain("former", Tool.Run("key", "--identity", secret, "--forget-former").Done().Output, StringComparison.Ordinal);
+        using LiveTool third = LiveTool.Run($"{Hosting} {secret} --port", address.Split(':')[1]);
+        Assert.Equal(address, third.Address);
+        using LiveTool again = ComesIn($"join {address} --known-hosts", known);
+        Assert.DoesNotContain("vouches", again.Error.ToString(), StringComparison.Ordinal);
+        using LiveTool refused = LiveTool.Run($"join lagsim://{address}#{former} --timeout-s 1");
+        refused.Ends(3);
+    }
+
+    /// <summary>Eight programs remember ten hosts each at once, over a symbolic link: none is lost, and the link stays a link.</summary>
+    [Fact]
+    public void Remember_ByManyAtOnceOverALink_LosesNothing()
+    {
+        using TemporaryFolder folder = new();
+        using HostIdentity one = HostIdentity.Draw();
+        string target = folder["elsewhere"], link = folder["known"];
+        File.WriteAllText(target, "# mine\n");
+        File.CreateSymbolicLink(link, target);
+        System.Threading.Tasks.Parallel.For(0, 8, program =>
+        {
+            for (int n = 0; n < 10; n++)
+            {
+                new KnownHosts(link).Remember($"{program}:{n}", one.Fingerprint);
+            }
+        });
+        Assert.Equal(81, File.ReadAllLines(target).Length);
+        Assert.Equal(target, new FileInfo(link).LinkTarget);
+        KnownHosts hosts = new(link);
+        Assert.All(Enumerable.Range(0, 80), n => Assert.NotNull(hosts.Find($"{n / 10}:{n % 10}")));
+
+        // The control: two that read before either writes, as they did without the lock.
+        string[] mine = File.ReadAllLines(link), its = File.ReadAllLines(link);
+        File.WriteAllLines(link, [.. mine, $"a:1 {one.Fingerprint}"]);
+        File.WriteAllLines(link, [.. its, $"b:1 {one.Fingerprint}"]);
+        Assert.Null(hosts.Find("a:1"));
+
+        // A link that leads nowhere yet.
+        File.CreateSymbolicLink(folder["new"], folder["not-there-yet"]);
+        new KnownHosts(folder["new"]).Remember("c:1", one.Fingerprint);
+        Assert.Single(File.ReadAllLines(folder["not-there-yet"]));
+        Assert.Equal(folder["not-there-yet"], new FileInfo(folder["new"]).LinkTarget);
+    }
+
+    /// <summary>A key has the blanks that it is given, wherever it comes from: all but the end of the line.</summary>
+    [Theory]
+    [InlineData("  open sesame ")]
+    [InlineData("\t")]
+    public void Key_WithBlanks_IsTheSameFromEverywhere(string key)
+    {
+        using TemporaryFolder folder = new();
+        foreach (string end in new[] { "", "\n", "\r\n" })
+        {
+            File.WriteAllText(folder["key"], key + end);
+            Assert.Equal([key, key, key], new[] { Read("--key", key), Read("--key-file", folder["key"]), Read("--key", "-", key + end) });
+        }
+
+        static string Read(string option, string value, string input = "")
+        {
+            KeyOptions keys = new();
+            System.CommandLine.Command command = new("any");
+            keys.AddTo(command);
+            return keys.Read(command.Parse([option, value]), new StringReader(input));
+        }
     }
 
     [Fact]
@@ -97,6 +194,10 @@ public sealed class KnownHostsTests
         Tool.Refuses(2, ["join", "127.0.0.1:9", "--unprotected", "--trust-new"], "--unprotected contradicts --trust-new");
         Tool.Refuses(2, ["join", $"lagsim://127.0.0.1:9#{fingerprint}", "--trust-new"], "--trust-new contradicts an address with a fingerprint");
         Tool.Refuses(3, ["join", "127.0.0.1:9", "--key-file", folder["none"]], "there is no such file");
+        Tool.Refuses(3, ["key", "--identity", folder["none"]], "there is no such file");
+        Tool.Refuses(3, ["key", "--identity", folder["long"]], "does not hold a host's identity");
+        Tool.Refuses(2, ["key", "--identity", folder["none"], "--change", "--forget-former"], "--change contradicts --forget-former");
+        Tool.Refuses(2, ["key", "--identity", folder["none"], "--keep-days", "3"], "--keep-days needs --change");
         Tool.Refuses(3, ["host", "--scene", "drop", "--key-file", folder["empty"]], "does not hold a key: a line of 1 to 256 characters");
         Tool.Refuses(3, ["host", "--scene", "drop", "--key-file", folder["long"]], "does not hold a key: a line of 1 to 256 characters");
     }

@@ -220,7 +220,7 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
 
         public bool RequiresToken => host.RequiresToken;
 
-        public void WriteIdentity(Span<byte> destination) => host.WriteIdentity(destination);
+        public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => host.WriteIdentity(wanted, destination);
 
         public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
         {

@@ -102,6 +102,11 @@ public sealed class LabelTests
         public bool TryOpen(ulong number, ReadOnlySpan<byte> associated, ReadOnlySpan<byte> source, Span<byte> plain) =>
             real.TryOpen(number, default, source, plain);
 
+        public IKeyExchange BeginExchange(ReadOnlySpan<byte> prologue, Span<byte> message) => real.BeginExchange(prologue, message);
+
+        public IDatagramCipher? TryAnswerExchange(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> answer) =>
+            real.TryAnswerExchange(prologue, message, answer);
+
         public void Dispose() => real.Dispose();
     }
 }

@@ -4,7 +4,10 @@ using Xunit;
 
 namespace LagSim.Tests.Protection;
 
-/// <summary>The handshake against a published vector: Noise_NKpsk2_25519_ChaChaPoly_SHA256 of cacophony's vectors.</summary>
+/// <summary>
+/// The handshake and the exchange of fresh keys against published vectors: Noise_NKpsk2_25519_ChaChaPoly_SHA256 and
+/// Noise_NNpsk0_25519_ChaChaPoly_SHA256 of cacophony's vectors.
+/// </summary>
 public sealed class NoiseVectorTests
 {
     private static readonly byte[] Prologue = Hex("4a6f686e2047616c74");
@@ -63,6 +66,38 @@ public sealed class NoiseVectorTests
             Assert.True(to.TryOpen((ulong)(n / 2) - 1, default, closed, opened));
             Assert.Equal(plain, opened);
             Assert.False(from.TryOpen((ulong)(n / 2) - 1, default, closed, opened)); // reflected
+        }
+    }
+
+    [Fact]
+    public void Exchange_OfThePublishedVector_GivesItsBytes()
+    {
+        const string offered = "ca35def5ae56cec33dc2036731ab14896bc4c75dbb07a61f879f8e3afa4c794479b962b8aff8485742ac32f905ba45369e2465fb59e138a93d67a0d1266b6a54";
+        const string answered = "95ebc60d2b1fa672c1f46a8aa265ef51bfe38e7ccb39ec5be34069f144808843d6062704d5a9c422a8e834423f8c1feada7e8d0d910a1a2cd030fb584221e3";
+        string[] sealedOnes =
+        [
+            "e632c3763d7669067383433197a3baddf146e9e70ad4b4e9e59e0f", "64c6bee32ea91c8474bb4c21d7a700109ad45af77b29764ba5eb1e",
+            "e2fa0bed0603b62d3ccac2ecabbf3fe33f3e86514909b323361626266cb2471cc8", "0c01dc9cec1fe4ddd692e8dd32188aa351088dc91183639a53b57aa4692b5ebdef8b8ca111",
+        ];
+        using Curve25519KeyPair client = new(Hex("893e28b9dc6ca8d611ab664754b8ceb7bac5117349a4439a6b0569da977c464a"));
+        using Curve25519KeyPair host = new(Hex("bbdb4cdbd309f1a1f2e1456967fe288cadd6f712d65dc7b7793d5e63da6b375b"));
+        using NoiseSymmetricState mine = NoiseExchange.Begin(Prologue, PreShared), its = NoiseExchange.Begin(Prologue, PreShared);
+        byte[] offer = new byte[offered.Length / 2], answer = new byte[answered.Length / 2], said = new byte[16];
+        NoiseExchange.WriteFirst(mine, client, Hex(Messages[0].Payload), offer);
+        Assert.Equal(offered, Text(offer));
+        Assert.True(NoiseExchange.TryReadFirst(its, offer, said));
+        Assert.Equal(Messages[0].Payload, Text(said));
+        Assert.True(NoiseExchange.TryWriteSecond(its, host, client.PublicKey, Hex(Messages[1].Payload), answer));
+        Assert.Equal(answered, Text(answer));
+        Assert.True(NoiseExchange.TryReadSecond(mine, client, answer, said.AsSpan(0, 15)));
+        const string hash = "f4d03dc34495c95729ea6de9e1b59004b59733102488b3e24bc441e0be208eaf";
+        Assert.Equal((hash, hash), (Text(mine.HandshakeHash), Text(its.HandshakeHash)));
+        using NoiseCipher clientEnd = NoiseCipher.OfClient(mine), hostEnd = NoiseCipher.OfHost(its);
+        for (int n = 0; n < sealedOnes.Length; n++)
+        {
+            byte[] plain = Hex(Messages[n + 2].Payload), closed = new byte[plain.Length + IDatagramCipher.TagBytes];
+            (n % 2 == 0 ? clientEnd : hostEnd).Seal((ulong)(n / 2), default, plain, closed);
+            Assert.Equal(sealedOnes[n], Text(closed));
         }
     }
 

@@ -83,7 +83,7 @@ public sealed class StolenIdentityTests : IDisposable
             byte[] claims = new byte[heard.Length - 28 - 48], shown = new byte[IHostProtection.IdentityBytes], forged = [.. heard];
             using IHostHandshake? read = new SecureHost(identity).TryRead(heard.AsSpan(0, 28), heard.AsSpan(28), claims);
             Assert.NotNull(read); // the join is encrypted to the stolen key
-            new SecureHost(identity).WriteIdentity(shown);
+            new SecureHost(identity).WriteIdentity(new byte[16], shown);
             IClientHandshake own = new SecureClient(identity.Fingerprint).Begin(shown, heard.AsSpan(0, 28))!;
             own.Write(claims, forged.AsSpan(28));
             attacker.Send(2, 0, forged);
@@ -96,7 +96,7 @@ public sealed class StolenIdentityTests : IDisposable
     public void Proof_OfOneHandshake_IsNoneInAnother()
     {
         byte[] shown = new byte[IHostProtection.IdentityBytes], one = new byte[IHostProtection.BindingBytes], other = new byte[IHostProtection.BindingBytes];
-        new SecureHost(identity).WriteIdentity(shown);
+        new SecureHost(identity).WriteIdentity(new byte[16], shown);
         using IClientHandshake first = new SecureClient(identity.Fingerprint).Begin(shown, [1])!, second = new SecureClient(identity.Fingerprint).Begin(shown, [1])!;
         first.WriteBinding(one);
         second.WriteBinding(other);
@@ -116,7 +116,7 @@ public sealed class StolenIdentityTests : IDisposable
     {
         byte[] shown = new byte[IHostProtection.IdentityBytes], prologue = [1, 2, 3], message = new byte[48], mine = new byte[32], its = new byte[32];
         SecureHost host = new(identity);
-        host.WriteIdentity(shown);
+        host.WriteIdentity(new byte[16], shown);
         using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue)!;
         client.WriteBinding(mine);
         client.Write([], message);
@@ -149,13 +149,13 @@ public sealed class StolenIdentityTests : IDisposable
 
         public bool TryUseToken(ReadOnlySpan<byte> token) => real.TryUseToken(token);
 
-        public void WriteIdentity(Span<byte> destination) => real.WriteIdentity(destination);
+        public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => real.WriteIdentity(wanted, destination);
 
         public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key) => real.WriteResetKey(link, key);
 
         private sealed class Handshake(IHostHandshake read, SecureHost host) : IHostHandshake
         {
-            public void WriteBinding(Span<byte> destination) => host.WriteIdentity(destination);
+            public void WriteBinding(Span<byte> destination) => host.WriteIdentity(new byte[16], destination);
 
             public IDatagramCipher Accept(string connectKey, ReadOnlySpan<byte> payload, Span<byte> message) => read.Accept(connectKey, payload, message);
 
@@ -168,6 +168,8 @@ public sealed class StolenIdentityTests : IDisposable
     private sealed class HostAloneClient(SecureClient real) : IClientProtection
     {
         public bool KnowsHost => real.KnowsHost;
+
+        public void WriteWanted(Span<byte> destination) => real.WriteWanted(destination);
 
         public IClientHandshake? Begin(ReadOnlySpan<byte> identity, ReadOnlySpan<byte> prologue) =>
             real.Begin(identity, prologue) is IClientHandshake begun ? new Handshake(begun, identity.ToArray()) : null;

@@ -17,7 +17,8 @@ public sealed class UnprotectedHostTests
     [Fact]
     public void Host_WithoutProtectionForTheNetwork_IsRefusedWithWhatToWrite()
     {
-        using UdpPort port = new(new IPEndPoint(IPAddress.Loopback, 0));
+        using UdpPort port = new(new IPEndPoint(IPAddress.Any, 0)); // its LocalAddress is a loopback address, too
+        Assert.Equal(IPAddress.Loopback, port.LocalAddress.ToIPAddress());
         foreach (Action hosts in new Action[]
         {
             () => PeerThread.Host(BuiltInScenes.Pair()).Dispose(),
@@ -44,6 +45,8 @@ public sealed class UnprotectedHostTests
             (() => PeerThread.Host(BuiltInScenes.Pair(), options: new HostOptions { Protection = new SecureHost(identity) }), true),
             (() => PeerThread.Host(BuiltInScenes.Pair(), bind: IPAddress.Loopback), false),
             (() => PeerThread.Host(BuiltInScenes.Pair(), network.CreatePort(0)), false),
+            (() => PeerThread.Host(BuiltInScenes.Pair(), new UdpPort(new IPEndPoint(IPAddress.Loopback, 0))), false),
+            (() => PeerThread.Host(BuiltInScenes.Pair(), new UdpPort(new IPEndPoint(IPAddress.Parse("127.0.0.2"), 0))), false),
         })
         {
             using PeerThread thread = host();

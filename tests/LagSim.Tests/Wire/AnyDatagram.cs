@@ -27,14 +27,21 @@ internal static class AnyDatagram
         return [.. prologue, .. message];
     }
 
-    internal static byte[] SealedBytes(ulong session, ulong number, ReadOnlySpan<byte> body)
+    internal static byte[] KeyExchangeBytes(DatagramType type, ulong session, uint generation, ReadOnlySpan<byte> message)
+    {
+        byte[] bytes = new byte[WireFormat.KeyExchangeBytes];
+        return bytes[..new KeyExchangeDatagram(session, generation, message).Encode(type, bytes)];
+    }
+
+    internal static byte[] SealedBytes(ulong session, ulong number, ReadOnlySpan<byte> body, byte generation = 0)
     {
         byte[] prologue = new byte[SealedDatagram.PrologueBytes];
         WireWriter writer = new(prologue);
         writer.WriteHeader(DatagramType.Sealed);
         writer.WriteUInt64(session);
         writer.WriteUInt32((uint)number);
-        writer.WriteUInt16((ushort)(number >> 32));
+        writer.WriteByte((byte)(number >> 32));
+        writer.WriteByte(generation);
         return [.. prologue, .. body];
     }
 
@@ -79,12 +86,15 @@ internal static class AnyDatagram
             case DatagramType.SecureWelcome or DatagramType.SecureRefusal:
                 return SecureAnswerDatagram.TryDecode(bytes, type, out SecureAnswerDatagram said, out refusal) ? SecureAnswerBytes(type, said.Nonce, said.Message) : null;
             case DatagramType.Sealed:
-                return SealedDatagram.TryDecode(bytes, out SealedDatagram closed, out refusal) ? SealedBytes(closed.SessionId, closed.Number, closed.Body) : null;
+                return SealedDatagram.TryDecode(bytes, out SealedDatagram closed, out refusal) ? SealedBytes(closed.SessionId, closed.Number, closed.Body, closed.Generation) : null;
             case DatagramType.Roster:
                 RosterDatagram roster = new();
                 return roster.TryDecode(bytes, out refusal) ? Bytes(roster.Encode) : null;
             case DatagramType.RosterReceived:
                 return RosterReceivedDatagram.TryDecode(bytes, out RosterReceivedDatagram received, out refusal) ? Bytes(received.Encode) : null;
+            case DatagramType.KeyExchange or DatagramType.KeyExchangeReply:
+                return KeyExchangeDatagram.TryDecode(bytes, type, out KeyExchangeDatagram keys, out refusal)
+                    ? KeyExchangeBytes(type, keys.SessionId, keys.Generation, keys.Message) : null;
             case DatagramType.DesyncReport:
                 return DesyncReportDatagram.TryDecode(bytes, out DesyncReportDatagram report, out refusal) ? Bytes(report.Encode) : null;
             default:

@@ -55,7 +55,7 @@ public class HostileBytesTests
             random.NextBytes(bytes);
             if (i % 4 != 0 && bytes.Length >= WireFormat.HeaderBytes)
             {
-                new byte[] { 0x53, 0x4C, WireFormat.Version, (byte)random.Next(1, (int)DatagramType.RosterReceived + 1) }.CopyTo(bytes); // past the header, or it tests nothing else
+                new byte[] { 0x53, 0x4C, WireFormat.Version, (byte)random.Next(1, (int)DatagramType.KeyExchangeReply + 1) }.CopyTo(bytes); // past the header, or it tests nothing else
             }
 
             accepted += Canonical(bytes) ? 1 : 0;

@@ -23,7 +23,8 @@ internal static class PageDatagrams
     {
         foreach (ConnectRequestDatagram d in Sample(WireGen.ConnectRequest, each))
         {
-            yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(page, DatagramType.ConnectRequest, ("nonce", d.Nonce), ("padding", new byte[48])));
+            byte[] bytes = AnyDatagram.Bytes(d.Encode);
+            yield return (bytes, page => Datagram(page, DatagramType.ConnectRequest, ("nonce", d.Nonce), ("wanted", bytes[12..28]), ("padding", new byte[32])));
         }
 
         foreach (WelcomeDatagram d in Sample(WireGen.Welcome, each))
@@ -68,8 +69,16 @@ internal static class PageDatagrams
             byte[] prologue = AnyDatagram.Bytes(to => JoinDatagram.WritePrologue(to, DatagramType.SecureJoin, nonce, new Token128(cookie)));
             yield return ([.. prologue, .. identity], page => Datagram(
                 page, DatagramType.SecureJoin, ("nonce", nonce), ("cookie", cookie), ("message", identity)));
-            yield return (AnyDatagram.SealedBytes(nonce, nonce >> 16, cookie), page => Datagram(
-                page, DatagramType.Sealed, ("session id", nonce), ("number", (uint)(nonce >> 16)), ("more number", (ushort)(nonce >> 48)), ("body", cookie)));
+            yield return (AnyDatagram.SealedBytes(nonce, nonce >> 24, cookie, (byte)nonce), page => Datagram(
+                page, DatagramType.Sealed, ("session id", nonce), ("number", (uint)(nonce >> 24)), ("more number", (byte)(nonce >> 56)),
+                ("generation", (byte)nonce), ("body", cookie)));
+            foreach (DatagramType keys in new[] { DatagramType.KeyExchange, DatagramType.KeyExchangeReply })
+            {
+                byte[] message = [.. identity, .. cookie];
+                yield return (AnyDatagram.KeyExchangeBytes(keys, nonce, (uint)nonce, message), page => Datagram(
+                    page, keys, ("session id", nonce), ("generation", (uint)nonce), ("message", message)));
+            }
+
             yield return (AnyDatagram.Bytes(new JoinDatagram(nonce, new Token128(cookie), new Token128([.. cookie.Reverse()]), ~nonce, (uint)nonce, 7, new Token128(cookie), 3, "Zoë").Encode), page => Datagram(
                 page, DatagramType.Join, ("nonce", nonce), ("cookie", cookie), ("proof", (byte[])[.. cookie.Reverse()]), ("scene hash", ~nonce),
                 ("fold version", (uint)nonce), ("player", 7), ("player proof", cookie), ("role", 3), ("name", "Zoë")));

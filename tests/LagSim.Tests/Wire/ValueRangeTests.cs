@@ -167,8 +167,8 @@ public class ValueRangeTests
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, 1, 1);
         AssertHeader(WireRefusal.VersionDiffers, 0x53, 0x4C, WireFormat.Version - 1, 1);
         AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 0);
-        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 22);
-        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 21);
+        AssertHeader(WireRefusal.UnknownType, 0x53, 0x4C, WireFormat.Version, 24);
+        AssertHeader(WireRefusal.None, 0x53, 0x4C, WireFormat.Version, 23);
     }
 
     [Fact]

@@ -113,7 +113,7 @@ internal static class WireGen
 
     internal static readonly Gen<Token128> Token = Gen.ArrayOf(Byte, Token128.Bytes).Select(bytes => new Token128(bytes));
 
-    internal static readonly Gen<ConnectRequestDatagram> ConnectRequest = Bits64.Select(nonce => new ConnectRequestDatagram(nonce));
+    internal static readonly Gen<ConnectRequestDatagram> ConnectRequest = from nonce in Bits64 from wanted in Token select new ConnectRequestDatagram(nonce, wanted);
 
     internal static readonly Gen<ChallengeDatagram> Challenge = from nonce in Bits64 from cookie in Token select new ChallengeDatagram(nonce, cookie);
 

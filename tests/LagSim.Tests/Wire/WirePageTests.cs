@@ -32,7 +32,7 @@ public sealed class WirePageTests
             checkedOnes++;
         }
 
-        Assert.Equal(21 * 60, checkedOnes);
+        Assert.Equal(23 * 60, checkedOnes);
     }
 
     [Fact]
@@ -76,7 +76,7 @@ public sealed class WirePageTests
             }
         }
 
-        Assert.Equal(3 + 2 + 6 + 2 + 17 + 4 + 6 + 4 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 4 + 3 + 34 + 6 + 5 + 4 + 10 + 3, rows);
+        Assert.Equal(3 + 3 + 6 + 2 + 17 + 4 + 6 + 4 + 3 + 7 + 5 + 3 + 6 + 13 + 4 + 3 + 2 + 3 + 2 + 2 + 3 + 5 + 3 + 34 + 6 + 5 + 4 + 10 + 3 + 3 + 3, rows);
     }
 
     [Fact]
@@ -106,6 +106,8 @@ public sealed class WirePageTests
             [DatagramType.Reset] = WireFormat.ResetBytes,
             [DatagramType.Roster] = WireFormat.EmptyRosterBytes + RosterEntry.GoneBytes,
             [DatagramType.RosterReceived] = WireFormat.RosterReceivedBytes,
+            [DatagramType.KeyExchange] = WireFormat.KeyExchangeBytes,
+            [DatagramType.KeyExchangeReply] = WireFormat.KeyExchangeBytes,
             [DatagramType.Sealed] = SealedDatagram.PrologueBytes + 1 + IDatagramCipher.TagBytes,
         };
         Assert.Equal($"{WireFormat.Version}", HeaderVersion(Page));

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Events;
+using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
@@ -87,7 +88,7 @@ public sealed class HostileDatagrams
     {
         byte[] bytes = Noise();
         byte version = Below(8) == 0 ? (byte)Below(256) : WireFormat.Version;
-        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below((int)DatagramType.RosterReceived + 2)];
+        byte[] head = [WireFormat.Magic & 0xFF, WireFormat.Magic >> 8, version, (byte)Below((int)DatagramType.KeyExchangeReply + 2)];
         head.AsSpan(0, Math.Min(head.Length, bytes.Length)).CopyTo(bytes);
         return bytes;
     }
@@ -128,7 +129,7 @@ public sealed class HostileDatagrams
     /// <summary>Returns a valid form with random values, sometimes with the session number of a real datagram.</summary>
     private byte[] MadeUp()
     {
-        int length = Below(16) switch
+        int length = Below(17) switch
         {
             0 => new ConnectRequestDatagram(random.NextUInt64()).Encode(buffer),
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
@@ -147,9 +148,23 @@ public sealed class HostileDatagrams
             12 => Sealed(),
             13 => Roster().Encode(buffer),
             14 => new RosterReceivedDatagram(Session(), (byte)Below(10), (uint)Below(20)).Encode(buffer),
+            15 => KeyExchange(),
             _ => Update().Encode(buffer),
         };
         return buffer.AsSpan(0, length).ToArray();
+    }
+
+    /// <summary>An offer or an answer of fresh keys, in clear text, with a key of nobody's.</summary>
+    private int KeyExchange()
+    {
+        Span<byte> message = stackalloc byte[IDatagramCipher.ExchangeBytes];
+        for (int n = 0; n < message.Length; n++)
+        {
+            message[n] = (byte)random.NextUInt64();
+        }
+
+        DatagramType type = Below(2) == 0 ? DatagramType.KeyExchange : DatagramType.KeyExchangeReply;
+        return new KeyExchangeDatagram(Session(), (uint)Below(3), message).Encode(type, buffer);
     }
 
     /// <summary>A sealed datagram's form, with a number near those of real ones, and nothing that was sealed.</summary>
@@ -159,7 +174,8 @@ public sealed class HostileDatagrams
         writer.WriteHeader(DatagramType.Sealed);
         writer.WriteUInt64(Session());
         writer.WriteUInt32((uint)Below(2_000));
-        writer.WriteUInt16((ushort)(Below(10) / 9));
+        writer.WriteByte((byte)(Below(10) / 9));
+        writer.WriteByte((byte)(Below(10) / 8));
         for (int n = 17 + Below(100); n > 0; n--)
         {
             writer.WriteByte((byte)random.NextUInt64());

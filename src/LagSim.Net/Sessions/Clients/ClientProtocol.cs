@@ -27,6 +27,7 @@ internal sealed class ClientProtocol : ISessionProtocol
     private readonly SuspendDetector suspend;
     private readonly RosterFollower peers;
     private readonly JoinProgress progress;
+    private readonly KeyRenewal keys;
 
     internal ClientProtocol(SessionParts parts, ClientOptions options, PeerAddress host, ulong nonce)
     {
@@ -46,6 +47,7 @@ internal sealed class ClientProtocol : ISessionProtocol
             Connection, parts.World, parts.Commits, parts.Journal, parts.Self, parts.SharedTime, parts.Counters, parts.Clock);
         updates = new ClientUpdates(Connection, attempts, parts.World, parts.SharedTime, parts.KeepAlive, parts.Sender);
         peers = new RosterFollower(Connection, parts.Peers, parts.SharedTime, parts.Sender, parts.Counters, options.Timeout / 2);
+        keys = new KeyRenewal(Connection, parts.Sender, parts.Counters);
         Loss = new HostLoss(attempts, Connection, progress, answer, parts.World, parts.Status, parts.Counters, parts.Clock, options);
         Finder = new DivergenceFinder(
             Connection, parts.World, parts.Journal, parts.Self, parts.Sender, parts.Counters, parts.Clock, options.Timeout);
@@ -158,11 +160,15 @@ internal sealed class ClientProtocol : ISessionProtocol
             case DatagramType.Seat when counters.IsWellFormed(SeatDatagram.TryDecode(datagram, out SeatDatagram seat, out _)):
                 Seat.OnSeat(seat);
                 break;
+            case DatagramType.KeyExchangeReply when counters.IsWellFormed(
+                KeyExchangeDatagram.TryDecode(datagram, type, out KeyExchangeDatagram reply, out _)):
+                keys.OnReply(reply);
+                break;
             case DatagramType.Roster:
                 peers.OnRoster(datagram);
                 break;
             case DatagramType.ConnectRequest or DatagramType.Join or DatagramType.SnapshotRequest or DatagramType.DesyncQuery
-                or DatagramType.Move or DatagramType.SecureJoin or DatagramType.RosterReceived:
+                or DatagramType.Move or DatagramType.SecureJoin or DatagramType.RosterReceived or DatagramType.KeyExchange:
                 counters.DatagramsIgnored++; // only a client sends these
                 break;
         }
@@ -198,6 +204,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         {
             // This machine slept, or its clock jumped: the host was not silent, we were not listening.
             Connection.Link?.NoteHeard(now);
+            keys.NoteSuspend(now);
             Loss.NoteSuspend(slept);
             attempts.NoteSuspend(slept, now);
         }
@@ -218,12 +225,24 @@ internal sealed class ClientProtocol : ISessionProtocol
             snapshot.Tend(now);
             Finder.Tend(now);
             updates.Tend(now);
+            TendKeys(now);
         }
     }
 
     public SimTime NextDue(SimTime now) => attempts.IsAsking
         ? attempts.Current!.Due
         : SimTime.Min(SimTime.Min(Connection.Link?.Due ?? now, snapshot.Due), Finder.Due);
+
+    /// <summary>Has the link get fresh keys; one whose keys are too old is given up, as if the host were gone.</summary>
+    private void TendKeys(SimTime now)
+    {
+        keys.Tend(now);
+        if (keys.IsOverdue(now) && Parts.World.Live is not null)
+        {
+            string why = FormattableString.Invariant($"The {Connection.Name} agreed on no fresh keys for {LinkKeys.MaxAge.ToSeconds():0} s.");
+            Loss.Rejoin(SessionEnd.Disconnected, why, isLinkGood: false);
+        }
+    }
 
     /// <summary>Handles an update from the host.</summary>
     private void Take(UpdateDatagram update, UpdateLink link, SimTime now)

@@ -38,7 +38,10 @@ internal sealed class JoinRequests(
         else
         {
             Span<byte> bytes = stackalloc byte[WireFormat.ConnectRequestBytes];
-            int length = new ConnectRequestDatagram(attempt.Nonce).Encode(bytes);
+            Span<byte> wanted = stackalloc byte[IHostProtection.FingerprintBytes];
+            wanted.Clear();
+            options.Protection?.WriteWanted(wanted);
+            int length = new ConnectRequestDatagram(attempt.Nonce, new Token128(wanted)).Encode(bytes);
             foreach (PeerAddress to in connection.ToAsk(now - attempt.Began))
             {
                 sender.Send(bytes.Slice(0, length), to);

@@ -49,7 +49,7 @@ internal sealed class DatagramIntake(SessionCounters counters, IDatagramHandler 
     private static bool MustBeSealed(DatagramType type) => type is DatagramType.Update or DatagramType.Leave
         or DatagramType.SnapshotRequest or DatagramType.SnapshotChunk or DatagramType.DesyncQuery or DatagramType.DesyncReport
         or DatagramType.Seat or DatagramType.Move or DatagramType.MoveChallenge
-        or DatagramType.Roster or DatagramType.RosterReceived;
+        or DatagramType.Roster or DatagramType.RosterReceived or DatagramType.KeyExchange or DatagramType.KeyExchangeReply;
 
     private void Open(ReadOnlySpan<byte> datagram, PeerAddress from)
     {

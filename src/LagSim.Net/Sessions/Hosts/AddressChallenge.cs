@@ -1,5 +1,6 @@
 using System;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
@@ -10,13 +11,16 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <summary>
 /// Makes a sender prove that it is at the address its datagrams give, before the host keeps any state for it or sends it more than it sent.
 /// </summary>
-internal sealed class AddressChallenge(PublicIdentity identity, JoinCookies cookies, DatagramSender sender, IClock clock)
+internal sealed class AddressChallenge(IHostProtection? protection, JoinCookies cookies, DatagramSender sender, IClock clock)
 {
     /// <summary>Sends a cookie, which only a peer at that address receives, to one that wants to join.</summary>
-    internal void Send(ulong nonce, PeerAddress to)
+    /// <param name="nonce">The nonce of the request.</param>
+    /// <param name="wanted">The fingerprint of the host that it wants.</param>
+    /// <param name="to">Where it came from.</param>
+    internal void Send(ulong nonce, Token128 wanted, PeerAddress to)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.ChallengeBytes];
-        ChallengeDatagram challenge = new(nonce, cookies.Make(to, nonce, clock.Now), identity);
+        ChallengeDatagram challenge = new(nonce, cookies.Make(to, nonce, clock.Now), PublicIdentity.Of(protection, wanted));
         sender.Send(bytes.Slice(0, challenge.Encode(bytes)), to);
     }
 

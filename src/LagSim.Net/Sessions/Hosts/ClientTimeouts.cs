@@ -4,7 +4,9 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Disconnects clients that fell silent, did not finish joining, or fell so far behind that a fresh snapshot is faster.</summary>
+/// <summary>
+/// Disconnects clients that fell silent, did not finish joining, agree on no fresh keys, or fell so far behind that a fresh snapshot is faster.
+/// </summary>
 internal sealed class ClientTimeouts
 {
     /// <summary>The number of unacknowledged log entries above which a client is disconnected.</summary>
@@ -63,9 +65,11 @@ internal sealed class ClientTimeouts
             {
                 client.NoteSilence();
                 client.Link.NoteHeard(now);
+                client.Link.Seal?.Keys.NoteSuspend(now);
             }
 
-            bool isSilent = now - client.Link.Heard > TimeoutWith(client) || (client.Peer == 0 && now > client.Claim.Until);
+            client.Link.Seal?.Keys.Tend(now);
+            bool isSilent = now - client.Link.Heard > TimeoutWith(client) || client.Link.Seal?.Keys.AreTooOld(now) == true || (client.Peer == 0 && now > client.Claim.Until);
             if (isSilent || HasFallenBehind(client, now))
             {
                 roster.Dismiss(client, isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);

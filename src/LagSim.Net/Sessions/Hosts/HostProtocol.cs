@@ -113,7 +113,7 @@ internal sealed class HostProtocol : ISessionProtocol
         switch (type)
         {
             case DatagramType.ConnectRequest when counters.IsWellFormed(ConnectRequestDatagram.TryDecode(datagram, out ConnectRequestDatagram request, out _)):
-                Handshake.Challenge(request.Nonce, from);
+                Handshake.Challenge(request, from);
                 break;
             case DatagramType.Join when counters.IsWellFormed(JoinDatagram.TryDecode(datagram, out JoinDatagram join, out _)):
                 Handshake.OnJoin(join, from);
@@ -135,12 +135,16 @@ internal sealed class HostProtocol : ISessionProtocol
                 RosterReceivedDatagram.TryDecode(datagram, out RosterReceivedDatagram received, out _)):
                 peers.OnReceived(received, from);
                 break;
+            case DatagramType.KeyExchange when counters.IsWellFormed(
+                KeyExchangeDatagram.TryDecode(datagram, type, out KeyExchangeDatagram offer, out _)):
+                Handshake.Keys.OnOffer(offer, from);
+                break;
             case DatagramType.Leave when counters.IsWellFormed(LeaveDatagram.TryDecode(datagram, out LeaveDatagram leave, out _)):
                 OnLeave(leave, from);
                 break;
             case DatagramType.Welcome or DatagramType.Refusal or DatagramType.Challenge or DatagramType.SnapshotChunk
                 or DatagramType.DesyncReport or DatagramType.Seat or DatagramType.MoveChallenge or DatagramType.SecureWelcome
-                or DatagramType.SecureRefusal or DatagramType.Reset or DatagramType.Roster:
+                or DatagramType.SecureRefusal or DatagramType.Reset or DatagramType.Roster or DatagramType.KeyExchangeReply:
                 counters.DatagramsIgnored++; // only a host sends these
                 break;
         }

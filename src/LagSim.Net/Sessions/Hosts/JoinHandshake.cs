@@ -9,7 +9,7 @@ using LagSim.Time;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// The host's dealings with clients that are not in yet, or write from another address: challenge, join, snapshot, number.
+/// The host's dealings with clients that are not in yet, write from another address, or want fresh keys: challenge, join, snapshot, number.
 /// </summary>
 internal sealed class JoinHandshake
 {
@@ -41,7 +41,7 @@ internal sealed class JoinHandshake
         sender = parts.Sender;
         counters = parts.Counters;
         clock = parts.Clock;
-        challenge = new AddressChallenge(PublicIdentity.Of(options.Protection), cookies, parts.Sender, clock);
+        challenge = new AddressChallenge(options.Protection, cookies, parts.Sender, clock);
         Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress, watermark);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
         MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
@@ -53,6 +53,7 @@ internal sealed class JoinHandshake
             sessionId, options, cookies, new JoinIdentification(options, places), rules, roster, room, Snapshots, timeouts, parts.Links,
             counters, WrongKeys);
         intake = new JoinIntake(options, challenge, roster, admission, sender, counters, clock);
+        Keys = new KeyAnswers(roster, sender, counters, clock);
         stray = new StrayReply(places, parts.Status, options.Protection, sender, parts.Clock);
     }
 
@@ -65,11 +66,14 @@ internal sealed class JoinHandshake
     /// <summary>The snapshots for joining clients.</summary>
     internal JoinSnapshots Snapshots { get; }
 
+    /// <summary>Agrees with clients on fresh keys for their links.</summary>
+    internal KeyAnswers Keys { get; }
+
     /// <summary>Gives joining clients their numbers.</summary>
     internal Seating Seating { get; }
 
     /// <summary>Makes a sender that wants to join prove its address before it is answered.</summary>
-    internal void Challenge(ulong nonce, PeerAddress from) => challenge.Send(nonce, from);
+    internal void Challenge(in ConnectRequestDatagram request, PeerAddress from) => challenge.Send(request.Nonce, request.Wanted, from);
 
     /// <summary>Makes a client prove the new address from which it wrote.</summary>
     internal void Challenge(UpdateLink link, PeerAddress from) => challenge.Send(link, from);

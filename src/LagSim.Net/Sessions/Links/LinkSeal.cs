@@ -8,38 +8,36 @@ namespace LagSim.Net.Sessions.Links;
 /// Seals the datagrams of one link, and opens those of its other end: encrypted, authenticated, numbered, and each accepted once.
 /// </summary>
 /// <remarks>
-/// A number is never used twice with one cipher: it counts up, and every join has a cipher of its own. For one thread.
+/// A number is never used twice with one key: it counts up as long as the link lasts, and every join has keys of its own. For one thread.
 /// </remarks>
 internal sealed class LinkSeal : IDisposable
 {
-    private readonly IDatagramCipher cipher;
     private readonly SeenNumbers opened = new();
     private ulong sent;
 
-    /// <param name="cipher">The cipher of the link.</param>
+    /// <param name="cipher">The cipher that the handshake gave the link.</param>
     /// <param name="resetKey">The key by which a host proves that it does not have the link any more; for a client's end.</param>
     internal LinkSeal(IDatagramCipher cipher, Token128 resetKey = default)
     {
-        this.cipher = cipher;
+        Keys = new LinkKeys(cipher);
         ResetKey = resetKey;
     }
 
     /// <summary>The key by which a host proves that it does not have the link any more.</summary>
     internal Token128 ResetKey { get; }
 
+    /// <summary>The keys, of which fresh ones are agreed on while the link lasts.</summary>
+    internal LinkKeys Keys { get; }
+
     /// <summary>Whether the keys are wiped, since the link is over. Nothing can be sealed or opened any more.</summary>
-    internal bool IsWiped { get; private set; }
+    internal bool IsWiped => Keys.IsWiped;
 
     /// <summary>Wipes the keys.</summary>
-    public void Dispose()
-    {
-        IsWiped = true;
-        cipher.Dispose();
-    }
+    public void Dispose() => Keys.Dispose();
 
     /// <summary>Seals a datagram.</summary>
     /// <returns>The length, <see cref="WireFormat.SealBytes"/> more than before.</returns>
-    /// <exception cref="InvalidOperationException">The numbers are used up, after 89 years at 100,000 datagrams a second.</exception>
+    /// <exception cref="InvalidOperationException">The numbers are used up, after 127 days at 100,000 datagrams a second; a session lasts 23 at most.</exception>
     internal int Seal(ReadOnlySpan<byte> datagram, Span<byte> destination)
     {
         if (sent == SealedDatagram.MaxNumber)
@@ -47,7 +45,7 @@ internal sealed class LinkSeal : IDisposable
             throw new InvalidOperationException($"The link has sealed {sent} datagrams, the most there are numbers for.");
         }
 
-        return SealedDatagram.Encode(datagram, ++sent, cipher, destination);
+        return Keys.Seal(datagram, ++sent, destination);
     }
 
     /// <summary>Opens a datagram.</summary>
@@ -60,6 +58,6 @@ internal sealed class LinkSeal : IDisposable
     {
         length = 0;
         isRepeated = !opened.IsNew(datagram.Number);
-        return !isRepeated && !IsWiped && datagram.TryOpen(cipher, destination, out length) && opened.Add(datagram.Number);
+        return !isRepeated && Keys.TryOpen(datagram, destination, out length) && opened.Add(datagram.Number);
     }
 }
