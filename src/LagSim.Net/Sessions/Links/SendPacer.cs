@@ -5,8 +5,14 @@ namespace LagSim.Net.Sessions.Links;
 /// <summary>Decides when the next update of a link is due; flushed updates keep an average distance.</summary>
 internal sealed class SendPacer
 {
-    /// <summary>The least average distance between updates, however often the other end sends.</summary>
+    /// <summary>The least average distance between full updates, however often the other end sends.</summary>
     internal static readonly SimDuration MinDistance = SimDuration.FromMilliseconds(1);
+
+    /// <summary>
+    /// The least average distance between updates that are not full: what comes up meanwhile travels together. A display shows no more
+    /// often what is new, and half of it is what an event waits at most in the median.
+    /// </summary>
+    internal static readonly SimDuration Together = SimDuration.FromSeconds(1 / 60.0);
 
     /// <summary>
     /// How many distances flushed updates may be ahead: after a pause three go out at once, so that one player's event need not wait

@@ -17,6 +17,9 @@ internal sealed class UpdateLink
     /// <summary>How long an acknowledgement that is not urgent may wait for a datagram that goes out anyway.</summary>
     internal static readonly SimDuration MaxAckDelay = SimDuration.FromMilliseconds(100);
 
+    /// <summary>How long an acknowledgement of events waits for a datagram that goes out anyway: two of a busy link.</summary>
+    internal static readonly SimDuration AnswerDelay = SendPacer.Together * 2;
+
     /// <summary>The bytes of an update besides its entries, without protection: header, state hash, UDP and IP.</summary>
     private const int PlainOwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
 
@@ -105,6 +108,9 @@ internal sealed class UpdateLink
     /// <summary>When the next update is due, by the local clock.</summary>
     internal SimTime Due => pacer.Due;
 
+    /// <summary>Whether an answer to entries that were sent is awaited.</summary>
+    internal bool IsAwaiting => flight.Sent.Waited > 0;
+
     /// <summary>The bytes of an update besides its entries.</summary>
     private int OwnBytes => PlainOwnBytes + ends.SealBytes;
 
@@ -171,6 +177,9 @@ internal sealed class UpdateLink
     /// <summary>Answers the other end: at once, or, where that is too much, soon, together with whatever else is to be sent.</summary>
     internal void Answer(SimTime now) => Flush(MayHurry(now) ? now : now + MaxAckDelay);
 
+    /// <summary>Acknowledges events: together with what else is to be sent, and soon.</summary>
+    internal void AnswerSoon(SimTime now) => Flush(now + (MayHurry(now) ? AnswerDelay : MaxAckDelay));
+
     /// <summary>Records a new entry for the other end, of that many bytes.</summary>
     internal void NoteNewEntry(int bytes, SimTime now)
     {
@@ -228,7 +237,7 @@ internal sealed class UpdateLink
 
         // What has to be sent must find the window half empty. An update worth its own bytes is not optional traffic.
         int most = congestion.IsHalfFull ? 0 : spare.Bytes;
-        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, Path.UpdateRoom));
+        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, Path.UpdateRoom), flight.Copies);
         int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
@@ -250,7 +259,7 @@ internal sealed class UpdateLink
             unsent.Clear();
         }
 
-        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length + ends.SealBytes) : SendPacer.MinDistance);
+        pacer.NoteSent(now, Distance(update.Held.Length > 0 ? bytes.Length + ends.SealBytes : 0, isFull: hasNeeded));
         if (hasNeeded && !isHeldBack)
         {
             pacer.GoOn(now);
@@ -279,19 +288,29 @@ internal sealed class UpdateLink
             Flush(at + flight.LongestTrip + (flight.LongestTrip / 8));
         }
 
-        if ((isUrgent || Outgoing.HasLost) && !flight.Congestion.IsHalfFull)
+        int copies = flight.Copies;
+        if ((isUrgent || Outgoing.HasLost) && Outgoing.HasCopiesLeft(copies) && !flight.Congestion.IsHalfFull)
         {
-            SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source));
-            Flush(now + (interval > affordable ? interval : affordable));
+            SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source, copies));
+            SimDuration wanted = flight.RepeatDelay(interval);
+            Flush(now + (wanted > affordable ? wanted : affordable));
         }
     }
 
-    /// <summary>The average distance between updates with entries, by their length.</summary>
-    private SimDuration Distance(int length)
+    /// <summary>The average distance to the next update.</summary>
+    /// <param name="length">The length of one with entries; 0 for one without, which the window does not count.</param>
+    /// <param name="isFull">Whether more had to go than it could carry.</param>
+    private SimDuration Distance(int length, bool isFull)
     {
+        SimDuration least = isFull ? SendPacer.MinDistance : SendPacer.Together;
+        if (length == 0 || !Trips.IsMeasured)
+        {
+            return least;
+        }
+
         SimDuration even = SimDuration.FromSeconds(
             Trips.Mean.ToSeconds() * (length + CongestionControl.DatagramOverhead) / (PaceGain * flight.Congestion.Window));
-        return Trips.IsMeasured && even > SendPacer.MinDistance ? even : SendPacer.MinDistance;
+        return even > least ? even : least;
     }
 
     /// <summary>Whether an update may be sent for little.</summary>
