@@ -49,6 +49,32 @@ public sealed class TogetherTests(ITestOutputHelper output)
         Assert.True(played.DownBytes > 2 * Needed);
     }
 
+    /// <summary>
+    /// A cap on what each client is sent holds, and nothing is lost by it: repeats are given up first, then events wait for each other.
+    /// </summary>
+    [Theory]
+    [InlineData(0, 8_000)]
+    [InlineData(2, 8_000)]
+    [InlineData(2, 12_000)]
+    public void Steering_WithACap_KeepsToIt(double loss, int most)
+    {
+        Played free = Play(50, loss, Rate), capped = Play(50, loss, Rate, most);
+        output.WriteLine($"{free}; capped {capped}");
+        Assert.True(free.DownBytes > most, "it caps nothing");
+        Assert.InRange(capped.DownBytes, 0.5 * most, 1.02 * most);
+        Assert.Equal(0, capped.Refused);
+        Assert.InRange(capped.Median, 100, 250);
+    }
+
+    [Theory]
+    [InlineData(3_999)]
+    [InlineData(100_000_001)]
+    public void MaxBytesPerSecond_OutOfRange_IsRefused(int most)
+    {
+        ArgumentOutOfRangeException refusal = Assert.Throws<ArgumentOutOfRangeException>(() => Play(5, 0, Rate, most));
+        Assert.Contains("4,000 to 100,000,000", refusal.Message, StringComparison.Ordinal);
+    }
+
     /// <summary>A lone event does not wait for others.</summary>
     [Fact]
     public void ALoneEvent_IsThereAtOnce()
@@ -58,7 +84,7 @@ public sealed class TogetherTests(ITestOutputHelper output)
         Assert.InRange(played.Median, 79.9, 80.5);
     }
 
-    private static Played Play(double delay, double loss, double rate)
+    private static Played Play(double delay, double loss, double rate, int? most = null)
     {
         LinkProfile link = new("steered", new LinkLeg(delay, lossPercent: loss, meanBurstLength: 1 / (1 - (loss / 100))));
         SceneBuilder scene = new SceneBuilder("ships").WithGravity(V(0));
@@ -67,7 +93,7 @@ public sealed class TogetherTests(ITestOutputHelper output)
             scene.AddBody($"ship {n}", Ball(0.1), V(0, 100 * n));
         }
 
-        SessionGroup group = new SessionGroup(scene.Build(), Clients + 1, link, 1, _ => new HostOptions { PlayerBudget = null, Window = new(SimDuration.FromSeconds(3)) }).Connect();
+        SessionGroup group = new SessionGroup(scene.Build(), Clients + 1, link, 1, _ => new HostOptions { PlayerBudget = null, MaxBytesPerSecond = most, Window = new(SimDuration.FromSeconds(3)) }).Connect();
         List<double> late = [];
         Random random = new(1);
         double[] next = [.. Enumerable.Range(0, Clients + 1).Select(_ => random.NextDouble() / rate)];
@@ -103,7 +129,11 @@ public sealed class TogetherTests(ITestOutputHelper output)
         }
 
         (long Bytes, long Datagrams) downEnd = Sum(group.Host.Links), upEnd = Sum(group.Sessions.Skip(1).SelectMany(s => s.Links));
+        group.Run(3);
+        Assert.All(group.Sessions, session => Assert.Equal(group.Host.LogLength, session.LogLength));
+        Assert.Null(group.Difference());
         late.Sort();
+
         double each = Clients * Seconds;
         return new Played(
             (downEnd.Bytes - down.Bytes) / each, (downEnd.Datagrams - down.Datagrams) / each, (upEnd.Datagrams - up.Datagrams) / each,

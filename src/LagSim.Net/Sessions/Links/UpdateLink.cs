@@ -49,16 +49,17 @@ internal sealed class UpdateLink
     /// <param name="buffer">The buffer to encode into; shared likewise.</param>
     /// <param name="now">The time by the local clock.</param>
     /// <param name="parts">The factory of its parts; null for the usual ones.</param>
+    /// <param name="bytesPerSecond">The most bytes of updates a second, UDP and IP headers included, in the mean.</param>
     internal UpdateLink(
         LinkEnds ends, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
-        LinkParts? parts = null)
+        LinkParts? parts = null, double bytesPerSecond = double.PositiveInfinity)
     {
         this.interval = interval;
         parts ??= new LinkParts();
         this.ends = ends;
         composer = new UpdateComposer(outgoing, buffer);
         hearing = parts.Hearing(now);
-        pacer = new SendPacer(now);
+        pacer = new SendPacer(now, bytesPerSecond);
         spare = parts.Spare();
         SentDatagrams sent = new();
         answers = new AnswerTimer(Trips, sent, MaxAckDelay + interval);
@@ -236,8 +237,9 @@ internal sealed class UpdateLink
         isProbe = false;
 
         // What has to be sent must find the window half empty. An update worth its own bytes is not optional traffic.
-        int most = congestion.IsHalfFull ? 0 : spare.Bytes;
-        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, Path.UpdateRoom), flight.Copies);
+        int most = congestion.IsHalfFull || pacer.IsPressed(now) ? 0 : spare.Bytes;
+        int longest = answers.IsOverdue ? PathSize.LeastUpdateRoom : Path.UpdateRoom; // perhaps long ones do not arrive
+        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, longest), flight.Copies);
         int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
@@ -259,7 +261,9 @@ internal sealed class UpdateLink
             unsent.Clear();
         }
 
-        pacer.NoteSent(now, Distance(update.Held.Length > 0 ? bytes.Length + ends.SealBytes : 0, isFull: hasNeeded));
+        int length = bytes.Length + ends.SealBytes;
+        pacer.NoteSent(
+            now, Distance(update.Held.Length > 0 ? length : 0, isFull: hasNeeded), length + CongestionControl.DatagramOverhead);
         if (hasNeeded && !isHeldBack)
         {
             pacer.GoOn(now);
