@@ -8,7 +8,8 @@ namespace LagSim.Net.Sessions.Links;
 /// <summary>Chooses the entries of a link's next update: lost ones first, then new ones, then repetitions as far as allowed.</summary>
 /// <remarks>
 /// <para>Each entry has to be sent once, and again each time that every datagram that carried it was lost (<see cref="Lose"/>). That is
-/// needed on any link. Repeating entries in flight hides losses before they are known, and is for links with spare room.</para>
+/// needed on any link. Entries that go in several updates in a row hide losses before they are known; in how many is the caller's to
+/// say, and it is for links with spare room.</para>
 /// <para>At most <see cref="MaxEntries"/> are in flight. Keyframes are superseded by later ones, so they are repeated once, with the
 /// next.</para>
 /// </remarks>

@@ -7,8 +7,9 @@ namespace LagSim.Net.Sessions.Links;
 
 /// <summary>One end of the exchange of updates with another peer: what arrived, what is in flight, and when the next one is due.</summary>
 /// <remarks>
-/// New entries are sent at once, and unacknowledged ones again each resend interval, as far as the link's <see cref="SpareRate"/> allows.
-/// Beyond that nothing is repeated before it is known to be lost, and new entries wait until they are worth a datagram: two thirds of its
+/// New entries are sent at once, but no more often than a display shows them: what comes up in a sixtieth of a second goes together. Each
+/// goes in as many updates as the losses ask for (<see cref="EntryCopies"/>), as far as the link's <see cref="SpareRate"/> allows. Beyond
+/// that nothing is repeated before it is known to be lost, and new entries wait until they are worth a datagram: two thirds of its
 /// bytes are entries, or half the time that it will wait in the queue has passed, or a tenth of a second. <see cref="CongestionControl"/>
 /// limits the bytes in flight, except for two probes into a silence.
 /// </remarks>
@@ -44,7 +45,7 @@ internal sealed class UpdateLink
 
     /// <param name="ends">The two ends of the link.</param>
     /// <param name="acknowledged">The last of this peer's entries that the other has without a gap.</param>
-    /// <param name="interval">How long unacknowledged entries wait before they are repeated, where there is room.</param>
+    /// <param name="interval">How long entries wait before they go again for lack of new ones, where losses ask for it and there is room.</param>
     /// <param name="outgoing">The update to compose in, one at a time; shared by all links of a session.</param>
     /// <param name="buffer">The buffer to encode into; shared likewise.</param>
     /// <param name="now">The time by the local clock.</param>
