@@ -13,6 +13,7 @@ internal static class Program
     private static readonly Dictionary<string, Action<bool>> Tables = new()
     {
         ["traffic"] = _ => TrafficTable.Print(),
+        ["steering"] = SteeringTable.Print,
         ["protection"] = ProtectionTable.Print,
         ["heal"] = HealTable.Print,
         ["rules"] = RuleHealTable.Print,

@@ -96,6 +96,19 @@ public sealed record HostOptions : SessionOptions
     public int MaxEventsPerSecond { get; init; } = 500;
 
     /// <summary>
+    /// How many bytes of updates per second the host sends to each client in the mean, UDP and IP headers included, 4,000 to 100,000,000;
+    /// default null: as many as the events need and the link carries.
+    /// </summary>
+    /// <remarks>
+    /// <para>Where events need more, nothing goes twice before it is known to be lost, and events wait for each other, so that datagrams are
+    /// full. None is lost. If they need more even so, the client falls behind; as on a link that carries too little, it gets a fresh copy
+    /// once it is a <see cref="SessionOptions.Timeout"/> behind, and its session ends as <see cref="SessionEnd.LinkTooSlow"/> if that does
+    /// not help.</para>
+    /// <para>Copies of the world for clients that join are not counted. On this machine's line everybody's share adds up.</para>
+    /// </remarks>
+    public int? MaxBytesPerSecond { get; init; }
+
+    /// <summary>
     /// The simulation work that a player's actions may cause; default <see cref="PlayerBudget.Default"/>, null for no limit. See the
     /// remarks for what happens to a player that exceeds it.
     /// </summary>
@@ -175,6 +188,12 @@ public sealed record HostOptions : SessionOptions
         {
             throw new ArgumentOutOfRangeException(
                 nameof(MaxEventsPerSecond), MaxEventsPerSecond, "A host takes 1 to 100,000 events a second from a client.");
+        }
+
+        if (MaxBytesPerSecond is < 4_000 or > 100_000_000)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(MaxBytesPerSecond), MaxBytesPerSecond, "A host sends each client at most 4,000 to 100,000,000 bytes a second, or null for no limit.");
         }
 
         if (SpectatorPlaces is < 0 or > MaxSpectators)

@@ -159,7 +159,9 @@ public abstract record SessionOptions
     /// </remarks>
     public SimDuration RuleTimeout { get; init; } = RuleWatchdog.DefaultLimit;
 
-    /// <summary>How long unacknowledged data waits before it is sent again, 1 ms to 1 s; default 30 ms.</summary>
+    /// <summary>
+    /// How long data waits before it is sent again on a link that loses some, if no new data carries it, 1 ms to 1 s; default 30 ms.
+    /// </summary>
     public SimDuration ResendInterval { get; init; } = SimDuration.FromMilliseconds(30);
 
     /// <summary>The longest pause between datagrams, 10 ms to a third of the timeout; default that third, but no more than 2 s.</summary>

@@ -275,6 +275,12 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
         return options;
     }
 
+    internal static HostOptions Capped()
+    {
+        HostOptions options = new() { MaxBytesPerSecond = 16_000 };
+        return options;
+    }
+
     internal static HostOptions Tuned()
     {
         HostOptions options = new()

@@ -52,6 +52,7 @@ public sealed class SendWindowLossTests
         SimTime now = SimTime.FromSeconds(1);
         SimDuration trip = SimDuration.FromMilliseconds(40);
         double loss = random.NextDouble() * 0.6;
+        int copies = random.Next(3) == 0 ? LossRuns.MaxCopies : random.Next(1, 5);
         bool hasComfort = seed % 2 == 0; // repetition makes up for much of what is wrong
         for (int step = 0; step < 1500; step++)
         {
@@ -62,7 +63,7 @@ public sealed class SendWindowLossTests
             if (window.HasNeeded(entries) || random.Next(4) == 0)
             {
                 update.Clear();
-                window.Fill(update, entries, hasComfort && random.Next(3) == 0 ? random.Next(1000) : 0, 100, random.Next(-50, 1500));
+                window.Fill(update, entries, hasComfort && random.Next(3) == 0 ? random.Next(1000) : 0, 100, random.Next(-50, 1500), copies);
                 (uint first, uint last) = (update.FirstIndex, update.FirstIndex + (uint)update.Held.Length - 1);
                 Lose(sent.Add(++number, now, 100, first, last));
                 if (random.NextDouble() >= loss)

@@ -34,6 +34,41 @@ public sealed class SendWindowTests
         Assert.Equal((5u, 4u), Next(window, entries)); // none
     }
 
+    /// <summary>An entry goes in as many updates in a row as the losses of the link ask for, and then no more, unless all of them are lost.</summary>
+    [Theory]
+    [InlineData(1)]
+    [InlineData(2)]
+    [InlineData(5)]
+    public void Copies_EachEntryTravelsInThatManyUpdatesInARow(int copies)
+    {
+        SendWindow window = new(0);
+        Entries entries = new();
+        Dictionary<uint, int> times = [];
+        for (uint n = 1; n <= 200; n++)
+        {
+            entries.Last = n * 3;
+            (uint first, uint last) = Next(window, entries, copies: copies);
+            for (uint number = first; number <= last; number++)
+            {
+                times[number] = times.GetValueOrDefault(number) + 1;
+            }
+        }
+
+        Assert.All(times, entry => Assert.Equal(System.Math.Min(copies, 200 - (int)((entry.Key - 1) / 3)), entry.Value));
+        for (int left = copies - 1; left > 0; left--)
+        {
+            Assert.True(window.HasCopiesLeft(copies));
+            Assert.Equal((601u - (3 * (uint)left), 600u), Next(window, entries, copies: copies));
+        }
+
+        Assert.False(window.HasCopiesLeft(copies));
+        Assert.Equal((601u, 600u), Next(window, entries, copies: copies)); // none
+        window.Acknowledge(590);
+        window.Lose(598, 600);
+        Assert.Equal((591u, 600u), Next(window, entries, copies: copies)); // lost: all, and again and again
+        Assert.Equal((591u, 600u), Next(window, entries, copies: copies));
+    }
+
     [Fact]
     public void WithoutRoom_EachEntryTravelsOnce_AndAgainWhenItIsLost()
     {
@@ -58,10 +93,10 @@ public sealed class SendWindowTests
         Assert.Equal((1u, 10u), Next(window, entries, 0));
         entries.Last = 11;
         update.Clear();
-        Assert.Equal(15, window.Fill(update, entries, 16, Own, Wide));
+        Assert.Equal(15, window.Fill(update, entries, 16, Own, Wide, LossRuns.MaxCopies));
         Assert.Equal((8u, 11u), Carried());
         update.Clear();
-        Assert.Equal(Own + 20, window.Fill(update, entries, Own + 24, Own, Wide)); // nothing new: the oldest
+        Assert.Equal(Own + 20, window.Fill(update, entries, Own + 24, Own, Wide, LossRuns.MaxCopies)); // nothing new: the oldest
         Assert.Equal((1u, 4u), Carried());
     }
 
@@ -211,10 +246,10 @@ public sealed class SendWindowTests
     }
 
     /// <summary>The numbers of the next datagram; the second is the lesser where it carries none.</summary>
-    private (uint First, uint Last) Next(SendWindow window, Entries entries, int repetition = 10_000, int room = Wide)
+    private (uint First, uint Last) Next(SendWindow window, Entries entries, int repetition = 10_000, int room = Wide, int copies = LossRuns.MaxCopies)
     {
         update.Clear();
-        window.Fill(update, entries, repetition, Own, room);
+        window.Fill(update, entries, repetition, Own, room, copies);
         return Carried();
     }
 

@@ -332,10 +332,10 @@ internal sealed class ClientProtocol : ISessionProtocol
     private void TakeEntries(UpdateDatagram update, SimTime now)
     {
         long lost = Parts.Counters.EventsLost;
-        if (!log.TakeEntries(now) && update.Held.Length > 0 && update.FirstIndex > Connection.Log.Received)
+        if (!log.TakeEntries(now) && update.Held.Length > 0)
         {
-            // Entries that arrived early are acknowledged too, otherwise they are sent again (RFC 9000, 13.2.1).
-            Connection.Link?.Answer(now);
+            // Entries that arrived early, or again, are acknowledged too, otherwise they are sent again (RFC 9000, 13.2.1).
+            Connection.Link?.AnswerSoon(now);
         }
 
         if (Parts.Counters.EventsLost > lost && Parts.World.PromisesAgreement)

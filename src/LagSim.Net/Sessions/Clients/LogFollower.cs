@@ -60,7 +60,7 @@ internal sealed class LogFollower(
 
         if (isUrgent)
         {
-            link.Answer(now);
+            link.AnswerSoon(now);
         }
         else
         {

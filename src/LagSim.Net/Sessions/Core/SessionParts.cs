@@ -35,7 +35,7 @@ internal sealed class SessionParts
         Start = new WorldStart(World, Commits, Journal, Status, Counters, options.CommitInterval);
         Actions = new LocalActions(Self, Status, SharedTime, World);
         Sender = new DatagramSender(port, Counters);
-        Links = new LinkFactory(options.ResendInterval);
+        Links = new LinkFactory(options.ResendInterval) { BytesPerSecond = (options as HostOptions)?.MaxBytesPerSecond ?? double.PositiveInfinity };
         KeepAlive = new KeepAlivePolicy(options.KeepAlive, options.ResendInterval);
     }
 

@@ -248,6 +248,7 @@ internal sealed class HostProtocol : ISessionProtocol
             client.NoteSilence();
         }
 
+        bool isAcknowledgement = update.Held.Length == 0 && client.Link.IsAwaiting; // an answer to an answer helps nobody
         if (!client.Link.Note(update, now, out _))
         {
             Parts.Counters.DatagramsIgnored++;
@@ -285,17 +286,19 @@ internal sealed class HostProtocol : ISessionProtocol
         }
 
         TakeEvents(update, client, now);
+        if (!isAcknowledgement)
+        {
+            Answer(update, client.Link, now);
+        }
     }
 
     private void TakeEvents(UpdateDatagram update, Client client, SimTime now)
     {
         uint sequence = update.FirstIndex;
         bool isNear = true;
-        bool canWait = update.Held.Length > 0;
         foreach (UpdateEntry entry in update.Held)
         {
             isNear &= client.Incoming.Put(sequence++, entry);
-            canWait &= !entry.IsOwn && SendWindow.IsMadeUpFor(entry.Event);
         }
 
         if (update.Watermark != SimTime.MinValue && sequence > 0)
@@ -305,16 +308,31 @@ internal sealed class HostProtocol : ISessionProtocol
 
         Parts.Counters.DatagramsIgnored += isNear ? 0 : 1; // further ahead than any genuine client goes
         Parts.Counters.EventsDeferred += events.ValidateNext(client, now) ? 0 : 1;
+    }
 
-        // Answered at once: the reply carries the acknowledgement, and completes a clock exchange without a wait. Keyframes come many a
-        // second, and can wait.
-        if (canWait)
+    /// <summary>
+    /// Answers an update: without events at once, since it asks whether this host is there, and to complete a clock exchange; with events
+    /// together with what others do. Keyframes come many a second, and can wait.
+    /// </summary>
+    private static void Answer(UpdateDatagram update, UpdateLink link, SimTime now)
+    {
+        bool areKeyframes = update.Held.Length > 0;
+        foreach (UpdateEntry entry in update.Held)
         {
-            client.Link.Flush(now + UpdateLink.MaxAckDelay);
+            areKeyframes &= !entry.IsOwn && SendWindow.IsMadeUpFor(entry.Event);
+        }
+
+        if (areKeyframes)
+        {
+            link.Flush(now + UpdateLink.MaxAckDelay);
+        }
+        else if (update.Held.Length > 0)
+        {
+            link.AnswerSoon(now);
         }
         else
         {
-            client.Link.Answer(now);
+            link.Answer(now);
         }
     }
 }

@@ -57,9 +57,13 @@ internal sealed class LogBroadcast
                 continue;
             }
 
-            if (lines.Count != log.LastUrgent && client.Peer == external.Peer)
+            if (client.Peer == external.Peer && lines.Count != log.LastUrgent)
             {
-                client.Link.Flush(now + UpdateLink.MaxAckDelay); // its author has the event already
+                client.Link.Flush(now + UpdateLink.MaxAckDelay); // its author has the event already, and a later one makes up for it
+            }
+            else if (client.Peer == external.Peer && lines[lines.Count].Verdict == Verdict.Accepted)
+            {
+                client.Link.AnswerSoon(now); // that it was accepted changes nothing there
             }
             else
             {

@@ -13,6 +13,9 @@ internal sealed class LinkFactory
 
     internal LinkFactory(SimDuration resendInterval) => this.resendInterval = resendInterval;
 
+    /// <summary>The most bytes of updates a second over each link made from now on, UDP and IP headers included.</summary>
+    internal double BytesPerSecond { get; set; } = double.PositiveInfinity;
+
     /// <summary>The factory of the parts of links made from now on.</summary>
     internal LinkParts Parts { get; set; } = new();
 
@@ -23,5 +26,5 @@ internal sealed class LinkFactory
     /// <param name="now">The time by the local clock.</param>
     /// <param name="seal">Seals its datagrams; null in a session without protection.</param>
     internal UpdateLink To(PeerAddress other, ulong sessionId, uint acknowledged, SimTime now, LinkSeal? seal = null) =>
-        new(new LinkEnds(sessionId, other, seal), acknowledged, resendInterval, outgoing, buffer, now, Parts);
+        new(new LinkEnds(sessionId, other, seal), acknowledged, resendInterval, outgoing, buffer, now, Parts, BytesPerSecond);
 }

@@ -9,6 +9,8 @@ internal sealed class LinkFlight
     private readonly RoundTrips trips;
     private readonly SpareRate spare;
     private readonly AnswerTimer answers;
+    private readonly EntryCopies copies = new();
+    private uint newest; // the newest entry that was sent
 
     /// <param name="window">The entries.</param>
     /// <param name="sent">The datagrams.</param>
@@ -37,6 +39,12 @@ internal sealed class LinkFlight
     /// <summary>How long a datagram may be.</summary>
     internal PathSize Path { get; } = new();
 
+    /// <summary>In how many updates in a row an entry goes.</summary>
+    internal int Copies => copies.Count(trips.IsMeasured ? LongestTrip + UpdateLink.AnswerDelay : answers.Timeout);
+
+    /// <summary>How long entries wait before they go again for lack of new ones, at an interval of the session.</summary>
+    internal SimDuration RepeatDelay(SimDuration interval) => copies.RepeatDelay(interval);
+
     /// <summary>The longest time for the answer to a datagram sent later, if it arrives.</summary>
     internal SimDuration LongestTrip => trips.Mean > trips.Newest ? trips.Mean : trips.Newest;
 
@@ -58,6 +66,12 @@ internal sealed class LinkFlight
         {
             Congestion.OnSent(bytes);
         }
+
+        if (last > newest && update.Held.Length > 0)
+        {
+            newest = last;
+            copies.NoteSent(now);
+        }
     }
 
     /// <summary>Records that the other has this peer's entries up to a number.</summary>
@@ -73,6 +87,7 @@ internal sealed class LinkFlight
     /// <summary>Takes the acknowledgements of an update: the newest received, and which of the 32 before it.</summary>
     internal void TakeAcknowledgements(UpdateDatagram update, SimTime now)
     {
+        copies.NoteArrived(update);
         AcknowledgeUpdate(update.EchoNumber, now);
         for (int n = 0; n < 32 && update.EchoBits >> n != 0; n++)
         {

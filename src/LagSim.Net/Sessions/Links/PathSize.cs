@@ -25,6 +25,10 @@ internal sealed class PathSize
     /// <summary>The most bytes that the entries of an update take.</summary>
     internal int UpdateRoom => PlainBytes - WireFormat.EmptyUpdateBytes - WireFormat.MaxHashBytes - WireFormat.StartBytes;
 
+    /// <summary>The most bytes that the entries of an update take which every path carries.</summary>
+    internal const int LeastUpdateRoom =
+        WireFormat.LeastPathBytes - WireFormat.SealBytes - WireFormat.EmptyUpdateBytes - WireFormat.MaxHashBytes - WireFormat.StartBytes;
+
     /// <summary>Records that an update arrived, by its number, and its length with UDP and IP headers.</summary>
     internal void NoteArrived(uint number, int bytes)
     {

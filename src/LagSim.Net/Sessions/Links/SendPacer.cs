@@ -5,8 +5,14 @@ namespace LagSim.Net.Sessions.Links;
 /// <summary>Decides when the next update of a link is due; flushed updates keep an average distance.</summary>
 internal sealed class SendPacer
 {
-    /// <summary>The least average distance between updates, however often the other end sends.</summary>
+    /// <summary>The least average distance between full updates, however often the other end sends.</summary>
     internal static readonly SimDuration MinDistance = SimDuration.FromMilliseconds(1);
+
+    /// <summary>
+    /// The least average distance between updates that are not full: what comes up meanwhile travels together. A display shows no more
+    /// often what is new, and half of it is what an event waits at most in the median.
+    /// </summary>
+    internal static readonly SimDuration Together = SimDuration.FromSeconds(1 / 60.0);
 
     /// <summary>
     /// How many distances flushed updates may be ahead: after a pause three go out at once, so that one player's event need not wait
@@ -19,7 +25,18 @@ internal sealed class SendPacer
     private SimTime latest = SimTime.MinValue; // when the last update was sent
     private int atOnce; // how many were sent at that time
 
-    internal SendPacer(SimTime now) => Due = now;
+    private readonly double bytesPerSecond;
+
+    /// <param name="now">The time by the local clock.</param>
+    /// <param name="bytesPerSecond">The most bytes a second that go, UDP and IP headers included, in the mean.</param>
+    internal SendPacer(SimTime now, double bytesPerSecond = double.PositiveInfinity)
+    {
+        Due = now;
+        this.bytesPerSecond = bytesPerSecond;
+    }
+
+    /// <summary>Whether more is asked for than may go: then nothing goes twice that need not.</summary>
+    internal bool IsPressed(SimTime now) => !double.IsPositiveInfinity(bytesPerSecond) && paced > now + Together;
 
     /// <summary>When the next update is due, by the local clock.</summary>
     internal SimTime Due { get; private set; }
@@ -33,8 +50,11 @@ internal sealed class SendPacer
     /// <summary>Records that an update was sent; the next is due after a rest.</summary>
     /// <param name="now">When it was sent.</param>
     /// <param name="apart">The average distance to the next one.</param>
-    internal void NoteSent(SimTime now, SimDuration apart)
+    /// <param name="bytes">Its length, UDP and IP headers included.</param>
+    internal void NoteSent(SimTime now, SimDuration apart, int bytes = 0)
     {
+        SimDuration allowed = SimDuration.FromSeconds(bytes / bytesPerSecond);
+        apart = apart > allowed ? apart : allowed;
         distance = apart;
         // Updates of one instant count as one, where there is room.
         paced = now == latest && apart == MinDistance ? paced : SimTime.Max(paced, now) + apart;

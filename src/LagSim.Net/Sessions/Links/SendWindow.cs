@@ -8,7 +8,8 @@ namespace LagSim.Net.Sessions.Links;
 /// <summary>Chooses the entries of a link's next update: lost ones first, then new ones, then repetitions as far as allowed.</summary>
 /// <remarks>
 /// <para>Each entry has to be sent once, and again each time that every datagram that carried it was lost (<see cref="Lose"/>). That is
-/// needed on any link. Repeating entries in flight hides losses before they are known, and is for links with spare room.</para>
+/// needed on any link. Entries that go in several updates in a row hide losses before they are known; in how many is the caller's to
+/// say, and it is for links with spare room.</para>
 /// <para>At most <see cref="MaxEntries"/> are in flight. Keyframes are superseded by later ones, so they are repeated once, with the
 /// next.</para>
 /// </remarks>
@@ -24,6 +25,8 @@ internal class SendWindow
     private const int Room = WireFormat.MaxPlainBytes - WireFormat.EmptyUpdateBytes - WireFormat.MaxHashBytes - WireFormat.StartBytes;
 
     private readonly List<(uint First, uint Last)> lost = new(); // ascending, disjoint, above what is acknowledged
+    private readonly uint[] firsts = new uint[LossRuns.MaxCopies]; // the first new entry of each of the newest updates that carried any
+    private int filled; // how many such updates there were
     private uint sent;
     private uint lostUpTo; // the greatest number that was ever lost
 
@@ -44,6 +47,7 @@ internal class SendWindow
     {
         Acknowledged = sent = acknowledged;
         lostUpTo = 0;
+        filled = 0;
         lost.Clear();
     }
 
@@ -118,12 +122,17 @@ internal class SendWindow
     /// <summary>Whether any entry has to be sent.</summary>
     internal bool HasNeeded(IEntrySource source) => lost.Count > 0 || sent < LastOf(source);
 
+    /// <summary>Whether an entry in flight goes again before it is known to be lost.</summary>
+    /// <param name="copies">In how many updates in a row each goes.</param>
+    internal bool HasCopiesLeft(int copies) => FirstToCopy(copies) <= sent;
+
     /// <summary>The size in bytes of the entries that a repetition would carry; 0 if there are none.</summary>
     /// <param name="source">The entries.</param>
-    internal int RepetitionBytes(IEntrySource source)
+    /// <param name="copies">In how many updates in a row each goes.</param>
+    internal int RepetitionBytes(IEntrySource source, int copies)
     {
         int bytes = 0;
-        for (uint number = Acknowledged; number < sent && bytes < Room; number++)
+        for (uint number = FirstToCopy(copies) - 1; number < sent && bytes < Room; number++)
         {
             bytes += UpdateDatagram.LengthOf(source[number + 1]);
         }
@@ -137,8 +146,22 @@ internal class SendWindow
     /// <param name="repetition">How many bytes may be repetition; for an update that is only repetition, its own bytes included.</param>
     /// <param name="own">The bytes of an update besides its entries, UDP and IP headers included.</param>
     /// <param name="room">How many bytes its entries may take; one is always sent.</param>
+    /// <param name="copies">In how many updates in a row each entry goes, as far as there is room.</param>
     /// <returns>How many bytes were repetition, counted likewise.</returns>
-    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own, int room)
+    internal int Fill(UpdateDatagram update, IEntrySource source, int repetition, int own, int room, int copies)
+    {
+        uint before = sent;
+        int repeated = Choose(update, source, repetition, own, room, copies);
+        if (update.Held.Length > 0)
+        {
+            firsts[filled % firsts.Length] = before + 1;
+            filled = filled < 2 * firsts.Length ? filled + 1 : firsts.Length + 1;
+        }
+
+        return repeated;
+    }
+
+    private int Choose(UpdateDatagram update, IEntrySource source, int repetition, int own, int room, int copies)
     {
         uint last = LastOf(source);
         (uint first, uint end) = lost.Count > 0 ? lost[0] : (sent + 1, last);
@@ -147,7 +170,7 @@ internal class SendWindow
         int allowed = isNeeded ? repetition : repetition - own;
         room = isNeeded ? Math.Clamp(room, UpdateDatagram.LengthOf(source[first]), Room) : Math.Min(room, Room);
 
-        // Everything unacknowledged, if that fits one datagram and is not too much repetition.
+        // Everything that has not gone often enough, if that fits one datagram and is not too much repetition.
         bool isMadeUpFor = !HasLost && AreKeyframes(source, last);
         if (!isNeeded && isMadeUpFor)
         {
@@ -155,7 +178,8 @@ internal class SendWindow
             return 0;
         }
 
-        uint from = isMadeUpFor ? Math.Max(Acknowledged + 1, Math.Min(sent, last)) : Acknowledged + 1;
+        uint from = FirstToCopy(copies);
+        from = isMadeUpFor ? Math.Max(from, Math.Min(sent, last)) : from;
         int all = Length(source, from, last);
         int needed = LengthNeeded(source, from, last);
         if (from <= last && all <= room && all - needed <= allowed && (isNeeded || all > 0))
@@ -169,10 +193,10 @@ internal class SendWindow
         if (!isNeeded)
         {
             // The oldest, which the others wait for.
-            uint held = Carry(update, source, Acknowledged + 1, sent, Math.Min(room, allowed));
-            if (held > Acknowledged)
+            uint held = Carry(update, source, from, sent, Math.Min(room, allowed));
+            if (held >= from)
             {
-                return own + Length(source, Acknowledged + 1, held);
+                return own + Length(source, from, held);
             }
 
             update.FirstIndex = sent + 1;
@@ -182,7 +206,7 @@ internal class SendWindow
         int repeated = 0;
         if (Length(source, first, end) is int length && length <= room)
         {
-            while (first > Acknowledged + 1)
+            while (first > from)
             {
                 int more = UpdateDatagram.LengthOf(source[first - 1]);
                 if (length + more > room || repeated + more > allowed)
@@ -206,6 +230,19 @@ internal class SendWindow
 
         sent = Math.Max(sent, carried);
         return repeated;
+    }
+
+    /// <summary>The oldest entry that has not gone in that many updates; the one after the last that was sent if there is none.</summary>
+    /// <remarks>Once one was lost with all its copies, all go again and again until it has come: links lose several datagrams in a row.</remarks>
+    private uint FirstToCopy(int copies)
+    {
+        if (HasLost || copies > filled)
+        {
+            return Acknowledged + 1;
+        }
+
+        uint first = copies <= 1 ? sent + 1 : firsts[(filled - copies + 1) % firsts.Length];
+        return Math.Max(Acknowledged + 1, first);
     }
 
     private uint LastOf(IEntrySource source) => source.Last - Acknowledged > MaxEntries ? Acknowledged + MaxEntries : source.Last;

@@ -7,8 +7,9 @@ namespace LagSim.Net.Sessions.Links;
 
 /// <summary>One end of the exchange of updates with another peer: what arrived, what is in flight, and when the next one is due.</summary>
 /// <remarks>
-/// New entries are sent at once, and unacknowledged ones again each resend interval, as far as the link's <see cref="SpareRate"/> allows.
-/// Beyond that nothing is repeated before it is known to be lost, and new entries wait until they are worth a datagram: two thirds of its
+/// New entries are sent at once, but no more often than a display shows them: what comes up in a sixtieth of a second goes together. Each
+/// goes in as many updates as the losses ask for (<see cref="EntryCopies"/>), as far as the link's <see cref="SpareRate"/> allows. Beyond
+/// that nothing is repeated before it is known to be lost, and new entries wait until they are worth a datagram: two thirds of its
 /// bytes are entries, or half the time that it will wait in the queue has passed, or a tenth of a second. <see cref="CongestionControl"/>
 /// limits the bytes in flight, except for two probes into a silence.
 /// </remarks>
@@ -16,6 +17,9 @@ internal sealed class UpdateLink
 {
     /// <summary>How long an acknowledgement that is not urgent may wait for a datagram that goes out anyway.</summary>
     internal static readonly SimDuration MaxAckDelay = SimDuration.FromMilliseconds(100);
+
+    /// <summary>How long an acknowledgement of events waits for a datagram that goes out anyway: two of a busy link.</summary>
+    internal static readonly SimDuration AnswerDelay = SendPacer.Together * 2;
 
     /// <summary>The bytes of an update besides its entries, without protection: header, state hash, UDP and IP.</summary>
     private const int PlainOwnBytes = WireFormat.EmptyUpdateBytes + WireFormat.StateHashBytes + CongestionControl.DatagramOverhead;
@@ -41,21 +45,22 @@ internal sealed class UpdateLink
 
     /// <param name="ends">The two ends of the link.</param>
     /// <param name="acknowledged">The last of this peer's entries that the other has without a gap.</param>
-    /// <param name="interval">How long unacknowledged entries wait before they are repeated, where there is room.</param>
+    /// <param name="interval">How long entries wait before they go again for lack of new ones, where losses ask for it and there is room.</param>
     /// <param name="outgoing">The update to compose in, one at a time; shared by all links of a session.</param>
     /// <param name="buffer">The buffer to encode into; shared likewise.</param>
     /// <param name="now">The time by the local clock.</param>
     /// <param name="parts">The factory of its parts; null for the usual ones.</param>
+    /// <param name="bytesPerSecond">The most bytes of updates a second, UDP and IP headers included, in the mean.</param>
     internal UpdateLink(
         LinkEnds ends, uint acknowledged, SimDuration interval, UpdateDatagram outgoing, byte[] buffer, SimTime now,
-        LinkParts? parts = null)
+        LinkParts? parts = null, double bytesPerSecond = double.PositiveInfinity)
     {
         this.interval = interval;
         parts ??= new LinkParts();
         this.ends = ends;
         composer = new UpdateComposer(outgoing, buffer);
         hearing = parts.Hearing(now);
-        pacer = new SendPacer(now);
+        pacer = new SendPacer(now, bytesPerSecond);
         spare = parts.Spare();
         SentDatagrams sent = new();
         answers = new AnswerTimer(Trips, sent, MaxAckDelay + interval);
@@ -104,6 +109,9 @@ internal sealed class UpdateLink
 
     /// <summary>When the next update is due, by the local clock.</summary>
     internal SimTime Due => pacer.Due;
+
+    /// <summary>Whether an answer to entries that were sent is awaited.</summary>
+    internal bool IsAwaiting => flight.Sent.Waited > 0;
 
     /// <summary>The bytes of an update besides its entries.</summary>
     private int OwnBytes => PlainOwnBytes + ends.SealBytes;
@@ -171,6 +179,9 @@ internal sealed class UpdateLink
     /// <summary>Answers the other end: at once, or, where that is too much, soon, together with whatever else is to be sent.</summary>
     internal void Answer(SimTime now) => Flush(MayHurry(now) ? now : now + MaxAckDelay);
 
+    /// <summary>Acknowledges events: together with what else is to be sent, and soon.</summary>
+    internal void AnswerSoon(SimTime now) => Flush(now + (MayHurry(now) ? AnswerDelay : MaxAckDelay));
+
     /// <summary>Records a new entry for the other end, of that many bytes.</summary>
     internal void NoteNewEntry(int bytes, SimTime now)
     {
@@ -227,8 +238,9 @@ internal sealed class UpdateLink
         isProbe = false;
 
         // What has to be sent must find the window half empty. An update worth its own bytes is not optional traffic.
-        int most = congestion.IsHalfFull ? 0 : spare.Bytes;
-        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, Path.UpdateRoom));
+        int most = congestion.IsHalfFull || pacer.IsPressed(now) ? 0 : spare.Bytes;
+        int longest = answers.IsOverdue ? PathSize.LeastUpdateRoom : Path.UpdateRoom; // perhaps long ones do not arrive
+        int repeated = Outgoing.Fill(update, source, most, OwnBytes, Math.Min(congestion.DatagramBytes - OwnBytes, longest), flight.Copies);
         int needed = update.EncodedLength - WireFormat.EmptyUpdateBytes - repeated;
         spare.Spend(repeated + Math.Max(0, OwnBytes - (Math.Max(0, needed) / 2)));
     }
@@ -250,7 +262,9 @@ internal sealed class UpdateLink
             unsent.Clear();
         }
 
-        pacer.NoteSent(now, update.Held.Length > 0 ? Distance(bytes.Length + ends.SealBytes) : SendPacer.MinDistance);
+        int length = bytes.Length + ends.SealBytes;
+        pacer.NoteSent(
+            now, Distance(update.Held.Length > 0 ? length : 0, isFull: hasNeeded), length + CongestionControl.DatagramOverhead);
         if (hasNeeded && !isHeldBack)
         {
             pacer.GoOn(now);
@@ -279,19 +293,29 @@ internal sealed class UpdateLink
             Flush(at + flight.LongestTrip + (flight.LongestTrip / 8));
         }
 
-        if ((isUrgent || Outgoing.HasLost) && !flight.Congestion.IsHalfFull)
+        int copies = flight.Copies;
+        if ((isUrgent || Outgoing.HasLost) && Outgoing.HasCopiesLeft(copies) && !flight.Congestion.IsHalfFull)
         {
-            SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source));
-            Flush(now + (interval > affordable ? interval : affordable));
+            SimDuration affordable = spare.WaitFor(OwnBytes + Outgoing.RepetitionBytes(source, copies));
+            SimDuration wanted = flight.RepeatDelay(interval);
+            Flush(now + (wanted > affordable ? wanted : affordable));
         }
     }
 
-    /// <summary>The average distance between updates with entries, by their length.</summary>
-    private SimDuration Distance(int length)
+    /// <summary>The average distance to the next update.</summary>
+    /// <param name="length">The length of one with entries; 0 for one without, which the window does not count.</param>
+    /// <param name="isFull">Whether more had to go than it could carry.</param>
+    private SimDuration Distance(int length, bool isFull)
     {
+        SimDuration least = isFull ? SendPacer.MinDistance : SendPacer.Together;
+        if (length == 0 || !Trips.IsMeasured)
+        {
+            return least;
+        }
+
         SimDuration even = SimDuration.FromSeconds(
             Trips.Mean.ToSeconds() * (length + CongestionControl.DatagramOverhead) / (PaceGain * flight.Congestion.Window));
-        return Trips.IsMeasured && even > SendPacer.MinDistance ? even : SendPacer.MinDistance;
+        return even > least ? even : least;
     }
 
     /// <summary>Whether an update may be sent for little.</summary>
