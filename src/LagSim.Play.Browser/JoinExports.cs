@@ -5,6 +5,7 @@ using System.Runtime.InteropServices.JavaScript;
 using System.Runtime.Versioning;
 using System.Text;
 using System.Threading.Tasks;
+using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;

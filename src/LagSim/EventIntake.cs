@@ -19,9 +19,9 @@ internal sealed class EventIntake(
             return SubmitResult.TooOld;
         }
 
-        if (external.Kind == EventKind.Command)
+        if (EventKinds.IsForRules(external.Kind))
         {
-            return InsertCommand(external, key);
+            return InsertTold(external, key);
         }
 
         int slot = bodies.SlotOf(external.Body);
@@ -57,9 +57,9 @@ internal sealed class EventIntake(
     /// <summary>Retracts an external event; false if it is not there (any more).</summary>
     internal bool Retract(in ExternalEvent external)
     {
-        if (external.Kind == EventKind.Command)
+        if (EventKinds.IsForRules(external.Kind))
         {
-            return RetractCommand(external);
+            return RetractTold(external);
         }
 
         int slot = bodies.SlotOf(external.Body);
@@ -94,7 +94,7 @@ internal sealed class EventIntake(
         return true;
     }
 
-    private SubmitResult InsertCommand(in ExternalEvent external, in EventKey key)
+    private SubmitResult InsertTold(in ExternalEvent external, in EventKey key)
     {
         if (rules!.Has(key))
         {
@@ -108,13 +108,13 @@ internal sealed class EventIntake(
             rewinder.MarkRules(key);
         }
 
-        rules.Add(key, new RuleTrigger(external.Command));
+        rules.Add(key, new RuleTrigger(external));
         return isKnown ? SubmitResult.RolledBack : SubmitResult.Queued;
     }
 
-    private bool RetractCommand(in ExternalEvent external)
+    private bool RetractTold(in ExternalEvent external)
     {
-        if (!rules!.TryFindCommand(external.Key.Origin, out EventKey key) || key.Time < progress.HistoryEdge)
+        if (!rules!.TryFindTold(external.Key.Origin, out EventKey key) || key.Time < progress.HistoryEdge)
         {
             return false;
         }

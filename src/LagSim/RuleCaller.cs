@@ -183,6 +183,9 @@ internal class RuleCaller
             case EventKind.Command:
                 rules.OnCommand(world, call.Key.Peer, call.Trigger.Command!);
                 break;
+            case EventKind.Player:
+                rules.OnPlayer(world, call.Trigger.Player!);
+                break;
             case EventKind.Timer:
                 memory.Cancel(unchecked((int)call.Key.Sequence));
                 rules.OnTimer(world, unchecked((int)call.Key.Sequence));

@@ -5,6 +5,7 @@ using System.IO;
 using System.Linq;
 using System.Net;
 using System.Threading;
+using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 

@@ -4,6 +4,7 @@ using System.CommandLine;
 using System.Globalization;
 using System.Linq;
 using LagSim.Cli.Output;
+using LagSim.Events;
 using LagSim.Net.Sessions;
 using LagSim.Time;
 

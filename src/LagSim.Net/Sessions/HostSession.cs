@@ -147,7 +147,7 @@ public sealed class HostSession : Session
         get
         {
             host.Parts.Owner.ThrowIfForeign();
-            return host.Budget.Costs;
+            return host.Enforcer.Costs;
         }
     }
 

@@ -1,4 +1,5 @@
 using System;
+using LagSim.Events;
 using LagSim.Time;
 
 namespace LagSim.Net.Sessions;

@@ -1,5 +1,6 @@
 using System;
 using System.Threading;
+using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Protection;
 using LagSim.Net.Strategies;

@@ -1,12 +1,14 @@
 using System;
+using System.Text;
 using LagSim.Events;
+using LagSim.Net.Protection;
 using LagSim.Scenes;
 using LagSim.Time;
 
 namespace LagSim.Net.Wire;
 
 /// <summary>How an external event is encoded, and which events can be.</summary>
-/// <remarks>Pure functions, safe on any thread, without allocation.</remarks>
+/// <remarks>Pure functions, safe on any thread, without allocation but for what rules are told.</remarks>
 internal static class EventFormat
 {
     /// <summary>The length of the longest event, a spawn, in bytes.</summary>
@@ -24,6 +26,7 @@ internal static class EventFormat
     private const int HeadBytes = 14; // kind, peer, sequence, time
     private const int BodyBytes = 8;
     private const int CommandHeadBytes = 3; // number, length
+    private const int PlayerHeadBytes = 12; // what happened, number, role, identity, length of the name
     private const int BodyEventBytes = HeadBytes + BodyBytes;
     internal const int VectorBytes = 24;
     internal const int FilterBytes = 8;
@@ -50,6 +53,11 @@ internal static class EventFormat
             return MinBytes + command.Length;
         }
 
+        if (what.PlayerEvent is PlayerEvent player)
+        {
+            return HeadBytes + PlayerHeadBytes + Encoding.UTF8.GetByteCount(player.Name);
+        }
+
         int has = what.Kind == EventKind.Spawn ? Has(what) : 0;
         return ShortestLength(what.Kind) + ((has & PlayersFlag) != 0 ? PlayersBytes : 0) + ((has & FilterFlag) != 0 ? FilterBytes : 0)
             + ((has & TagFlag) != 0 ? TagBytes : 0) + (SaysStrength(what) ? StrengthBytes : 0);
@@ -70,7 +78,7 @@ internal static class EventFormat
     /// finite numbers, and for a spawn a <see cref="BodySpec"/> within its documented ranges. Every decoded event is well formed.
     /// </summary>
     public static bool IsWellFormed(in ExternalEvent what) =>
-        (ShortestLength(what.Kind) > 0 || what.Command is not null)
+        (ShortestLength(what.Kind) > 0 || what.Command is not null || (what.PlayerEvent is PlayerEvent player && PlayerName.WhyNone(player.Name) is null))
         && what.Sequence >= 1
         && WireFormat.IsInRange(what.Time)
         && what.Position.IsFinite
@@ -97,6 +105,12 @@ internal static class EventFormat
         if (what.Command is GameCommand command)
         {
             Write(ref writer, command);
+            return;
+        }
+
+        if (what.PlayerEvent is PlayerEvent player)
+        {
+            Write(ref writer, player);
             return;
         }
 
@@ -148,7 +162,7 @@ internal static class EventFormat
         EventKind kind = (EventKind)(first & KindBits);
         bool saysStrength = kind == EventKind.Grab && first >> OccupiedShift == HasStrength;
         WhenOccupied whenOccupied = saysStrength ? WhenOccupied.Overlap : (WhenOccupied)(first >> OccupiedShift);
-        reader.Require((ShortestLength(kind) > 0 || kind == EventKind.Command)
+        reader.Require((ShortestLength(kind) > 0 || kind is EventKind.Command or EventKind.Player)
             && (whenOccupied == WhenOccupied.Overlap || kind is EventKind.Spawn or EventKind.Teleport));
         byte peer = reader.ReadByte();
         uint sequence = reader.ReadUInt32();
@@ -156,6 +170,12 @@ internal static class EventFormat
         if (kind == EventKind.Command)
         {
             return ReadCommand(ref reader, time, peer, sequence);
+        }
+
+        if (kind == EventKind.Player)
+        {
+            reader.Require(peer == 0); // only the host says so
+            return ReadPlayer(ref reader, time, sequence);
         }
 
         BodySpec spec = kind == EventKind.Spawn ? ReadSpecHead(ref reader) : default;
@@ -208,6 +228,27 @@ internal static class EventFormat
         reader.Require(length <= GameCommand.MaxBytes && sequence >= 1 && WireFormat.IsInRange(time));
         ReadOnlySpan<byte> data = reader.ReadBytes(Math.Min(length, GameCommand.MaxBytes));
         return reader.Refusal == WireRefusal.None ? PlayerAction.Command(new GameCommand(number, data)).Stamp(time, peer, sequence) : default;
+    }
+
+    private static void Write(ref WireWriter writer, PlayerEvent player)
+    {
+        writer.WriteByte((byte)player.Kind);
+        writer.WriteByte(player.Number);
+        writer.WriteByte((byte)player.Role);
+        writer.WriteUInt64(player.Identity);
+        WireText.Write(ref writer, player.Name);
+    }
+
+    private static ExternalEvent ReadPlayer(ref WireReader reader, SimTime time, uint sequence)
+    {
+        PlayerEventKind kind = (PlayerEventKind)reader.ReadByte();
+        byte number = reader.ReadByte();
+        PeerRole role = (PeerRole)reader.ReadByte();
+        ulong identity = reader.ReadUInt64();
+        string name = RosterEntry.ReadName(ref reader);
+        reader.Require(kind is >= PlayerEventKind.Joined and <= PlayerEventKind.Left && number <= PlayerEvent.MaxNumber
+            && role is >= PeerRole.Player and <= PeerRole.Bot && identity != 0 && sequence >= 1 && WireFormat.IsInRange(time));
+        return reader.Refusal == WireRefusal.None ? new PlayerEvent(kind, number, identity, name, role).Stamp(time, sequence) : default;
     }
 
     private static PlayerAction Action(

@@ -41,6 +41,12 @@ public enum EventKind : byte
     /// <summary>External: a body disappears.</summary>
     Remove = 15,
 
+    /// <summary>
+    /// External: the host says that a player joined, is away, returned or left. It comes before the commands of its tick, so that a player's
+    /// first finds it there.
+    /// </summary>
+    Player = 16,
+
     /// <summary>External: what a body collides with changes. It comes after a removal, so of what is removed at that tick it changes nothing.</summary>
     SetFilter = 17,
 

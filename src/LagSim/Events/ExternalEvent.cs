@@ -6,7 +6,8 @@ using LagSim.Time;
 namespace LagSim.Events;
 
 /// <summary>
-/// An event that did not come from the model: a player's action on a body, stamped (time, peer, sequence) once and for all.
+/// An event that did not come from the model: a player's action on a body, or a word to the game's rules, stamped (time, peer, sequence) once
+/// and for all.
 /// </summary>
 /// <remarks>
 /// <para>An event for a body that is not there at its time has no effect. It may still get one if a late event puts the body there.</para>
@@ -14,14 +15,16 @@ namespace LagSim.Events;
 /// </remarks>
 public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 {
+    private readonly object? told; // to rules: a GameCommand or a PlayerEvent
+
     private ExternalEvent(
         EventKind kind, SimTime time, byte peer, uint sequence, BodyId body, Vector3D position, Vector3D velocity, BodySpec spec, Vector3D spin = default,
-        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default, GameCommand? command = null,
+        CollisionFilter filter = default, PeerSet players = default, WhenOccupied whenOccupied = default, object? told = null,
         double maxForce = 0, double maxPower = 0)
     {
         MaxForce = maxForce;
         MaxPower = maxPower;
-        Command = command;
+        this.told = told;
         Kind = kind;
         Time = time;
         Peer = peer;
@@ -48,7 +51,10 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     /// <summary>The number of the event at its peer, counted from 1.</summary>
     public uint Sequence { get; }
 
-    /// <summary>The body it is done to; for a command, which is done to none, the identity (peer, sequence, 0), of no body.</summary>
+    /// <summary>
+    /// The body it is done to. For what is done to none it is the identity of no body: (peer, sequence, 0) for a command, and (0, sequence,
+    /// the player's number) for a <see cref="EventKind.Player"/>.
+    /// </summary>
     public BodyId Body { get; }
 
     /// <summary>
@@ -84,7 +90,10 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public double MaxPower { get; }
 
     /// <summary>What a <see cref="EventKind.Command"/> tells the game's rules; null for any other.</summary>
-    public GameCommand? Command { get; }
+    public GameCommand? Command => told as GameCommand;
+
+    /// <summary>What a <see cref="EventKind.Player"/> says of a player; null for any other.</summary>
+    public PlayerEvent? PlayerEvent => told as PlayerEvent;
 
     /// <summary>Its place in the canonical order.</summary>
     public EventKey Key => new(Time, 0, Kind, Body, Body, Peer, Sequence);
@@ -147,11 +156,15 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
 
     /// <summary>The peer tells the game's rules something.</summary>
     internal static ExternalEvent Tell(SimTime time, byte peer, uint sequence, GameCommand command) =>
-        new(EventKind.Command, time, peer, sequence, new BodyId(peer, sequence, 0), default, default, default, command: command);
+        new(EventKind.Command, time, peer, sequence, new BodyId(peer, sequence, 0), default, default, default, told: command);
+
+    /// <summary>The host says something of a player to the game's rules.</summary>
+    internal static ExternalEvent OfPlayer(SimTime time, uint sequence, PlayerEvent player) =>
+        new(EventKind.Player, time, 0, sequence, new BodyId(0, sequence, player.Number), default, default, default, told: player);
 
     /// <summary>The same event at another time: how a strategy that does not heal applies a late event.</summary>
     public ExternalEvent At(SimTime time) =>
-        new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Players, WhenOccupied, Command, MaxForce, MaxPower);
+        new(Kind, time, Peer, Sequence, Body, Position, Velocity, Spec, Spin, Filter, Players, WhenOccupied, told, MaxForce, MaxPower);
 
     /// <inheritdoc/>
     public bool Equals(ExternalEvent other) =>
@@ -159,7 +172,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
         && Position.Equals(other.Position) && Velocity.Equals(other.Velocity) && Spec.Equals(other.Spec) && Spin.Equals(other.Spin)
         && Filter == other.Filter && Players == other.Players && WhenOccupied == other.WhenOccupied
         && MaxForce.Equals(other.MaxForce) && MaxPower.Equals(other.MaxPower)
-        && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
+        && Equals(told, other.told);
 
     /// <inheritdoc/>
     public override bool Equals(object? obj) => obj is ExternalEvent other && Equals(other);
@@ -168,7 +181,7 @@ public readonly struct ExternalEvent : IEquatable<ExternalEvent>
     public override int GetHashCode() => Time.GetHashCode() ^ ((int)Sequence * 397) ^ (Peer << 24);
 
     /// <summary>Kind, body, time and origin, for logs and error messages.</summary>
-    public override string ToString() => Command is not null
-        ? string.Format(CultureInfo.InvariantCulture, "{0} at {1} by {2}.{3}", Command, Time.ToShortString(), Peer, Sequence)
+    public override string ToString() => told is not null
+        ? string.Format(CultureInfo.InvariantCulture, "{0} at {1} by {2}.{3}", told, Time.ToShortString(), Peer, Sequence)
         : string.Format(CultureInfo.InvariantCulture, "{0} of body {1} at {2} by {3}.{4}", Kind, Body, Time.ToShortString(), Peer, Sequence);
 }

@@ -34,13 +34,13 @@ public static class ExternalEventCheck
     internal static void ThrowIfUnfit(in ExternalEvent external, Scene scene)
     {
         Subject whose = new(external);
-        if (external.Kind == EventKind.Command)
+        if (EventKinds.IsForRules(external.Kind))
         {
-            CheckCommand(external, scene);
+            CheckTold(external, scene);
             return;
         }
 
-        if (!EventKinds.IsOfPlayers(external.Kind))
+        if (!EventKinds.IsExternal(external.Kind))
         {
             throw new SceneException($"{external.Kind} is not an external event.");
         }
@@ -96,16 +96,21 @@ public static class ExternalEventCheck
         }
     }
 
-    private static void CheckCommand(in ExternalEvent external, Scene scene)
+    private static void CheckTold(in ExternalEvent external, Scene scene)
     {
         if (scene.Rules is null)
         {
             throw new SceneException($"{external} is no event of this scene: it has no rules that could hear it.");
         }
 
+        if (external.PlayerEvent is not null && !scene.Rules.HearsPlayers)
+        {
+            throw new SceneException($"{external} is no event of this scene: its rules '{scene.Rules}' do not hear of players (HearsPlayers).");
+        }
+
         if (external.Sequence == 0)
         {
-            throw new SceneException($"The sequence number of {external.Command} is 0; a peer counts its events from 1.");
+            throw new SceneException($"The sequence number of {(object?)external.Command ?? external.PlayerEvent} is 0; a peer counts its events from 1.");
         }
     }
 

@@ -55,7 +55,7 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, EventWork 
 
         Span<int> who = stackalloc int[2];
         int count = 0;
-        if (key.Kind is not (EventKind.Command or EventKind.Timer or EventKind.Start))
+        if (key.Kind is not (EventKind.Command or EventKind.Player or EventKind.Timer or EventKind.Start))
         {
             count = Add(who, 0, key.Body);
             count = key.Other == key.Body ? count : Add(who, count, key.Other);

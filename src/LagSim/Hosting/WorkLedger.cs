@@ -221,15 +221,23 @@ public sealed class WorkLedger : IWorkObserver
     /// <inheritdoc/>
     /// <remarks>
     /// What rules compute in a call is the game's own, and nobody's. That there is a call is charged like the event for which it is made: to
-    /// the player of a command, or whose bodies took part.
+    /// the player of a command, the player of whom the host says something, or whose bodies took part.
     /// </remarks>
     WorkVerdict IWorkObserver.OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {
         Cost cost = Measured(amount);
-        byte owner = OwnerOf(bodies, key.Time, table, key.Kind == EventKind.Command ? key.Peer : Nobody, out bool isShared);
+        byte owner = OwnerOf(bodies, key.Time, table, CallerOf(key), out bool isShared);
         bool goesOn = Charge(bodies, owner, isShared, cost, key.Time, isAgain, out _);
         return thisStep >= MaxWorkPerStep ? WorkVerdict.StopNow : goesOn ? WorkVerdict.GoOn : WorkVerdict.StopAfterInstant;
     }
+
+    /// <summary>The player who caused a call that is for no body.</summary>
+    private static byte CallerOf(in EventKey key) => key.Kind switch
+    {
+        EventKind.Command => key.Peer,
+        EventKind.Player => (byte)key.Body.Index,
+        _ => Nobody,
+    };
 
     /// <summary>Whose account bodies are on: of several that of the last, and if they are on none the one that is given.</summary>
     /// <param name="bodies">The places of the bodies.</param>

@@ -123,6 +123,19 @@ public abstract class GameRules : SceneRules
     {
     }
 
+    /// <summary>
+    /// The host says that a player joined, is away, returned or left: the host itself and those who are in already at the very start, anybody
+    /// later when the host notices. Only if <see cref="SceneRules.HearsPlayers"/>; a scene refuses rules that override this and not that.
+    /// </summary>
+    /// <remarks>
+    /// All of one player come in order, as <see cref="PlayerEventKind"/> says. A player stamps what it does by its own clock, which may be off by
+    /// a little, so its first command may come just before <see cref="PlayerEventKind.Joined"/>. Of two who change places those who go are
+    /// heard first.
+    /// </remarks>
+    public virtual void OnPlayer(RuleWorld world, PlayerEvent player)
+    {
+    }
+
     /// <summary>An impact that the rules hear; the bodies already move as they do after it. A scene refuses rules that override this and not
     /// <see cref="HearsContact"/>.</summary>
     public virtual void OnContact(RuleWorld world, in RuleContact contact)

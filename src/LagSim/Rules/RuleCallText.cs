@@ -13,6 +13,7 @@ internal static class RuleCallText
     {
         EventKind.Start => nameof(GameRules.OnStart),
         EventKind.Command => nameof(GameRules.OnCommand),
+        EventKind.Player => nameof(GameRules.OnPlayer),
         EventKind.Timer => nameof(GameRules.OnTimer),
         EventKind.Impact => nameof(GameRules.OnContact),
         EventKind.Crossing => nameof(GameRules.OnCrossing),
@@ -33,6 +34,7 @@ internal static class RuleCallText
     {
         EventKind.Start => "",
         EventKind.Command => $" for command {trigger.Command!.Number} of peer {key.Peer}",
+        EventKind.Player => $" for {trigger.Player}",
         EventKind.Timer => $" for timer {unchecked((int)key.Sequence)}",
         EventKind.Impact => $" for {scene.Describe(trigger.Contact.First)} and {Other(scene, trigger.Contact)}",
         EventKind.Crossing =>

@@ -166,11 +166,11 @@ internal class RuleLog : IRuleTriggers
         return at < calls.Count && calls[at].Key == key && !calls[at].IsGone;
     }
 
-    /// <summary>Finds the command of a peer and sequence, wherever it takes effect.</summary>
-    internal bool TryFindCommand(ulong origin, out EventKey key)
+    /// <summary>Finds what a peer told rules as its event of a sequence, wherever it takes effect.</summary>
+    internal bool TryFindTold(ulong origin, out EventKey key)
     {
         int n = calls.Count - 1;
-        while (n >= 0 && (calls[n].Key.Kind != EventKind.Command || calls[n].Key.Origin != origin || calls[n].IsGone))
+        while (n >= 0 && (!EventKinds.IsForRules(calls[n].Key.Kind) || calls[n].Key.Origin != origin || calls[n].IsGone))
         {
             n--;
         }
@@ -179,7 +179,7 @@ internal class RuleLog : IRuleTriggers
         return n >= 0;
     }
 
-    /// <summary>What a call was for, a command, never was.</summary>
+    /// <summary>What a call was for, something that rules were told, never was.</summary>
     internal void Retract(in EventKey key)
     {
         int at = FirstFrom(key);

@@ -6,9 +6,11 @@ namespace LagSim.Rules;
 /// <summary>What rules are called for, besides its key: the kind of the key tells which of these counts.</summary>
 internal readonly struct RuleTrigger
 {
+    private readonly object? told;
+
     internal RuleTrigger(in ImpactContact contact) => Contact = contact;
 
-    internal RuleTrigger(GameCommand? command) => Command = command;
+    internal RuleTrigger(in ExternalEvent external) => told = (object?)external.Command ?? external.PlayerEvent;
 
     internal RuleTrigger(bool entered) => Entered = entered;
 
@@ -16,7 +18,10 @@ internal readonly struct RuleTrigger
     internal ImpactContact Contact { get; }
 
     /// <summary>What a player told.</summary>
-    internal GameCommand? Command { get; }
+    internal GameCommand? Command => told as GameCommand;
+
+    /// <summary>What the host says of a player.</summary>
+    internal PlayerEvent? Player => told as PlayerEvent;
 
     /// <summary>Whether a body enters a sensor, for a crossing.</summary>
     internal bool Entered { get; }
@@ -32,5 +37,5 @@ internal readonly struct RuleTrigger
     /// <summary>Whether two triggers of one place in the order say the same, to the bit.</summary>
     internal bool IsSameAs(in RuleTrigger other) =>
         Entered == other.Entered && Contact.Position.Equals(other.Contact.Position) && Contact.ClosingSpeed.Equals(other.Contact.ClosingSpeed)
-        && (ReferenceEquals(Command, other.Command) || (Command is not null && Command.Equals(other.Command)));
+        && Equals(told, other.told);
 }

@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics.CodeAnalysis;
 using System.Reflection;
+using LagSim.Events;
 using LagSim.Scenes;
 using LagSim.Timelines;
 
@@ -13,6 +14,7 @@ internal static class UnheardRules
     private static readonly Type[] OfContact = [typeof(BodyId), typeof(BodyId), typeof(int)];
     private static readonly Type[] OfCrossing = [typeof(BodyId), typeof(int)];
     private static readonly Type[] OfBody = [typeof(RuleWorld), typeof(BodyId)];
+    private static readonly Type[] OfPlayer = [typeof(RuleWorld), typeof(PlayerEvent)];
     private static readonly Type[] OfLoss = [typeof(RuleWorld), typeof(BodyId), typeof(LossReason)];
 
     /// <summary>What is wrong with rules of a type, as the rest of a sentence; null if nothing is.</summary>
@@ -27,7 +29,10 @@ internal static class UnheardRules
                 nameof(GameRules.HearsCrossing), Overrides(rules, nameof(GameRules.HearsCrossing), OfCrossing))
             ?? Lacks(nameof(GameRules.OnSpawned), OfBody, nameof(GameRules.HearsBodies), hearsBodies)
             ?? Lacks(nameof(GameRules.OnRemoved), OfBody, nameof(GameRules.HearsBodies), hearsBodies)
-            ?? Lacks(nameof(GameRules.OnLost), OfLoss, nameof(GameRules.HearsBodies), hearsBodies);
+            ?? Lacks(nameof(GameRules.OnLost), OfLoss, nameof(GameRules.HearsBodies), hearsBodies)
+            ?? Lacks(
+                nameof(GameRules.OnPlayer), OfPlayer, nameof(SceneRules.HearsPlayers),
+                Overrides(rules, "get_" + nameof(SceneRules.HearsPlayers), Type.EmptyTypes));
 
         string? Lacks(string called, Type[] parameters, string asked, bool hears) =>
             !hears && Overrides(rules, called, parameters) ? $"override {called} but not {asked}, so it would never be called: override {asked} too" : null;
@@ -36,5 +41,7 @@ internal static class UnheardRules
     // A method of the same name that hides the base's is none: the world calls the base's.
     private static bool Overrides([DynamicallyAccessedMembers(DynamicallyAccessedMemberTypes.PublicMethods)] Type rules, string method, Type[] parameters) =>
         rules.GetMethod(method, parameters) is MethodInfo found
-            && found.DeclaringType != typeof(GameRules) && found.GetBaseDefinition().DeclaringType == typeof(GameRules);
+            && !IsBase(found.DeclaringType) && IsBase(found.GetBaseDefinition().DeclaringType);
+
+    private static bool IsBase(Type? type) => type == typeof(GameRules) || type == typeof(SceneRules);
 }

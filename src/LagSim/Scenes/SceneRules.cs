@@ -38,6 +38,9 @@ public abstract class SceneRules
     /// <summary>The size of the state of a body that has one, in bytes; 0, the default, for none. Part of the scene's hash.</summary>
     public int BodyBytes { get; private protected set; }
 
+    /// <summary>Whether they hear of players (<see cref="Rules.GameRules.OnPlayer"/>); default no. Must always give the same.</summary>
+    public virtual bool HearsPlayers => false;
+
     /// <summary>What makes them no rules for a scene, as the rest of a sentence about them; null if nothing does.</summary>
     internal abstract string? Problem { get; }
 

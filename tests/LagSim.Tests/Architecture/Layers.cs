@@ -96,7 +96,6 @@ internal static class Layers
         new("LagSim.Net.Sessions.PlayerCost", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.PlayerExpulsion", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.PlayerPass", SessionWords, ForUsers),
-        new("LagSim.Net.Sessions.PeerRole", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.RosterChange", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.RosterChangeKind", SessionWords, ForUsers),
         new("LagSim.Net.Sessions.RosterMember", SessionWords, ForUsers),

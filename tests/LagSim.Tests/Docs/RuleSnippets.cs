@@ -46,6 +46,31 @@ public sealed class Football : GameRules
     public override void OnTimer(RuleWorld world, int timer) => world.State<Score>().IsOver = 1;
 }
 
+public struct Lobby
+{
+    public ulong Leader; // by identity, 0 for nobody
+    public ulong Away; // a bit for each number
+    public long Playing;
+}
+
+public sealed class LobbyRules : GameRules
+{
+    public LobbyRules()
+        : base("lobby", version: 1) => WithWorldState<Lobby>();
+
+    public override bool HearsPlayers => true;
+
+    public override void OnPlayer(RuleWorld world, PlayerEvent player)
+    {
+        ref Lobby lobby = ref world.State<Lobby>();
+        bool isOut = player.Kind == PlayerEventKind.Left;
+        lobby.Playing += isOut ? -1 : player.Kind == PlayerEventKind.Joined ? 1 : 0;
+        lobby.Away &= ~(1UL << player.Number);
+        lobby.Away |= player.Kind == PlayerEventKind.Away ? 1UL << player.Number : 0;
+        lobby.Leader = isOut && lobby.Leader == player.Identity ? 0 : lobby.Leader == 0 && !isOut ? player.Identity : lobby.Leader;
+    }
+}
+
 /// <summary>The code of docs/RULES.md: <see cref="SnippetTests"/> holds the page to it and runs it.</summary>
 internal static class RuleSnippets
 {

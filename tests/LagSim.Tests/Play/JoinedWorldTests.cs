@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
+using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;

@@ -37,11 +37,15 @@ internal sealed class GivenRules : GameRules
 
     internal Action<RuleWorld, BodyId>? Removed { get; init; }
 
+    internal Action<RuleWorld, PlayerEvent>? Player { get; init; }
+
     internal bool HearsAll { get; init; }
 
     internal Func<bool>? AskedForBodies { get; init; }
 
     public override bool HearsBodies => HearsAll && AskedForBodies?.Invoke() != false;
+
+    public override bool HearsPlayers => Player is not null;
 
     public override bool HearsContact(BodyId first, BodyId second, int surface) => Hears?.Invoke(first, second, surface) == true;
 
@@ -54,6 +58,8 @@ internal sealed class GivenRules : GameRules
     public override void OnTimer(RuleWorld world, int timer) => Timer?.Invoke(world, timer);
 
     public override void OnCommand(RuleWorld world, byte player, GameCommand command) => Command?.Invoke(world, player, command);
+
+    public override void OnPlayer(RuleWorld world, PlayerEvent player) => Player?.Invoke(world, player);
 
     public override void OnContact(RuleWorld world, in RuleContact contact) => Contact?.Invoke(world, contact);
 

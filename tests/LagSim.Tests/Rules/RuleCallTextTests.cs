@@ -15,6 +15,7 @@ public sealed class RuleCallTextTests
         { "start", "failed at 0s, round 0, in OnStart: broken" },
         { "timer", "failed at 0.25s, round 0, in OnTimer for timer 7: broken" },
         { "command", "failed at 0.125s, round 0, in OnCommand for command 5 of peer 2: broken" },
+        { "player", "failed at 0.125s, round 0, in OnPlayer for Joined of bot 3 Ann: broken" },
         { "plane", "in OnContact for body 'ball' (0.0.0) and plane 'floor': broken" },
         { "sphere", "in OnContact for body 'high' (0.0.1) and static sphere 'dome': broken" },
         { "body", "in OnContact for body 'ball' (0.0.0) and body 2.1.0: broken" },
@@ -35,6 +36,7 @@ public sealed class RuleCallTextTests
         SimulationException failure = Assert.Throws<SimulationException>(() => Run(scene, 2, [
             PlayerAction.Spawn(Ball(), V(0, 5), V(0, -8)).Stamp(At(0.0625), 2, 1),
             PlayerAction.Command(new GameCommand(5)).Stamp(At(0.125), 2, 2),
+            new PlayerEvent(PlayerEventKind.Joined, 3, 7, "Ann", PeerRole.Bot).Stamp(At(0.125), 1),
             PlayerAction.Remove(new BodyId(2, 1, 0)).Stamp(At(0.75), 2, 3)]));
         Assert.StartsWith("The rules 'given 1' failed at ", failure.Message, StringComparison.Ordinal);
         Assert.EndsWith($"{part}.", failure.Message, StringComparison.Ordinal);
@@ -48,6 +50,7 @@ public sealed class RuleCallTextTests
             w.SetTimer(7, SimDuration.FromSeconds(0.25));
         },
         Timer = (_, _) => Break(which == "timer"),
+        Player = (_, _) => Break(which == "player"),
         Command = (_, _, _) => Break(which == "command"),
         Hears = (_, _, _) => Break(which == "heard"),
         Contact = (_, contact) => Break(

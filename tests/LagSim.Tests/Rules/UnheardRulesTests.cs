@@ -1,4 +1,5 @@
 using System;
+using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Timelines;
@@ -20,6 +21,7 @@ public sealed class UnheardRulesTests
             (new SpawnedAlone(), "OnSpawned", "HearsBodies"),
             (new RemovedAlone(), "OnRemoved", "HearsBodies"),
             (new LostAlone(), "OnLost", "HearsBodies"),
+            (new PlayerAlone(), "OnPlayer", "HearsPlayers"),
             (new Derived(), "OnContact", "HearsContact"),
             (new Hiding(), "OnContact", "HearsContact"),
         ];
@@ -33,7 +35,7 @@ public sealed class UnheardRulesTests
     public void Build_WithMethodsThatAreCalledOrAreOthers_IsAScene()
     {
         Assert.All(
-            new GameRules[] { new Heard(), new HeardByItsBase(), new Silent(), new Overloads(), new GivenRules(bodies: true) }, rules => Assert.Same(rules, Built(rules).Rules));
+            new GameRules[] { new Heard(), new HeardByItsBase(), new Silent(), new Overloads(), new GivenRules(bodies: true), new GivenRules { Player = (_, _) => { } } }, rules => Assert.Same(rules, Built(rules).Rules));
     }
 
     [Fact]
@@ -65,6 +67,13 @@ public sealed class UnheardRulesTests
     private sealed class CrossingAlone() : GameRules("crossing alone", 1)
     {
         public override void OnCrossing(RuleWorld world, in Crossing crossing)
+        {
+        }
+    }
+
+    private sealed class PlayerAlone() : GameRules("player alone", 1)
+    {
+        public override void OnPlayer(RuleWorld world, PlayerEvent player)
         {
         }
     }

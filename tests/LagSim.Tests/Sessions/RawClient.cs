@@ -88,7 +88,7 @@ internal sealed class RawClient
     {
         Received();
         byte[] bytes = new byte[WireFormat.JoinBytes];
-        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.Hash, (uint)Simulation.FoldVersion, role: role).Encode(bytes);
+        new JoinDatagram(nonce, Cookie(nonce), Prove(nonce), group.Scene.HashButSeed, (uint)Simulation.FoldVersion, role: role).Encode(bytes);
         Send(bytes);
         group.Run(0.01);
         while (port.TryReceive(buffer, out _, out _))

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Reflection;
 using LagSim.Corpus;
+using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;

@@ -96,19 +96,19 @@ public class HostileBytesTests
     [Fact]
     public void TryDecode_ValidAndHostileUpdates_AllocatesNothing()
     {
-        // A command's bytes, which rules keep, are the one thing that is copied.
-        ILookup<int, byte[]> byCommands = Valid(20).ToLookup(Commands);
-        Assert.Equal(0, Allocated(byCommands[0]));
-        foreach (IGrouping<int, byte[]> some in byCommands.Where(group => group.Key > 0))
+        // What rules are told, and may keep, is the one thing that is copied.
+        ILookup<int, byte[]> byTold = Valid(20).ToLookup(Told);
+        Assert.Equal(0, Allocated(byTold[0]));
+        foreach (IGrouping<int, byte[]> some in byTold.Where(group => group.Key > 0))
         {
             Assert.InRange(Allocated(some), 1, 2 * some.Count() * some.Key * (GameCommand.MaxBytes + 96));
         }
     }
 
-    private int Commands(byte[] bytes)
+    private int Told(byte[] bytes)
     {
         bool isUpdate = scratch.TryDecode(bytes, out _);
-        return isUpdate ? scratch.Entries.ToArray().Count(entry => entry.Event.Kind == EventKind.Command) : 0;
+        return isUpdate ? scratch.Entries.ToArray().Count(entry => entry.Event.Kind is EventKind.Command or EventKind.Player) : 0;
     }
 
     private long Allocated(IEnumerable<byte[]> valid)

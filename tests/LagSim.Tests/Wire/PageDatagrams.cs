@@ -232,15 +232,22 @@ internal static class PageDatagrams
                 "u16 number" => Bytes("u16", what.Command!.Number),
                 "u8 length" => [(byte)what.Command!.Length],
                 "data" => what.Command!.Data.ToArray(),
+                "u8 what" => [(byte)what.PlayerEvent!.Kind],
+                "u8 who" => [what.PlayerEvent!.Number],
+                "u8 role" => [(byte)what.PlayerEvent!.Role],
+                "u64 identity" => Bytes("u64", what.PlayerEvent!.Identity),
+                "name" => [(byte)Name(what).Length, .. Name(what)],
                 "velocity" or "impulse" => Bytes("vector", what.Velocity),
                 _ => throw new KeyNotFoundException(field),
             });
         }
 
-        byte[] more = what.Kind == EventKind.Spawn ? More(page, what) : what.Command?.Data.ToArray() ?? Strength(what);
+        byte[] more = what.Kind == EventKind.Spawn ? More(page, what) : what.Kind == EventKind.Player ? Name(what) : what.Command?.Data.ToArray() ?? Strength(what);
         Assert.Equal(int.Parse(row[2].Split(' ', StringSplitOptions.RemoveEmptyEntries)[0], CultureInfo.InvariantCulture) + more.Length, EventFormat.EncodedLength(what));
         return bytes.ToArray();
     }
+
+    private static byte[] Name(ExternalEvent player) => Encoding.UTF8.GetBytes(player.PlayerEvent!.Name);
 
     private static byte[] Strength(ExternalEvent grab) =>
         grab.MaxForce == 0 && grab.MaxPower == 0 ? [] : [.. BitConverter.GetBytes(grab.MaxForce), .. BitConverter.GetBytes(grab.MaxPower)];

@@ -102,7 +102,7 @@ public class ValueRangeTests
     [InlineData(VerdictAt, 6)]
     [InlineData(KindAt, (byte)EventKind.None)]
     [InlineData(KindAt, (byte)EventKind.Start)]
-    [InlineData(KindAt, (byte)EventKind.Remove + 1)]
+    [InlineData(KindAt, (byte)EventKind.Command + 1)]
     [InlineData(KindAt, (byte)EventKind.Impact)]
     [InlineData(KindAt, 255)]
     [InlineData(FlightAt, (byte)MotionLaw.Absent)]

@@ -79,8 +79,19 @@ internal static class WireGen
         from data in Gen.ArrayOf(Byte, length)
         select new GameCommand(number, data);
 
+    internal static readonly Gen<string> Name = Gen.Elements(
+        "", "a", "Ann", "Zoë", "日本の人", new string('m', Net.Wire.RosterEntry.MaxNameBytes), new string('ä', Net.Wire.RosterEntry.MaxNameBytes / 2), "🎱🎱");
+
+    private static readonly Gen<PlayerEvent> Player =
+        from kind in Gen.Elements(PlayerEventKind.Joined, PlayerEventKind.Away, PlayerEventKind.Returned, PlayerEventKind.Left)
+        from number in Byte.Select(number => Math.Min(number, PlayerEvent.MaxNumber))
+        from identity in Bits64.Select(identity => Math.Max(1, identity))
+        from name in Name
+        from role in Gen.Elements(PeerRole.Player, PeerRole.Spectator, PeerRole.Bot)
+        select new PlayerEvent(kind, number, identity, name, role);
+
     internal static readonly Gen<ExternalEvent> Event =
-        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetFilter, EventKind.Command)
+        from kind in Gen.Elements(EventKind.Spawn, EventKind.Remove, EventKind.Teleport, EventKind.SetVelocity, EventKind.Impulse, EventKind.Grab, EventKind.HoldKeyframe, EventKind.Release, EventKind.SetFilter, EventKind.Command, EventKind.Player)
         from time in Time
         from peer in Byte
         from sequence in Bits32.Select(value => Math.Max(1, value))
@@ -91,6 +102,7 @@ internal static class WireGen
         from spin in Gen.OneOf(Gen.Constant(Vector3D.Zero), Vector)
         from filter in Filter
         from command in Command
+        from player in Player
         from players in Gen.OneOf(Gen.Constant(PeerSet.Everyone), Gen.Choose(0, (int)PeerSet.Everyone.Mask).Select(mask => PeerSet.FromMask((uint)mask)))
         from strength in Gen.Elements((0.0, 0.0), (100.0, 0.0), (0.0, 3e-5), (double.MaxValue, double.Epsilon))
         from occupied in Gen.Elements(WhenOccupied.Overlap, WhenOccupied.Skip, WhenOccupied.Beside)
@@ -104,12 +116,10 @@ internal static class WireGen
             EventKind.HoldKeyframe => ExternalEvent.HoldKeyframe(time, peer, sequence, body, position, velocity),
             EventKind.Release => ExternalEvent.Release(time, peer, sequence, body, velocity),
             EventKind.Command => ExternalEvent.Tell(time, peer, sequence, command),
+            EventKind.Player => player.Stamp(time, sequence),
             EventKind.SetFilter => ExternalEvent.SetFilter(time, peer, sequence, body, filter),
             _ => ExternalEvent.Impulse(time, peer, sequence, body, velocity),
         };
-
-    internal static readonly Gen<string> Name = Gen.Elements(
-        "", "a", "Ann", "Zoë", "日本の人", new string('m', Net.Wire.RosterEntry.MaxNameBytes), new string('ä', Net.Wire.RosterEntry.MaxNameBytes / 2), "🎱🎱");
 
     internal static readonly Gen<Token128> Token = Gen.ArrayOf(Byte, Token128.Bytes).Select(bytes => new Token128(bytes));
 

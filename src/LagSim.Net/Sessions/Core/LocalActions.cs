@@ -43,6 +43,14 @@ internal sealed class LocalActions(PlayerIdentity self, SessionStatus status, Sh
             throw new SceneException(sentence);
         }
 
+        return Submit(external);
+    }
+
+    /// <summary>Says something of a player to the world's rules, as this host's next event; the world must exist.</summary>
+    internal ExternalEvent Announce(PlayerEvent player, SimTime time) => Submit(player.Stamp(time, self.LastSequence + 1));
+
+    private ExternalEvent Submit(in ExternalEvent external)
+    {
         world.Submit(external);
         self.NoteEvent();
         return external;

@@ -153,7 +153,7 @@ internal sealed class SharedWorld
     internal void Submit(in ExternalEvent external)
     {
         LiveWorld world = live!;
-        world.NoteLateEvent(external.Peer);
+        world.NoteLateEvent(CausedBy(external));
         if (world.Submit(external) == SubmitResult.TooOld)
         {
             throw new InvalidOperationException(
@@ -173,7 +173,7 @@ internal sealed class SharedWorld
         hasUnshown = true;
         SimTime now = sharedTime.Now;
         counters.AddLateness(now - external.Time);
-        world.NoteLateEvent(external.Peer);
+        world.NoteLateEvent(CausedBy(external));
         world.Advance(now); // simulate up to what was shown, so that a change to it counts as a change
         SubmitResult result = strategy.Apply(world, external, now);
         if (result == SubmitResult.RolledBack && strategy.RewritesPast && external.Time < now)
@@ -212,6 +212,9 @@ internal sealed class SharedWorld
 
         return due;
     }
+
+    /// <summary>The player whose account pays for what an event has computed again.</summary>
+    private static byte CausedBy(in ExternalEvent external) => external.PlayerEvent?.Number ?? external.Peer;
 
     private void Take(LiveWorld made, WorldSnapshot? from)
     {

@@ -18,6 +18,9 @@ internal sealed class BudgetEnforcer(
     /// <summary>Raised when a player is expelled, with the cost and what was removed.</summary>
     internal event Action<PlayerExpulsion>? Expelled;
 
+    /// <inheritdoc cref="WorkBudget.Costs"/>
+    internal IReadOnlyList<PlayerCost> Costs => budget.Costs;
+
     /// <summary>Charges the work of the world's last step; true if a player was expelled for it, which changed the world.</summary>
     internal bool Tend(SimTime now)
     {

@@ -149,6 +149,10 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         }
     }
 
+    /// <summary>What a client that is in is called: by its token, or else by itself.</summary>
+    internal string NameOf(Client client) =>
+        places[client.Peer].Admission is PlayerAdmission { Name.Length: > 0 } player ? player.Name : client.Claim.Name;
+
     /// <summary>By what the host knows a client that is in again.</summary>
     internal PlayerNames NamesOf(Client client) =>
         new(places[client.Peer].Admission, client.Claim.Identity.Keyed, places[client.Peer]);

@@ -16,4 +16,7 @@ internal sealed class HostActions(LocalActions actions, AuthoritativeLog log)
         log.Record(external, Verdict.Accepted, hasEffect: true);
         return external;
     }
+
+    /// <summary>Says something of a player, at a shared time that nothing is committed of. The world must exist, and its rules hear it.</summary>
+    internal void Announce(PlayerEvent player, SimTime time) => log.Record(actions.Announce(player, time), Verdict.Accepted, hasEffect: true);
 }

@@ -22,6 +22,7 @@ internal sealed class HostProtocol : ISessionProtocol
     private readonly HostActions actions;
     private readonly LogBroadcast broadcast;
     private readonly RosterBroadcast peers;
+    private readonly PlayerAnnouncer players;
 
     /// <exception cref="SceneException">The scene is too large to be shared.</exception>
     internal HostProtocol(SessionParts parts, HostOptions options, ulong sessionId)
@@ -29,25 +30,26 @@ internal sealed class HostProtocol : ISessionProtocol
         Parts = parts;
         this.options = options;
         SimTime now = parts.Clock.Now;
-        PlayerPlaces places = new(options, now, parts.World.Scene);
+        PlayerPlaces places = new(options, now, parts.World.Scene, sessionId);
         Roster = new ClientRoster(places, parts.Sender, parts.Clock);
         Watermark = new Watermark(
             parts.SharedTime, parts.World, options.Window.History, options.ConfirmsEarly ? Roster : null);
         Log = new AuthoritativeLog(parts.World, Watermark, parts.Journal, parts.Counters, parts.Clock);
         broadcast = new LogBroadcast(Roster, Log, Watermark, parts.World, parts.Commits, parts.KeepAlive, parts.Sender, parts.Clock);
         Log.Recorded += broadcast.NoteRecorded;
-        Budget = new WorkBudget(parts.World, parts.SharedTime, options.PlayerBudget);
+        WorkBudget budget = new(parts.World, parts.SharedTime, options.PlayerBudget);
         timeouts = new ClientTimeouts(Roster, Log.Lines, options.Timeout, options.JoinLimits.SlowestDownload, now);
-        Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, Budget, timeouts, Watermark);
+        Handshake = new JoinHandshake(parts, options, sessionId, Roster, places, Log, budget, timeouts, Watermark);
         peers = new RosterBroadcast(Roster, places, timeouts, parts);
         Handshake.Seating.Came += _ => peers.Refresh();
         Roster.Gone += _ => peers.Refresh();
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
-        EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, Budget, options.Window.History);
+        EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, budget, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
+        players = new PlayerAnnouncer(Roster, places, timeouts, actions, parts);
         Removal = new BodyRemoval(parts.World, actions, Watermark);
-        Enforcer = new BudgetEnforcer(Budget, acts, Roster, Handshake.BanList, Removal, actions, parts.World, Watermark, parts.Status);
+        Enforcer = new BudgetEnforcer(budget, acts, Roster, Handshake.BanList, Removal, actions, parts.World, Watermark, parts.Status);
         DesyncReport = new DesyncReporter(Roster, parts.Journal, parts.World, Watermark, parts.Sender, parts.Counters, parts.Clock);
         parts.SharedTime.Adjust(SimDuration.Zero);
         peers.Refresh();
@@ -68,8 +70,6 @@ internal sealed class HostProtocol : ISessionProtocol
     internal AuthoritativeLog Log { get; }
 
     internal JoinHandshake Handshake { get; }
-
-    internal WorkBudget Budget { get; }
 
     internal BudgetEnforcer Enforcer { get; }
 
@@ -203,6 +203,7 @@ internal sealed class HostProtocol : ISessionProtocol
             Flush();
         }
 
+        players.Tend(now);
         foreach (Client client in Roster.All)
         {
             events.ValidateNext(client, now); // deferred earlier
@@ -220,7 +221,7 @@ internal sealed class HostProtocol : ISessionProtocol
     public SimTime NextDue(SimTime now)
     {
         SimTime due = Parts.Commits.NextDue(options.Window.History);
-        due = SimTime.Min(due, peers.NextDue());
+        due = SimTime.Min(due, SimTime.Min(peers.NextDue(), players.NextDue()));
         due = options.ConfirmsEarly && Parts.World.Live is not null ? SimTime.Min(due, now + Hosts.Watermark.Pace) : due;
         foreach (Client client in Roster.All)
         {

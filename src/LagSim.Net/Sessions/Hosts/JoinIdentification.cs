@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using LagSim.Events;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;

@@ -1,3 +1,4 @@
+using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Wire;
 using LagSim.Time;

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using System.Security.Cryptography;
+using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
@@ -26,8 +27,9 @@ internal sealed class PlayerPlaces
     private readonly PeerSet seats;
     private uint visits;
 
-    internal PlayerPlaces(HostOptions options, SimTime now, Scene? scene = null)
+    internal PlayerPlaces(HostOptions options, SimTime now, Scene? scene = null, ulong sessionId = 0)
     {
+        Ids = new PlayerIds(sessionId);
         this.options = options;
         began = now;
         seats = SeatsOf(scene);
@@ -38,6 +40,15 @@ internal sealed class PlayerPlaces
     }
 
     internal Place this[byte number] => places[number];
+
+    /// <summary>Says who somebody is, for rules.</summary>
+    internal PlayerIds Ids { get; }
+
+    /// <summary>Whether a place is reserved for a player that is away. One that was sent away is not waited for, whatever it keeps.</summary>
+    internal bool IsKept(Place place, SimTime now) => place.IsKept(now, options.RejoinTime) && place.Former.Why != LeaveReason.Kicked;
+
+    /// <summary>Until when a number is reserved, by the local clock, if its player is away.</summary>
+    internal SimTime KeptUntil(byte number) => places[number].LeftAt is SimTime left ? left + options.RejoinTime : SimTime.MaxValue;
 
     /// <summary>
     /// Returns the place that a join claims, if it proves that its client was that player, and wants to be that again rather than a
@@ -187,6 +198,9 @@ internal sealed class PlayerPlaces
         /// <summary>Distinguishes those who have the number one after the other; the same player that comes back keeps it.</summary>
         internal uint Visit { get; private set; }
 
+        /// <summary>Who has it, or had it last, for rules; 0 if no player had it.</summary>
+        internal ulong Identity { get; private set; }
+
         /// <summary>Where its player is, or was; null if no player had it.</summary>
         internal PeerAddress? Machine { get; private set; }
 
@@ -201,8 +215,10 @@ internal sealed class PlayerPlaces
         /// <param name="machine">Where the player is.</param>
         /// <param name="admission">What its connect token says of it; null without one.</param>
         /// <param name="visit">What tells it from those before, if it is another.</param>
-        internal void Take(bool isSamePlayer, PeerAddress machine, PlayerAdmission? admission = null, uint visit = 0)
+        /// <param name="identity">Who it is, if it is another.</param>
+        internal void Take(bool isSamePlayer, PeerAddress machine, PlayerAdmission? admission = null, uint visit = 0, ulong identity = 0)
         {
+            Identity = isSamePlayer ? Identity : identity;
             Visit = isSamePlayer || (admission is not null && admission.PlayerId == Admission?.PlayerId) ? Visit : visit;
             IsTaken = true;
             Admission = admission;

@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using LagSim.Net.Carriers;
-using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Links;
 using LagSim.Net.Wire;
@@ -116,12 +115,11 @@ internal sealed class RosterBroadcast
     private RosterEntry EntryOf(Client client, SimTime now)
     {
         PlayerPlaces.Place place = places[client.Peer];
-        string name = place.Admission is PlayerAdmission { Name.Length: > 0 } player ? player.Name : client.Claim.Name;
         SimTime silent = timeouts.IsSilent(client, now) ? parts.SharedTime.Now - (now - client.Link.Heard) : SimTime.MinValue;
         RosterEntry before = entries[client.Peer];
         bool isStill = silent != SimTime.MinValue && before.Visit == place.Visit && before.Role != RosterEntry.NoRole
             && before.SilentSince != SimTime.MinValue;
-        return new RosterEntry(client.Peer, client.Claim.Role, place.Visit, isStill ? before.SilentSince : silent, name);
+        return new RosterEntry(client.Peer, client.Claim.Role, place.Visit, isStill ? before.SilentSince : silent, clients.NameOf(client));
     }
 
     private void Publish()

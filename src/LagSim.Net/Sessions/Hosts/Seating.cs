@@ -98,7 +98,8 @@ internal sealed class Seating(
         }
 
         // A token gives another pass.
-        place.Take(isSamePlayer: claimed == place && !who.IsByToken, address.Machine, who.Admission, places.NextVisit());
+        uint visit = places.NextVisit();
+        place.Take(isSamePlayer: claimed == place && !who.IsByToken, address.Machine, who.Admission, visit, places.Ids.Of(who, visit));
         Tell(client);
         Came?.Invoke(client.Link.Traffic);
         return null;

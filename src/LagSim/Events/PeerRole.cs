@@ -1,4 +1,4 @@
-namespace LagSim.Net.Sessions;
+namespace LagSim.Events;
 
 /// <summary>As what a peer takes part in a session. The numbers travel; never renumber.</summary>
 public enum PeerRole : byte
