@@ -27,6 +27,11 @@ internal sealed class Truth
         {
             world.Retract(entry.Event);
         }
+
+        if (entry.Verdict == Verdict.Moved)
+        {
+            world.Submit(entry.Event);
+        }
     }
 
     /// <summary>Goes on to a time.</summary>

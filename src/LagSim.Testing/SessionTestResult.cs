@@ -73,6 +73,12 @@ public sealed class SessionTestResult
     /// </summary>
     public long EventsTooLate { get; internal init; }
 
+    /// <summary>
+    /// The number of accepted events that reached the host too late for their stamps, and happened later
+    /// (<see cref="Net.Wire.Verdict.Moved"/>).
+    /// </summary>
+    public long EventsMoved { get; internal init; }
+
     /// <summary>The number of late events, over all players.</summary>
     public long LateEvents => Players.Sum(player => player.LateEvents);
 
@@ -142,6 +148,7 @@ public sealed class SessionTestResult
             : $"Not every player ended up with the same world. {Difference()}");
         text.Append(FormattableString.Invariant($"\nseed {Seed}, {Seconds} s, {EventsAccepted} events accepted, {EventsRefused} refused"));
         text.Append(FormattableString.Invariant($", {EventsTooLate} of them too late"));
+        text.Append(EventsMoved == 0 ? "" : FormattableString.Invariant($", {EventsMoved} of the accepted moved to a later time"));
         foreach (PlayerResult player in Players)
         {
             text.Append('\n').Append(player);

@@ -126,7 +126,7 @@ internal sealed class SessionActions
         if (isOwn && unconfirmed.Remove(entry.Event.Sequence, out ScriptedAction? action))
         {
             isAwaitingVerdict = unconfirmed.Count > 0;
-            if (entry.Verdict != Verdict.Accepted)
+            if (!entry.IsAccepted)
             {
                 queue.Tell(() => Fail($"The host refused --do {action.Text}: {Why(entry.Verdict)}."));
             }

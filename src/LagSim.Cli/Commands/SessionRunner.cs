@@ -204,11 +204,11 @@ internal sealed class SessionRunner : IDisposable
         SimTime now = session.SharedTime.Now;
         if (session is ClientSession client)
         {
-            timeoutEnd ??= now + client.History + (request.Options.KeepAlive * 2);
+            timeoutEnd ??= now + client.LongestHistory + (request.Options.KeepAlive * 2);
             return (isCommitted && actions.AreSettled) || now >= timeoutEnd;
         }
 
-        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.Window.History + WorldTimeout)
+        if (!isCommitted && now - start > SimDuration.FromSeconds(request.Seconds.Value) + request.Options.MostLateness + WorldTimeout)
         {
             Fail(FormattableString.Invariant($"The time is up, and the world is not committed to T {(last - start).ToSeconds()} s: it is too far behind."));
             return true;

@@ -262,7 +262,7 @@ internal sealed class RecordingReader
     {
         uint index = reader.ReadUInt32();
         Verdict verdict = (Verdict)reader.ReadByte();
-        reader.Require(verdict is > Verdict.Pending and <= Verdict.Invalid);
+        reader.Require(verdict is > Verdict.Pending and <= Verdicts.Last);
         ExternalEvent what = EventFormat.Read(ref reader);
         if (!IsSound(ref reader, "The log entry"))
         {

@@ -195,7 +195,7 @@ public sealed class RecordingReplay
         int count = 0;
         for (int i = 0; i < entries.Length; i++)
         {
-            if (entries[i].Verdict == Verdict.Accepted && !(entries[i].Event.Time < joined))
+            if (entries[i].IsAccepted && !(entries[i].Event.Time < joined))
             {
                 order[count++] = i;
             }

@@ -113,7 +113,7 @@ internal sealed class RecordingWriter : IDisposable
             throw new ArgumentOutOfRangeException(nameof(index), index, $"The next entry of this recording's log is {nextIndex}.");
         }
 
-        if (verdict is <= Verdict.Pending or > Verdict.Invalid)
+        if (verdict is <= Verdict.Pending or > Verdicts.Last)
         {
             throw new ArgumentOutOfRangeException(nameof(verdict), verdict, "A log holds what the host said: accepted, or why not.");
         }

@@ -99,8 +99,14 @@ public sealed class ClientSession : Session
     /// </summary>
     public Divergence? Divergence => client.Finder.First;
 
-    /// <summary>How late the host accepts an event, as announced by the host; zero before that.</summary>
+    /// <summary>How late the host accepts an event in any case, as announced by the host; zero before that.</summary>
     public SimDuration History => client.Connection.History;
+
+    /// <summary>
+    /// How late at the most, while players' events are on their way (<see cref="HostOptions.LongestHistory"/>), as announced by the host;
+    /// zero before that.
+    /// </summary>
+    public SimDuration LongestHistory => client.Connection.LongestHistory;
 
     /// <summary>What the host's refusal says that ended the session; null if none did. From any thread, as
     /// <see cref="Session.EndReason"/>.</summary>

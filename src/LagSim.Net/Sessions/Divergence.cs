@@ -99,5 +99,5 @@ public sealed class Divergence
 
     private string Text(LogEntry? version, bool hasEffect) => version is not LogEntry entry ? "there is none"
         : FormattableString.Invariant($"entry {entry.Index} of the log, at T {Seconds(entry.Event.Time)} s, {entry}")
-            + (!hasEffect && entry.Verdict == Wire.Verdict.Accepted ? ", which came too late for the history here and had no effect" : "");
+            + (!hasEffect && entry.IsAccepted ? ", which came too late for the history here and had no effect" : "");
 }

@@ -4,6 +4,7 @@ using System.Linq;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Time;
+using LagSim.Timelines;
 
 namespace LagSim.Net.Sessions;
 
@@ -32,6 +33,7 @@ public sealed record HostOptions : SessionOptions
     private static readonly IReadOnlyDictionary<byte, string> NoKeys = new Dictionary<byte, string>();
 
     private readonly int? perAddress;
+    private readonly SimDuration? longest;
     private readonly IReadOnlyDictionary<byte, string>? playerKeys = NoKeys;
 
     /// <summary>Creates the defaults: the session begins at once, and clients may join at any time.</summary>
@@ -88,6 +90,26 @@ public sealed record HostOptions : SessionOptions
     /// <see cref="SessionOptions.ExtraHistory"/>.</para>
     /// </remarks>
     public bool ConfirmsEarly { get; init; }
+
+    /// <summary>
+    /// How late an event may be at the most, while a player's events are on their way: from the history of
+    /// <see cref="SessionOptions.Window"/>, for no longer than that, to <see cref="LatencyCompensationWindow.MaxHistory"/>; default three times
+    /// the history, but no more than that.
+    /// </summary>
+    /// <remarks>
+    /// <para>A player that acts tells with each update, and at least four times in a history, before which instant it stamps nothing any
+    /// more. While that stays out the link holds its events back, and nothing later than it becomes final until they come, or this bound is
+    /// reached. A player that has done nothing for ten seconds is not waited for.</para>
+    /// <para>Cost: nothing while all are heard but four small datagrams a second of a player that acts seldom, for ten seconds after it.
+    /// While one is waited for, what happens is final that much later, and every peer keeps as much more of the past: memory as for the
+    /// history of the window. A player that withholds its updates on purpose costs all others no more than that. What is later still is
+    /// refused as <see cref="Wire.Verdict.TooLate"/>, or happens later: <see cref="Wire.Verdict.Moved"/>.</para>
+    /// </remarks>
+    public SimDuration LongestHistory
+    {
+        get => longest ?? (Window.History * 3 < LatencyCompensationWindow.MaxHistory ? Window.History * 3 : LatencyCompensationWindow.MaxHistory);
+        init => longest = value;
+    }
 
     /// <summary>
     /// How many events per second are processed from each client, 1 to 100,000; default 500. Excess events are deferred. Thousands need a
@@ -147,6 +169,8 @@ public sealed record HostOptions : SessionOptions
     /// </summary>
     public bool Unprotected { get; init; }
 
+    internal override SimDuration MostLateness => LongestHistory;
+
     internal override bool IsProtected => Protection is not null;
 
     /// <summary>The limits on clients that are still joining.</summary>
@@ -183,6 +207,13 @@ public sealed record HostOptions : SessionOptions
         }
 
         Range(StartLead, 0, 60, nameof(StartLead));
+        if (LongestHistory < Window.History || LongestHistory > LatencyCompensationWindow.MaxHistory)
+        {
+            throw new ArgumentOutOfRangeException(
+                nameof(LongestHistory), LongestHistory.ToShortString(), $"The longest history must lie between the window's of {Window.History.ToShortString()}"
+                    + $" and {LatencyCompensationWindow.MaxHistory.ToShortString()}.");
+        }
+
         CheckPlayerKeys();
         if (MaxEventsPerSecond is < 1 or > 100_000)
         {

@@ -23,7 +23,10 @@ public readonly struct LogEntry : IEquatable<LogEntry>
     /// <summary>The host's verdict.</summary>
     public Verdict Verdict { get; }
 
-    /// <summary>The event.</summary>
+    /// <summary>Whether the event happened, on every peer: <see cref="Verdict.Accepted"/> or <see cref="Verdict.Moved"/>.</summary>
+    public bool IsAccepted => Verdict.IsAcceptance();
+
+    /// <summary>The event, at the time at which it happened; if it was refused, at which its author stamped it.</summary>
     public ExternalEvent Event { get; }
 
     /// <inheritdoc/>

@@ -31,6 +31,7 @@ public sealed class SessionCounters
         DatagramsSent = other.DatagramsSent;
         EventsAccepted = other.EventsAccepted;
         EventsRefused = other.EventsRefused;
+        EventsMoved = other.EventsMoved;
         EventsLost = other.EventsLost;
         EventsUnanswered = other.EventsUnanswered;
         Renewals = other.Renewals;
@@ -68,6 +69,9 @@ public sealed class SessionCounters
 
     /// <summary>Events that the host refused, own ones included.</summary>
     public long EventsRefused { get; internal set; }
+
+    /// <summary>Accepted events that came too late for their stamps, and happened later (<see cref="Wire.Verdict.Moved"/>), own ones included.</summary>
+    public long EventsMoved { get; internal set; }
 
     /// <summary>
     /// Accepted events that came too late for this peer's remaining history, and own refused events that could no longer be retracted. With

@@ -255,6 +255,9 @@ public abstract record SessionOptions
     /// <exception cref="ArgumentNullException">The text is null.</exception>
     public static string? WhyNoName(string name) => PlayerName.WhyNone(name ?? throw new ArgumentNullException(nameof(name)));
 
+    /// <summary>How late an event may be at the most.</summary>
+    internal virtual SimDuration MostLateness => Window.History;
+
     /// <summary>Whether datagrams are encrypted and authenticated.</summary>
     internal abstract bool IsProtected { get; }
 

@@ -233,7 +233,7 @@ internal sealed class SessionWarmup
 
     private static void Note(in LogEntry entry, SortedSet<EventKind> heard, byte from)
     {
-        if (entry.Event.Peer == from && entry.Verdict == Verdict.Accepted)
+        if (entry.Event.Peer == from && entry.IsAccepted)
         {
             heard.Add(entry.Event.Kind);
         }

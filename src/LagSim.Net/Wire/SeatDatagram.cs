@@ -9,9 +9,13 @@ namespace LagSim.Net.Wire;
 /// <remarks>Immutable, safe on any thread. Not valid as <c>default</c>.</remarks>
 internal readonly struct SeatDatagram
 {
+    /// <summary>The value of <see cref="PromiseSeconds"/> for a client that keeps to the pause whether it acts or not.</summary>
+    public const byte Always = 255;
+
     /// <summary>Creates a place from its fields.</summary>
     public SeatDatagram(
-        ulong sessionId, byte peer, uint lastSequence, Token128 pass, SimTime? earliest = null, ushort promiseMilliseconds = 0)
+        ulong sessionId, byte peer, uint lastSequence, Token128 pass, SimTime? earliest = null, ushort promiseMilliseconds = 0,
+        byte promiseSeconds = 0)
     {
         SessionId = sessionId;
         Peer = peer;
@@ -19,6 +23,7 @@ internal readonly struct SeatDatagram
         Pass = pass;
         Earliest = earliest ?? SimTime.MinValue;
         PromiseMilliseconds = promiseMilliseconds;
+        PromiseSeconds = promiseSeconds;
     }
 
     /// <summary>The session.</summary>
@@ -42,6 +47,24 @@ internal readonly struct SeatDatagram
     /// </summary>
     public ushort PromiseMilliseconds { get; }
 
+    /// <summary>
+    /// For how many seconds after its newest event the client keeps to that pause; <see cref="Always"/> for always, 0 for a host that has no
+    /// use for promises.
+    /// </summary>
+    public byte PromiseSeconds { get; }
+
+    /// <summary>For how long after its newest event the client keeps to that pause; the longest span for always.</summary>
+    public SimDuration PromisedFor =>
+        PromiseSeconds == Always ? SimDuration.MaxValue : SimDuration.FromSeconds(PromiseSeconds);
+
+    /// <summary>The same, with what the client is to promise.</summary>
+    /// <param name="earliest">The shared time before which the client stamps no event.</param>
+    /// <param name="pause">The longest pause between two promises.</param>
+    /// <param name="after">For how long after its newest event; the longest span for always.</param>
+    public SeatDatagram WithPromises(SimTime earliest, SimDuration pause, SimDuration after) => new(
+        SessionId, Peer, LastSequence, Pass, earliest, (ushort)pause.ToMilliseconds(),
+        after == SimDuration.MaxValue ? Always : (byte)after.ToSeconds());
+
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.SeatBytes"/>.</returns>
     /// <exception cref="ArgumentException"><paramref name="destination"/> is shorter than that.</exception>
@@ -61,6 +84,7 @@ internal readonly struct SeatDatagram
         Pass.Write(ref writer);
         writer.WriteOptionalTime(Earliest);
         writer.WriteUInt16(PromiseMilliseconds);
+        writer.WriteByte(PromiseSeconds);
         return writer.Position;
     }
 
@@ -73,9 +97,10 @@ internal readonly struct SeatDatagram
         WireReader reader = WireReader.Open(datagram, DatagramType.Seat);
         seat = new SeatDatagram(
             reader.ReadUInt64(), reader.ReadByte(), reader.ReadUInt32(), Token128.Read(ref reader),
-            reader.ReadOptionalTime(), reader.ReadUInt16());
+            reader.ReadOptionalTime(), reader.ReadUInt16(), reader.ReadByte());
         reader.Require(seat.Peer != 0);
-        reader.Require((seat.Earliest == SimTime.MinValue) == (seat.PromiseMilliseconds == 0)); // both or none
+        reader.Require((seat.Earliest == SimTime.MinValue) == (seat.PromiseMilliseconds == 0)); // all or none
+        reader.Require((seat.PromiseSeconds == 0) == (seat.PromiseMilliseconds == 0));
         return reader.Finish(out refusal);
     }
 }

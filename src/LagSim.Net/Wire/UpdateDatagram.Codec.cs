@@ -93,7 +93,7 @@ internal sealed partial class UpdateDatagram
     {
         byte first = reader.ReadByte();
         Verdict verdict = (Verdict)(first & ~OwnFlag);
-        reader.Require(verdict <= Verdict.Invalid);
+        reader.Require(verdict <= Verdicts.Last);
         if ((first & OwnFlag) == 0)
         {
             return new UpdateEntry(verdict, EventFormat.Read(ref reader));

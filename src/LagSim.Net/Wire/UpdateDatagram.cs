@@ -160,10 +160,10 @@ internal sealed partial class UpdateDatagram
     /// <exception cref="ArgumentException">The number is 0, or the verdict none of the enum's.</exception>
     public bool TryAddOwn(Verdict verdict, uint sequence)
     {
-        if (sequence == 0 || verdict > Verdict.Invalid)
+        if (sequence == 0 || verdict > Verdicts.Last)
         {
             throw new ArgumentException(
-                $"Verdict {(byte)verdict} on event {sequence} cannot travel: events count from 1, verdicts go to {(byte)Verdict.Invalid}.", nameof(sequence));
+                $"Verdict {(byte)verdict} on event {sequence} cannot travel: events count from 1, verdicts go to {(byte)Verdicts.Last}.", nameof(sequence));
         }
 
         return TryAdd(new UpdateEntry(verdict, sequence));
@@ -172,7 +172,7 @@ internal sealed partial class UpdateDatagram
     /// <summary>Adds an entry at the end, if it fits, as the two above do.</summary>
     internal bool TryAdd(in UpdateEntry entry)
     {
-        if (!entry.IsOwn && (!EventFormat.IsWellFormed(entry.Event) || entry.Verdict > Verdict.Invalid))
+        if (!entry.IsOwn && (!EventFormat.IsWellFormed(entry.Event) || entry.Verdict > Verdicts.Last))
         {
             throw new ArgumentException($"'{entry.Event}' cannot travel: its kind, sequence, time or a number in it is out of range.", nameof(entry));
         }

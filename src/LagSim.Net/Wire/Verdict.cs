@@ -20,4 +20,7 @@ public enum Verdict : byte
 
     /// <summary>Refused: it makes no sense in this scene.</summary>
     Invalid = 5,
+
+    /// <summary>It happened, on every peer, at the time in the log: it came too late for the one with which its author stamped it.</summary>
+    Moved = 6,
 }

@@ -11,11 +11,12 @@ internal readonly struct WelcomeDatagram
 {
     /// <summary>Creates an answer from its fields.</summary>
     public WelcomeDatagram(
-        ulong nonce, ulong sessionId, SimDuration history, int copyLength, ulong copyHash, uint logIndex)
+        ulong nonce, ulong sessionId, SimDuration history, SimDuration longestHistory, int copyLength, ulong copyHash, uint logIndex)
     {
         Nonce = nonce;
         SessionId = sessionId;
         History = history;
+        LongestHistory = longestHistory;
         CopyLength = copyLength;
         CopyHash = copyHash;
         LogIndex = logIndex;
@@ -27,8 +28,11 @@ internal readonly struct WelcomeDatagram
     /// <summary>The session's number; every later datagram carries it.</summary>
     public ulong SessionId { get; }
 
-    /// <summary>How far back the host's window reaches; above zero, at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
+    /// <summary>How far back the host's window reaches; above zero, at most <see cref="LongestHistory"/>.</summary>
     public SimDuration History { get; }
+
+    /// <summary>How far back it reaches while events are on their way; at most <see cref="WireFormat.MaxTimeTicks"/>.</summary>
+    public SimDuration LongestHistory { get; }
 
     /// <summary>The length of the snapshot in bytes, 1 to <see cref="SessionSnapshot.MaxBytes"/>.</summary>
     public int CopyLength { get; }
@@ -40,7 +44,7 @@ internal readonly struct WelcomeDatagram
     public uint LogIndex { get; }
 
     private bool IsWellFormed =>
-        History.Ticks is > 0 and <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= SessionSnapshot.MaxBytes;
+        History.Ticks > 0 && LongestHistory >= History && LongestHistory.Ticks <= WireFormat.MaxTimeTicks && CopyLength is > 0 and <= SessionSnapshot.MaxBytes;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.WelcomeBytes"/>.</returns>
@@ -62,13 +66,14 @@ internal readonly struct WelcomeDatagram
         if (!IsWellFormed)
         {
             throw new InvalidOperationException(
-                $"No welcome: history {History.ToShortString()} above zero and below 48 days, a copy of {CopyLength} bytes 1 to"
+                $"No welcome: history {History.ToShortString()} above zero, {LongestHistory.ToShortString()} no less and below 48 days, a copy of {CopyLength} bytes 1 to"
                 + $" {SessionSnapshot.MaxBytes}.");
         }
 
         WireWriter writer = new(destination);
         writer.WriteUInt64(SessionId);
         writer.WriteInt64(History.Ticks);
+        writer.WriteInt64(LongestHistory.Ticks);
         writer.WriteUInt32((uint)CopyLength);
         writer.WriteUInt64(CopyHash);
         writer.WriteUInt32(LogIndex);
@@ -91,10 +96,11 @@ internal readonly struct WelcomeDatagram
     {
         ulong session = reader.ReadUInt64();
         SimDuration history = SimDuration.FromTicks(reader.ReadInt64());
+        SimDuration longest = SimDuration.FromTicks(reader.ReadInt64());
         uint length = reader.ReadUInt32();
         reader.Require(length <= SessionSnapshot.MaxBytes);
         WelcomeDatagram welcome = new(
-            nonce, session, history, (int)Math.Min(length, SessionSnapshot.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
+            nonce, session, history, longest, (int)Math.Min(length, SessionSnapshot.MaxBytes), reader.ReadUInt64(), reader.ReadUInt32());
         reader.Require(welcome.IsWellFormed);
         return welcome;
     }

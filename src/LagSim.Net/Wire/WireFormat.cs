@@ -44,7 +44,7 @@ internal static class WireFormat
     public const int SecureJoinBytes = JoinPrologueBytes + IHostProtection.HandshakeOverhead + JoinClaimBytes;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/> after its nonce.</summary>
-    public const int WelcomeTermBytes = 32;
+    public const int WelcomeTermBytes = 40;
 
     /// <summary>The length of a <see cref="WelcomeDatagram"/>.</summary>
     public const int WelcomeBytes = HeaderBytes + sizeof(ulong) + WelcomeTermBytes;
@@ -67,7 +67,7 @@ internal static class WireFormat
     public const int ResetBytes = 29;
 
     /// <summary>The length of a <see cref="SeatDatagram"/>: shorter than any update.</summary>
-    public const int SeatBytes = 43;
+    public const int SeatBytes = 44;
 
     /// <summary>The length of a <see cref="MoveDatagram"/>.</summary>
     public const int MoveBytes = 29;

@@ -27,6 +27,9 @@ internal sealed class HostLog
     /// <summary>The number of events refused because they were too late.</summary>
     internal long TooLate { get; private set; }
 
+    /// <summary>The number of accepted events that came too late for their stamps, and happened later.</summary>
+    internal long Moved { get; private set; }
+
     /// <summary>Subscribes to the host. Call it before the first step.</summary>
     internal void Follow(Session host)
     {
@@ -63,8 +66,9 @@ internal sealed class HostLog
 
     private void Take(LogEntry entry)
     {
-        if (entry.Verdict == Verdict.Accepted)
+        if (entry.IsAccepted)
         {
+            Moved += entry.Verdict == Verdict.Moved ? 1 : 0;
             accepted.Add(entry.Event);
             acceptedEntries.Add(entry.Index);
             latest = SimTime.Max(latest, entry.Event.Time);

@@ -324,6 +324,7 @@ internal sealed class SessionRun
             EventsAccepted = log.Accepted.Count,
             EventsRefused = log.Refused,
             EventsTooLate = log.TooLate,
+            EventsMoved = log.Moved,
         };
     }
 

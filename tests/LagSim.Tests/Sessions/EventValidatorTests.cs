@@ -19,6 +19,8 @@ public sealed class EventValidatorTests
 
     private readonly VirtualClock clock = new(SimTime.FromSeconds(100));
     private readonly HostOptions options = new();
+    private readonly EventJournal journal = new();
+    private readonly ClientStamps stamps = new();
     private readonly SharedWorld world;
     private readonly EventValidator validator;
 
@@ -28,8 +30,9 @@ public sealed class EventValidatorTests
         sharedTime.Adjust(SimDuration.Zero);
         world = new SharedWorld(BuiltInScenes.Billiards(), options, clock, sharedTime, new SessionCounters());
         SimDuration history = options.Window.History;
-        Watermark watermark = new(sharedTime, world, history);
-        validator = new EventValidator(new PlayerPlaces(options, clock.Now), world, sharedTime, watermark, new WorkBudget(world, sharedTime, null), history);
+        Watermark watermark = new(sharedTime, world, options);
+        validator = new EventValidator(
+            new PlayerPlaces(options, clock.Now), world, sharedTime, watermark, new WorkBudget(world, sharedTime, null), journal, history);
     }
 
     [Fact]
@@ -38,7 +41,7 @@ public sealed class EventValidatorTests
     [Theory]
     [InlineData(0, Verdict.Accepted)]
     [InlineData(-0.001, Verdict.Accepted)]
-    [InlineData(-1000, Verdict.TooLate)]
+    [InlineData(-1000, Verdict.Moved)]
     [InlineData(1000, Verdict.TooEarly)]
     public void Validate_ByItsTime(double seconds, Verdict verdict)
     {
@@ -48,10 +51,10 @@ public sealed class EventValidatorTests
     }
 
     [Fact]
-    public void Validate_BeforeTheStart_IsTooLate()
+    public void Validate_BeforeTheStart_IsMovedToIt()
     {
         world.Begin(clock.Now);
-        Assert.Equal(Verdict.TooLate, Validate(-0.001));
+        Assert.Equal(Verdict.Moved, Validate(-0.001));
     }
 
     [Fact]
@@ -66,6 +69,7 @@ public sealed class EventValidatorTests
     private Verdict Validate(double seconds, double speed = 1)
     {
         SimTime time = clock.Now + SimDuration.FromSeconds(seconds);
-        return validator.Validate(PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(time, 1, 1));
+        ExternalEvent external = PlayerAction.SetVelocity(Body, new Vector3D(speed, 0, 0)).Stamp(time, 1, 1);
+        return validator.Validate(ref external, stamps);
     }
 }

@@ -107,9 +107,9 @@ public sealed class ForgedEventTests
         group.Run(2);
         liar.Claim(
             1,
-            ExternalEvent.SetVelocity(Now - history, liar.Peer, 1, First, V(0, 5)), // it takes a millisecond to arrive
+            ExternalEvent.Teleport(Now - history, liar.Peer, 1, First, V(0, 5)), // it takes a millisecond to arrive
             ExternalEvent.SetVelocity(Now + history + little, liar.Peer, 2, First, V(0, 5)),
-            ExternalEvent.SetVelocity(SimTime.FromTicks(-WireFormat.MaxTimeTicks), liar.Peer, 3, First, V(0, 5)),
+            ExternalEvent.Teleport(SimTime.FromTicks(-WireFormat.MaxTimeTicks), liar.Peer, 3, First, V(0, 5)),
             ExternalEvent.SetVelocity(SimTime.FromTicks(WireFormat.MaxTimeTicks), liar.Peer, 4, First, V(0, 5)));
         Assert.Equal(
             [Verdict.TooLate, Verdict.TooEarly, Verdict.TooLate, Verdict.TooEarly],
@@ -132,7 +132,7 @@ public sealed class ForgedEventTests
     [Fact]
     public void Claim_BeforeTheStart_IsRefused()
     {
-        liar.Claim(1, ExternalEvent.SetVelocity(group.Host.World!.Simulation.Start - SimDuration.OneTick, liar.Peer, 1, First, V(0, 5)));
+        liar.Claim(1, ExternalEvent.Teleport(group.Host.World!.Simulation.Start - SimDuration.OneTick, liar.Peer, 1, First, V(0, 5)));
         AssertGoesOn(accepted: 0, refused: 1);
     }
 

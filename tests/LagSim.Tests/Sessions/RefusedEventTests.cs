@@ -33,7 +33,7 @@ public sealed class RefusedEventTests
                 group.Cut(0, 1);
             }
 
-            ExternalEvent late = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+            ExternalEvent late = group.Do(1, PlayerAction.Teleport(First, V(0, 3), V(2, 6)));
             group.Run(0.1);
             ExternalEvent spawn = group.Do(1, PlayerAction.Spawn(Ball(0.25), V(0, 4)));
             group.Run(0.5);
@@ -103,7 +103,7 @@ public sealed class RefusedEventTests
             return !acknowledged;
         });
         group.Cut(1, 0);
-        ExternalEvent late = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        ExternalEvent late = group.Do(1, PlayerAction.Teleport(First, V(0, 3), V(2, 6)));
         group.Run(2 * History);
         const int others = 40;
         for (int i = 0; i < others; i++)
@@ -135,7 +135,7 @@ public sealed class RefusedEventTests
         group.Run(3);
         group.Restore(0, 1);
         group.Run(0.1);
-        ExternalEvent behind = group.Do(1, PlayerAction.SetVelocity(First, V(2, 6)));
+        ExternalEvent behind = group.Do(1, PlayerAction.Teleport(First, V(0, 3), V(2, 6)));
         Assert.True(behind.Time < group.Host.Watermark);
         Simulation world = group.Sessions[1].World!.Simulation;
         Assert.Equal(V(2, 6), Read(world, First, behind.Time).Velocity);

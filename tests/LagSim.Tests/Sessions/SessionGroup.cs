@@ -60,7 +60,7 @@ internal sealed class SessionGroup
         Host.Logged += entry =>
         {
             Log.Add(entry.Index, new UpdateEntry(entry.Verdict, entry.Event));
-            if (entry.Verdict == Verdict.Accepted && entry.Event.Time < promised)
+            if (entry.Verdict is Verdict.Accepted or Verdict.Moved && entry.Event.Time < promised)
             {
                 Assert.Fail($"{entry} came after a watermark of {promised}");
             }
@@ -85,7 +85,7 @@ internal sealed class SessionGroup
     /// <summary>What the host said to each event, by place in its log.</summary>
     internal SortedDictionary<uint, UpdateEntry> Log { get; } = [];
 
-    internal IEnumerable<ExternalEvent> Accepted => Log.Values.Where(e => e.Verdict == Verdict.Accepted).Select(e => e.Event);
+    internal IEnumerable<ExternalEvent> Accepted => Log.Values.Where(e => e.Verdict is Verdict.Accepted or Verdict.Moved).Select(e => e.Event);
 
     /// <summary>Whether what datagrams carry is held against the log; to be turned off where a test itself speaks as the host.</summary>
     internal bool IsTapped { get; set; } = true;
@@ -251,7 +251,7 @@ internal sealed class SessionGroup
         promisedFrom = tapped.Watermark == promised ? Math.Min(promisedFrom, index) : promisedFrom;
         for (; tapped.Watermark != SimTime.MinValue && index < end && Log.TryGetValue(index, out UpdateEntry later); index++)
         {
-            if (later.Verdict == Verdict.Accepted && later.Event.Time < tapped.Watermark)
+            if (later.Verdict is Verdict.Accepted or Verdict.Moved && later.Event.Time < tapped.Watermark)
             {
                 Assert.Fail($"{later.Event} comes after a watermark of {tapped.Watermark}");
             }

@@ -230,11 +230,12 @@ public sealed class SessionTestTests
     }
 
     [Fact]
-    public void Run_EventsLaterThanTheWindow_AreCountedAndDoNotHappen()
+    public void Run_EventsLaterThanTheWindow_AreCountedAndHappenLaterOrNot()
     {
         SessionTestResult result = new SessionTest(Box()).WithClients(1, "delay-500ms").At(1, 1, PlayerAction.SetVelocity(First, V(1)))
+            .At(1, 1, PlayerAction.Teleport(First, V(0, 4)))
             .WithOptions(_ => new HostOptions { Window = new(SimDuration.FromMilliseconds(100)) }).Run(3, Cancellation);
-        Assert.Equal((0, 1, 1), (result.EventsAccepted, result.EventsRefused, result.EventsTooLate));
+        Assert.Equal((1, 1, 1, 1), (result.EventsAccepted, result.EventsMoved, result.EventsRefused, result.EventsTooLate));
     }
 
     [Fact]

@@ -31,7 +31,7 @@ internal static class PageDatagrams
         {
             yield return (AnyDatagram.Bytes(d.Encode), page => Datagram(
                 page, DatagramType.Welcome, ("nonce", d.Nonce), ("session id", d.SessionId),
-                ("history", d.History.Ticks), ("copy length", d.CopyLength), ("copy hash", d.CopyHash), ("log index", d.LogIndex)));
+                ("history", d.History.Ticks), ("longest history", d.LongestHistory.Ticks), ("copy length", d.CopyLength), ("copy hash", d.CopyHash), ("log index", d.LogIndex)));
         }
 
         foreach (RefusalDatagram d in Sample(WireGen.Refusal, each))
@@ -91,7 +91,7 @@ internal static class PageDatagrams
             byte[] bytes = AnyDatagram.Bytes(d.Encode);
             yield return (bytes, page => Datagram(
                 page, DatagramType.Seat, ("session id", d.SessionId), ("peer", d.Peer), ("last sequence", d.LastSequence), ("pass", bytes[17..33]),
-                ("earliest", d.Earliest), ("promise", d.PromiseMilliseconds)));
+                ("earliest", d.Earliest), ("promise", d.PromiseMilliseconds), ("promised for", d.PromiseSeconds)));
         }
 
         foreach (RosterDatagram d in Sample(WireGen.Roster, each))

@@ -148,7 +148,7 @@ public class RoundTripTests
         Assert.Equal(WireFormat.ChallengeBytes, AnyDatagram.Bytes(default(ChallengeDatagram).Encode).Length);
         Assert.Equal(WireFormat.SnapshotRequestBytes, AnyDatagram.Bytes(default(SnapshotRequestDatagram).Encode).Length);
         Assert.Equal(WireFormat.EmptySnapshotChunkBytes + 1, AnyDatagram.ChunkBytes(1, 2, [3]).Length);
-        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, 5, 6, 7).Encode).Length);
+        Assert.Equal(WireFormat.WelcomeBytes, AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, SimDuration.OneTick, 5, 6, 7).Encode).Length);
         Assert.Equal(WireFormat.RefusalBytes, AnyDatagram.Bytes(new RefusalDatagram(1, RefusalReason.Full).Encode).Length);
         Assert.Equal(WireFormat.LeaveBytes, AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode).Length);
         Assert.Equal(WireFormat.SeatBytes, AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default).Encode).Length);

@@ -99,7 +99,7 @@ public class ValueRangeTests
     [Theory]
     [InlineData(FlagsAt, 8)]
     [InlineData(FlagsAt, 0x80)]
-    [InlineData(VerdictAt, 6)]
+    [InlineData(VerdictAt, 7)]
     [InlineData(KindAt, (byte)EventKind.None)]
     [InlineData(KindAt, (byte)EventKind.Start)]
     [InlineData(KindAt, (byte)EventKind.Command + 1)]
@@ -181,8 +181,8 @@ public class ValueRangeTests
     [Fact]
     public void TryDecode_FixedDatagramsOutOfRange_AreRefused()
     {
-        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, 5, 6, 7).Encode);
-        foreach ((int at, byte value) in new (int, byte)[] { (20, 0), (28, 0), (31, 0x7F), (31, 0xFF) })
+        byte[] welcome = AnyDatagram.Bytes(new WelcomeDatagram(1, 2, SimDuration.OneTick, SimDuration.OneTick, 5, 6, 7).Encode);
+        foreach ((int at, byte value) in new (int, byte)[] { (20, 0), (20, 2), (27, 0x80), (28, 0), (35, 0x40), (36, 0), (39, 0x7F), (39, 0xFF) })
         {
             byte was = welcome[at];
             welcome[at] = value;
@@ -220,8 +220,10 @@ public class ValueRangeTests
         }
 
         AssertRefused(AnyDatagram.Bytes(new RosterDatagram { SessionId = 1, UpTo = 1, Newest = 1 }.Encode)); // of nobody
-        byte[] half = AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default, SimTime.Zero, 1).Encode);
-        half[^2] = 0; // an earliest stamp, and no promise
+        byte[] half = AnyDatagram.Bytes(new SeatDatagram(1, 2, 3, default, SimTime.Zero, 1, 1).Encode);
+        half[^1] = 0; // promises for no time
+        AssertRefused(half);
+        (half[^1], half[^3]) = (1, 0); // an earliest stamp, and no promise
         AssertRefused(half);
         foreach (byte reason in new byte[] { 0, 18, 255 })
         {
@@ -262,8 +264,8 @@ public class ValueRangeTests
             () => update.TryAdd(Verdict.Pending, ExternalEvent.Impulse(default, 1, 1, default, new Vector3D(0, double.NaN, 0))));
         Assert.Throws<ArgumentException>(() => update.TryAdd(Verdict.Pending, ExternalEvent.Spawn(default, 1, 1, default, default)));
         Assert.Throws<ArgumentException>(() => update.TryAddOwn(Verdict.Accepted, 0));
-        Assert.Throws<ArgumentException>(() => update.TryAddOwn((Verdict)6, 1));
-        Assert.Throws<ArgumentException>(() => update.TryAdd((Verdict)6, ExternalEvent.Remove(default, 1, 1, default)));
+        Assert.Throws<ArgumentException>(() => update.TryAddOwn((Verdict)7, 1));
+        Assert.Throws<ArgumentException>(() => update.TryAdd((Verdict)7, ExternalEvent.Remove(default, 1, 1, default)));
         Assert.Equal(0, update.Entries.Length);
     }
 

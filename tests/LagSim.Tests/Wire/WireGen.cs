@@ -181,9 +181,10 @@ internal static class WireGen
         from pass in Token
         from earliest in OptionalTime
         from promise in Gen.Choose(1, ushort.MaxValue)
+        from seconds in Gen.Choose(1, byte.MaxValue)
         select earliest == SimTime.MinValue
             ? new SeatDatagram(session, (byte)peer, sequence, pass)
-            : new SeatDatagram(session, (byte)peer, sequence, pass, earliest, (ushort)promise);
+            : new SeatDatagram(session, (byte)peer, sequence, pass, earliest, (ushort)promise, (byte)seconds);
 
     internal static readonly Gen<RosterEntry> RosterEntry =
         from number in Byte
@@ -213,10 +214,11 @@ internal static class WireGen
         from nonce in Bits64
         from session in Bits64
         from history in Gen.OneOf(Gen.Elements(1L, WireFormat.MaxTimeTicks), Bits64.Select(bits => (long)(bits >> 2)).Where(t => t > 0))
+        from more in Gen.OneOf(Gen.Elements(0L, WireFormat.MaxTimeTicks - history), Bits64.Select(bits => (long)(bits % (ulong)(WireFormat.MaxTimeTicks - history + 1))))
         from length in Gen.OneOf(Gen.Elements(1, SessionSnapshot.MaxBytes), Gen.Choose(1, SessionSnapshot.MaxBytes))
         from hash in Bits64
         from index in Bits32
-        select new WelcomeDatagram(nonce, session, SimDuration.FromTicks(history), length, hash, index);
+        select new WelcomeDatagram(nonce, session, SimDuration.FromTicks(history), SimDuration.FromTicks(history + more), length, hash, index);
 
     internal static readonly Gen<RefusalDatagram> Refusal =
         from nonce in Bits64 from reason in Gen.Choose(1, 8) select new RefusalDatagram(nonce, (RefusalReason)reason);
@@ -246,7 +248,7 @@ internal static class WireGen
         from first in Bits32.Select(value => Math.Min(value, uint.MaxValue - UpdateDatagram.MaxEntries))
         from count in Gen.Choose(0, 60)
         from events in Gen.ArrayOf(Event, count)
-        from verdict in Gen.Choose(0, 5)
+        from verdict in Gen.Choose(0, 6)
         from own in Gen.Choose(0, 100)
         select Fill(
             new UpdateDatagram

@@ -23,7 +23,7 @@ internal sealed class HandWatch
             List<HandUpdate> own = heard[place];
             session.Logged += entry =>
             {
-                if (entry.Verdict == Verdict.Accepted)
+                if (entry.IsAccepted)
                 {
                     own.Add(new HandUpdate(session.SharedTime.Now, entry.Event));
                 }

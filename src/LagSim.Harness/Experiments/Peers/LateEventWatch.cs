@@ -71,7 +71,7 @@ internal sealed class LateEventWatch
         Session session = peers.Session(place);
         lock (gate)
         {
-            if (place == 0 && entry.Verdict == Verdict.Accepted)
+            if (place == 0 && entry.IsAccepted)
             {
                 accepted.Add(entry.Event);
             }

@@ -48,7 +48,7 @@ internal sealed class SweepRun
         host = (HostSession)Add(0, seed);
         host.Logged += entry =>
         {
-            if (entry.Verdict == Verdict.Accepted)
+            if (entry.IsAccepted)
             {
                 accepted.Add(entry.Index);
             }

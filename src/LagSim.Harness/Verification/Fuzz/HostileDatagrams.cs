@@ -137,7 +137,7 @@ public sealed class HostileDatagrams
             3 => new SnapshotRequestDatagram(Session(), (byte)Below(SnapshotRequestDatagram.MaxShorter + 1), (uint)Below(100), (uint)Below(100_000), random.NextUInt64()).Encode(buffer),
             4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(9)), "The world ended.").Encode(buffer),
             5 => new WelcomeDatagram(
-                random.NextUInt64(), Session(), SimDuration.FromSeconds(1), 1 + Below(SessionSnapshot.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
+                random.NextUInt64(), Session(), SimDuration.FromSeconds(1), SimDuration.FromSeconds(1 + Below(3)), 1 + Below(SessionSnapshot.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
             6 => new DesyncQueryDatagram(
                 Session(), (byte)Below(10), (uint)Below(100), SimTime.FromSeconds(Below(20)), SimTime.FromSeconds(20 + Below(20)), (uint)Below(70)).Encode(buffer),
             7 => DesyncReport().Encode(buffer),
@@ -195,7 +195,7 @@ public sealed class HostileDatagrams
     private SeatDatagram Seat() => Below(2) == 0
         ? new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token())
         : new SeatDatagram(Session(), (byte)(1 + Below(60)), (uint)Below(9), Token(), SimTime.FromSeconds(Below(40)),
-            (ushort)(1 + Below(99)));
+            (ushort)(1 + Below(99)), (byte)(1 + Below(SeatDatagram.Always)));
 
     private RosterDatagram Roster()
     {

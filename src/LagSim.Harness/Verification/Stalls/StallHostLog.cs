@@ -29,7 +29,7 @@ internal sealed class StallHostLog
         logs.Add((host, log));
         host.Logged += entry =>
         {
-            if (entry.Verdict == Verdict.Accepted)
+            if (entry.IsAccepted)
             {
                 log.Add(entry.Index);
             }

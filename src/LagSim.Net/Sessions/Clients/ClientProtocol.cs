@@ -98,7 +98,7 @@ internal sealed class ClientProtocol : ISessionProtocol
                 + " and that is the most that may.");
         }
 
-        ExternalEvent external = Parts.Actions.Submit(action, SimTime.Max(time, Connection.Earliest));
+        ExternalEvent external = Parts.Actions.Submit(action, SimTime.Max(time, Connection.Promises.Earliest));
         Connection.Publish(external, Parts.Clock.Now);
         return external;
     }

@@ -35,13 +35,14 @@ internal sealed class ClientUpdates(
         SimDuration wanted = link.Trips.HasQueue ? trip : trip / 8;
         SimDuration pace = wanted > JoinAttempt.Pace ? wanted : JoinAttempt.Pace;
         SimDuration rest = isComingIn ? pace : keepAlive.RestAfterUpdate(link, false, now, keepAlive.KeepAlive);
-        if (attempt is null && connection.PromisePace > SimDuration.Zero)
+        if (attempt is null && connection.Promises.AreWanted)
         {
-            // A link with a queue is full enough already.
-            update.Watermark = connection.Promise(update.FirstIndex + (uint)update.Held.Length - 1, sharedTime.Now);
-            SimDuration half = link.Trips.HasQueue ? link.Trips.Mean / 2 : SimDuration.Zero;
-            SimDuration promise = half > connection.PromisePace ? half : connection.PromisePace;
-            rest = promise < rest ? promise : rest;
+            SimTime shared = sharedTime.Now;
+            update.Watermark = connection.Promises.Make(unconfirmed, update.FirstIndex + (uint)update.Held.Length - 1, shared);
+            SimDuration half = link.Trips.HasQueue ? link.Trips.Mean / 2 : SimDuration.Zero; // a link with a queue is full enough already
+            SimDuration pause = connection.Promises.Pause(shared);
+            pause = half > pause ? half : pause;
+            rest = pause < rest ? pause : rest;
         }
 
         sender.Send(link.Complete(unconfirmed, now, rest, isUrgent: link.Outgoing.Acknowledged < connection.LastUrgent), link);

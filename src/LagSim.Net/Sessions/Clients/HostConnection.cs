@@ -61,8 +61,11 @@ internal sealed class HostConnection
     /// <summary>The link; null while there is none.</summary>
     internal UpdateLink? Link { get; private set; }
 
-    /// <summary>How late the host accepts an event, as announced by the host; zero before that.</summary>
+    /// <summary>How late the host accepts an event in any case, as announced by the host; zero before that.</summary>
     internal SimDuration History { get; private set; }
+
+    /// <summary>How late at the most, while it waits for players; zero before it is announced.</summary>
+    internal SimDuration LongestHistory { get; private set; }
 
     /// <summary>The entries received of the host's log.</summary>
     internal ReceiveWindow Log { get; private set; } = new(0);
@@ -76,11 +79,8 @@ internal sealed class HostConnection
     /// <summary>The newest own event that no later event supersedes.</summary>
     internal uint LastUrgent { get; private set; }
 
-    /// <summary>The shared time before which this peer stamps nothing any more: the host may have settled it.</summary>
-    internal SimTime Earliest { get; private set; } = SimTime.MinValue;
-
-    /// <summary>The longest pause between promises to the host; zero if it has no use for them.</summary>
-    internal SimDuration PromisePace { get; private set; }
+    /// <summary>What this peer has promised the host about its stamps.</summary>
+    internal OwnPromises Promises { get; private set; } = new(default);
 
     /// <summary>Whether the host still sends the start: it does until it knows that it has arrived here.</summary>
     internal bool IsStartTold { get; set; }
@@ -98,7 +98,7 @@ internal sealed class HostConnection
     /// <param name="now">The time by the local clock.</param>
     internal void Open(in WelcomeDatagram welcome, LinkSeal? seal, SimTime now)
     {
-        History = welcome.History;
+        (History, LongestHistory) = (welcome.History, welcome.LongestHistory);
         counters.EventsUnanswered += Unconfirmed.Count;
         Unconfirmed = new OwnEvents(0);
         Log = new ReceiveWindow(welcome.LogIndex);
@@ -117,8 +117,7 @@ internal sealed class HostConnection
     internal void Sit(UpdateLink link, in SeatDatagram seat)
     {
         (byte number, uint lastSequence) = (seat.Peer, seat.LastSequence);
-        Earliest = seat.Earliest;
-        PromisePace = SimDuration.FromMilliseconds(seat.PromiseMilliseconds);
+        Promises = new OwnPromises(seat);
         self.Take(number, lastSequence);
         FirstSequence = LastUrgent = lastSequence;
         Unconfirmed = new OwnEvents(lastSequence);
@@ -126,28 +125,11 @@ internal sealed class HostConnection
         link.Outgoing.StartAfter(lastSequence);
     }
 
-    /// <summary>
-    /// Promises the host that no own event after that one is stamped before an instant, and keeps to it: see <see cref="Earliest"/>.
-    /// </summary>
-    /// <param name="after">The number of the last own event that the promise comes with.</param>
-    /// <param name="now">The shared time: whatever is done from now on is stamped no earlier.</param>
-    internal SimTime Promise(uint after, SimTime now)
-    {
-        SimTime promised = SimTime.Max(now, Earliest);
-        uint oldest = Unconfirmed.Count > 0 ? Unconfirmed.Oldest.Sequence : uint.MaxValue;
-        for (uint number = Unconfirmed.Last; number > after && number >= oldest; number--)
-        {
-            promised = SimTime.Min(promised, Unconfirmed[number].Event.Time);
-        }
-
-        Earliest = SimTime.Max(Earliest, promised);
-        return promised;
-    }
-
     /// <summary>Queues an own event for sending to the host.</summary>
     internal void Publish(in ExternalEvent external, SimTime now)
     {
         Unconfirmed.Add(external);
+        Promises.NoteAct(external.Time);
         LastUrgent = SendWindow.IsMadeUpFor(external) ? LastUrgent : external.Sequence;
         Link!.NoteNewEntry(UpdateDatagram.LengthOf(new UpdateEntry(Verdict.Pending, external)), now);
     }

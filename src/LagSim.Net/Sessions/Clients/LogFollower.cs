@@ -9,7 +9,7 @@ namespace LagSim.Net.Sessions.Clients;
 
 /// <summary>
 /// Follows the host's log on a client: takes its entries in order, applies accepted events of other peers, retracts own events that were
-/// refused, and commits.
+/// refused, moves those that happen later, and commits.
 /// </summary>
 internal sealed class LogFollower(
     HostConnection connection, SharedWorld world, CommitTracker commits, EventJournal journal, PlayerIdentity self,
@@ -72,25 +72,32 @@ internal sealed class LogFollower(
 
     private void Take(in UpdateEntry entry, uint number)
     {
-        bool own = entry.IsOwn;
         ExternalEvent external = entry.Event;
         OwnEvents unconfirmed = connection.Unconfirmed;
-        bool isAnothers = !own && (external.Peer != self.Number || external.Sequence <= connection.FirstSequence);
-        bool isNextOwn = own && unconfirmed.Count > 0 && unconfirmed.Oldest.Sequence == entry.Sequence;
+        bool isAnothers = !entry.IsOwn && (external.Peer != self.Number || external.Sequence <= connection.FirstSequence);
+        bool own = entry.IsOwn || (!isAnothers && entry.Verdict == Verdict.Moved);
+        bool isNextOwn = own && entry.IsOwn == (entry.Verdict != Verdict.Moved) && unconfirmed.Count > 0
+            && unconfirmed.Oldest.Sequence == entry.Sequence;
         if (!isAnothers && !isNextOwn)
         {
             counters.EventsForged++; // verdicts on events this peer never sent, or out of order, do not come from our host
             return;
         }
 
-        external = own ? connection.TakeConfirmed(clock.Now) : external;
-        bool accepted = entry.Verdict == Verdict.Accepted && (own || world.MayEnter(external));
+        ExternalEvent done = own ? connection.TakeConfirmed(clock.Now) : external;
+        external = entry.IsOwn ? done : external;
+        bool accepted = entry.Verdict.IsAcceptance() && (entry.IsOwn || world.MayEnter(external));
         bool hasEffect = accepted;
         counters.EventsAccepted += accepted ? 1 : 0;
         counters.EventsRefused += accepted ? 0 : 1;
+        counters.EventsMoved += accepted && entry.Verdict == Verdict.Moved ? 1 : 0;
         if (own && !accepted)
         {
-            world.Retract(external);
+            world.Retract(done);
+        }
+        else if (own && entry.Verdict == Verdict.Moved)
+        {
+            hasEffect = world.Move(done, external);
         }
         else if (!own && accepted && external.Time >= world.From)
         {

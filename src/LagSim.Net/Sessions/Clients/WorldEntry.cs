@@ -65,5 +65,5 @@ internal sealed class WorldEntry(
     /// </remarks>
     private SimTime EarliestStart(JoinAttempt attempt) =>
         sharedTime.Now - (clock.Now - attempt.Began) - timeout
-        - (connection.History < LatencyCompensationWindow.MaxHistory ? connection.History : LatencyCompensationWindow.MaxHistory);
+        - (connection.LongestHistory < LatencyCompensationWindow.MaxHistory ? connection.LongestHistory : LatencyCompensationWindow.MaxHistory);
 }

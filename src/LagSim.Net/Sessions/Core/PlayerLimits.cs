@@ -27,7 +27,7 @@ internal sealed class PlayerLimits
         sentence = "";
         if (external.Kind == EventKind.Spawn && external.Velocity.Length <= options.MaxGivenSpeed && SurfaceSpeed(external) <= options.MaxGivenSpeed)
         {
-            ForgetBefore(now - options.Window.History);
+            ForgetBefore(now - options.MostLateness);
             if (spawned.Count < options.MaxSpawned || CountOf(external.Peer, now) < options.MaxSpawned)
             {
                 return Verdict.Accepted;

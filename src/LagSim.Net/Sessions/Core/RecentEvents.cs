@@ -25,7 +25,7 @@ internal sealed class RecentEvents
         }
 
         LogEntry gone = lines[oldest].Entry;
-        forgotten = gone.Verdict == Verdict.Accepted ? SimTime.Max(forgotten, gone.Event.Time) : forgotten;
+        forgotten = gone.Verdict.IsAcceptance() ? SimTime.Max(forgotten, gone.Event.Time) : forgotten;
         lines[oldest] = (entry, hasEffect);
         oldest = (oldest + 1) % Most;
     }
@@ -41,7 +41,7 @@ internal sealed class RecentEvents
         List<LogEntry> found = new();
         foreach ((LogEntry entry, bool hasEffect) in lines)
         {
-            if (hasEffect && entry.Verdict == Verdict.Accepted && entry.Event.Time > after && entry.Event.Time <= upTo)
+            if (hasEffect && entry.Verdict.IsAcceptance() && entry.Event.Time > after && entry.Event.Time <= upTo)
             {
                 found.Add(entry);
             }
@@ -49,6 +49,18 @@ internal sealed class RecentEvents
 
         found.Sort(Compare);
         return found;
+    }
+
+    /// <summary>The entries about a player's events that happened, in no order.</summary>
+    internal IEnumerable<LogEntry> Accepted(byte player)
+    {
+        foreach ((LogEntry entry, _) in lines)
+        {
+            if (entry.Event.Peer == player && entry.Verdict.IsAcceptance())
+            {
+                yield return entry;
+            }
+        }
     }
 
     /// <summary>Finds the newest entry about an event, whatever its verdict, and whether it took effect; false if there is none.</summary>

@@ -174,15 +174,23 @@ internal sealed class SharedWorld
         SimTime now = sharedTime.Now;
         counters.AddLateness(now - external.Time);
         world.NoteLateEvent(CausedBy(external));
-        world.Advance(now); // simulate up to what was shown, so that a change to it counts as a change
-        SubmitResult result = strategy.Apply(world, external, now);
+        SubmitResult result = Enter(world, external, now);
         if (result == SubmitResult.RolledBack && strategy.RewritesPast && external.Time < now)
         {
             counters.Heals++;
         }
 
-        counters.EventsLost += result == SubmitResult.TooOld ? 1 : 0;
         return result != SubmitResult.TooOld;
+    }
+
+    /// <summary>Has an event of this peer happen at another time than that at which it was done here: the host moved it.</summary>
+    /// <returns>False if it came too late for the remaining history, and has no effect.</returns>
+    internal bool Move(in ExternalEvent done, in ExternalEvent moved)
+    {
+        Retract(done);
+        hasUnshown = true;
+        Limits.Note(moved);
+        return Enter(live!, moved, sharedTime.Now) != SubmitResult.TooOld;
     }
 
     /// <summary>Retracts an event of this peer that the host refused.</summary>
@@ -199,7 +207,7 @@ internal sealed class SharedWorld
     {
         LiveWorld world = live!;
         SimTime due = world.Step(shared);
-        if (world.BlockedBy is SimulationException end && shared - world.BlockedAt > options.Window.History)
+        if (world.BlockedBy is SimulationException end && shared - world.BlockedAt > options.MostLateness)
         {
             throw end; // the cause is older than the history by now, and cannot be removed
         }
@@ -215,6 +223,14 @@ internal sealed class SharedWorld
 
     /// <summary>The player whose account pays for what an event has computed again.</summary>
     private static byte CausedBy(in ExternalEvent external) => external.PlayerEvent?.Number ?? external.Peer;
+
+    private SubmitResult Enter(LiveWorld world, in ExternalEvent external, SimTime now)
+    {
+        world.Advance(now); // simulate up to what was shown, so that a change to it counts as a change
+        SubmitResult result = strategy.Apply(world, external, now);
+        counters.EventsLost += result == SubmitResult.TooOld ? 1 : 0;
+        return result;
+    }
 
     private void Take(LiveWorld made, WorldSnapshot? from)
     {

@@ -72,7 +72,7 @@ internal sealed class Admission(
 
         room.MakeRoom(from, made);
         ulong session = cookies.SessionId(sessionId, joins++);
-        WelcomeDatagram terms = new(join.Nonce, session, options.Window.History, made.Bytes.Length, made.Hash, made.LogIndex);
+        WelcomeDatagram terms = new(join.Nonce, session, options.Window.History, options.LongestHistory, made.Bytes.Length, made.Hash, made.LogIndex);
         byte[] welcome = reply.Welcome(terms, who.Key!, out LinkSeal? seal);
         UpdateLink link = links.To(from, session, made.LogIndex, now, seal);
         Client admitted = new(new JoinClaim(join, who, token, reply.Handshake, now + timeouts.TimeoutWithCopy(made)), link, made, welcome);

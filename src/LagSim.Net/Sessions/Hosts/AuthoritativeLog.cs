@@ -27,9 +27,10 @@ internal sealed class AuthoritativeLog(SharedWorld world, Watermark watermark, E
     /// <param name="hasEffect">Whether it is in this host's world.</param>
     internal void Record(in ExternalEvent external, Verdict verdict, bool hasEffect)
     {
-        bool isAccepted = verdict == Verdict.Accepted;
+        bool isAccepted = verdict.IsAcceptance();
         counters.EventsAccepted += isAccepted ? 1 : 0;
         counters.EventsRefused += isAccepted ? 0 : 1;
+        counters.EventsMoved += verdict == Verdict.Moved ? 1 : 0;
         Lines.Add(external, verdict, SimTime.Min(watermark.Now, external.Time), clock.Now); // it was validated, or done, a little earlier
         LastUrgent = isAccepted && SendWindow.IsMadeUpFor(external) ? LastUrgent : Lines.Count;
         journal.Tell(Lines[Lines.Count], isAccepted && hasEffect);

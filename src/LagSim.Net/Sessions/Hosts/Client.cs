@@ -62,19 +62,14 @@ internal sealed class Client
     /// <summary>The events received from it.</summary>
     internal ReceiveWindow Incoming { get; private set; } = new(0);
 
-    /// <summary>
-    /// The shared time before which none of its events is stamped but those that were validated; the earliest instant without a promise.
-    /// </summary>
-    internal SimTime Promised { get; private set; } = SimTime.MinValue;
+    /// <summary>When its events are stamped.</summary>
+    internal ClientStamps Stamps { get; } = new();
 
     /// <summary>The committed states that it was told of.</summary>
     internal StateTellings States { get; } = new();
 
     /// <summary>How far it has the roster.</summary>
     internal RosterDelivery Roster { get; } = new();
-
-    /// <summary>Takes over what it promised about the events after those that were all validated by now.</summary>
-    internal void NotePromise() => Promised = Incoming.Promised;
 
     /// <summary>Gives it a number.</summary>
     internal void Sit(PlayerPlaces.Place place)

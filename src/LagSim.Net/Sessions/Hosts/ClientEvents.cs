@@ -25,18 +25,18 @@ internal sealed class ClientEvents(
 
             UpdateEntry entry = client.Incoming.Take();
             places[client.Peer].LastSequence = client.EventsReceived;
-            Validate(entry, client.Peer, client.EventsReceived);
-            client.NotePromise(); // not before: the event itself may be stamped earlier
+            Validate(entry, client);
+            client.Stamps.Promised = client.Incoming.Promised; // not before: the event itself may be stamped earlier
         }
 
-        client.NotePromise();
+        client.Stamps.Promised = client.Incoming.Promised;
         return true;
     }
 
-    private void Validate(in UpdateEntry entry, byte sender, uint sequence)
+    private void Validate(in UpdateEntry entry, Client client)
     {
         ExternalEvent external = entry.Event;
-        if (entry.IsOwn || external.Peer != sender || external.Sequence != sequence)
+        if (entry.IsOwn || external.Peer != client.Peer || external.Sequence != client.EventsReceived)
         {
             // Sent in another player's name; in the log it would make that player retract its own event.
             counters.EventsRefused++;
@@ -44,10 +44,11 @@ internal sealed class ClientEvents(
             return;
         }
 
-        Verdict verdict = validator.Validate(external);
+        Verdict verdict = validator.Validate(ref external, client.Stamps);
         bool hasEffect = false;
-        if (verdict == Verdict.Accepted)
+        if (verdict.IsAcceptance())
         {
+            client.Stamps.Note(external.Time, isMoved: verdict == Verdict.Moved);
             world.Limits.Note(external);
             acts.Note(external);
             hasEffect = world.Apply(external);

@@ -25,20 +25,20 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     internal int PlayerCount => CountUpTo(SessionOptions.MaxClients);
 
     /// <summary>
-    /// The time before which none of those who play will stamp an event any more; the latest instant if nobody plays besides the host.
+    /// The time before which none of those who play, and have acted since an instant, will stamp an event any more; the latest instant if
+    /// there is nobody like that besides the host.
     /// </summary>
-    internal SimTime Promised
+    /// <param name="actedSince">The instant; the earliest for all who play.</param>
+    internal SimTime Promised(SimTime actedSince)
     {
-        get
+        SimTime promised = SimTime.MaxValue;
+        foreach (Client client in clients)
         {
-            SimTime promised = SimTime.MaxValue;
-            foreach (Client client in clients)
-            {
-                promised = PlayerPlaces.IsFor(client.Peer, isSpectator: false) ? SimTime.Min(promised, client.Promised) : promised;
-            }
-
-            return promised;
+            bool counts = client.Stamps.Latest >= actedSince && PlayerPlaces.IsFor(client.Peer, isSpectator: false);
+            promised = counts ? SimTime.Min(promised, client.Stamps.Promised) : promised;
         }
+
+        return promised;
     }
 
     /// <summary>Returns the client with that link. A loop, since a delegate would be allocated for every datagram.</summary>

@@ -32,8 +32,7 @@ internal sealed class HostProtocol : ISessionProtocol
         SimTime now = parts.Clock.Now;
         PlayerPlaces places = new(options, now, parts.World.Scene, sessionId);
         Roster = new ClientRoster(places, parts.Sender, parts.Clock);
-        Watermark = new Watermark(
-            parts.SharedTime, parts.World, options.Window.History, options.ConfirmsEarly ? Roster : null);
+        Watermark = new Watermark(parts.SharedTime, parts.World, options, Roster);
         Log = new AuthoritativeLog(parts.World, Watermark, parts.Journal, parts.Counters, parts.Clock);
         broadcast = new LogBroadcast(Roster, Log, Watermark, parts.World, parts.Commits, parts.KeepAlive, parts.Sender, parts.Clock);
         Log.Recorded += broadcast.NoteRecorded;
@@ -44,7 +43,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Handshake.Seating.Came += _ => peers.Refresh();
         Roster.Gone += _ => peers.Refresh();
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
-        EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, budget, options.Window.History);
+        EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, budget, parts.Journal, options.Window.History);
         events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
         players = new PlayerAnnouncer(Roster, places, timeouts, actions, parts);
@@ -220,9 +219,9 @@ internal sealed class HostProtocol : ISessionProtocol
 
     public SimTime NextDue(SimTime now)
     {
-        SimTime due = Parts.Commits.NextDue(options.Window.History);
+        SimTime due = Parts.Commits.NextDue(Watermark.Behind);
         due = SimTime.Min(due, SimTime.Min(peers.NextDue(), players.NextDue()));
-        due = options.ConfirmsEarly && Parts.World.Live is not null ? SimTime.Min(due, now + Hosts.Watermark.Pace) : due;
+        due = options.ConfirmsEarly && Parts.World.Live is not null ? SimTime.Min(due, now + Watermark.Pace) : due;
         foreach (Client client in Roster.All)
         {
             due = SimTime.Min(due, client.HasWritten ? client.Link.Due : timeouts.NextLook(client, now));

@@ -43,7 +43,7 @@ internal sealed class LogLines
     /// <summary>Advances what is settled.</summary>
     internal void Settle(SimTime watermark)
     {
-        while (settled < Count && (this[settled + 1].Verdict != Verdict.Accepted || this[settled + 1].Event.Time < watermark))
+        while (settled < Count && (!this[settled + 1].IsAccepted || this[settled + 1].Event.Time < watermark))
         {
             settled++;
         }

@@ -4,7 +4,8 @@ using LagSim.Net.Wire;
 namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
-/// The log as sent to one client: its own events go back by number only; events of a former holder of its number are sent in full.
+/// The log as sent to one client: its own events go back by number only. Those that were moved are sent in full, and those of a former holder
+/// of its number.
 /// </summary>
 internal sealed class LogView : IEntrySource
 {
@@ -21,7 +22,7 @@ internal sealed class LogView : IEntrySource
     internal UpdateEntry EntryFor(Client reader, uint number)
     {
         LogEntry entry = log[number];
-        return entry.Event.Peer == reader.Peer && entry.Event.Sequence > reader.FirstSequence
+        return entry.Event.Peer == reader.Peer && entry.Event.Sequence > reader.FirstSequence && entry.Verdict != Verdict.Moved
             ? new UpdateEntry(entry.Verdict, entry.Event.Sequence)
             : new UpdateEntry(entry.Verdict, entry.Event);
     }

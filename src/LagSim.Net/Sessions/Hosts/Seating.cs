@@ -134,11 +134,9 @@ internal sealed class Seating(
     internal void Tell(Client client)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.SeatBytes];
-        SeatDatagram seat = watermark.CountsPromises
-            ? new(
-                client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value, places[client.Peer].Earliest,
-                (ushort)Watermark.Pace.ToMilliseconds())
-            : new(client.Link.SessionId, client.Peer, client.FirstSequence, places[client.Peer].Pass!.Value);
+        PlayerPlaces.Place place = places[client.Peer];
+        SeatDatagram seat = new(client.Link.SessionId, client.Peer, client.FirstSequence, place.Pass!.Value);
+        seat = watermark.Pace > SimDuration.Zero ? seat.WithPromises(place.Earliest, watermark.Pace, watermark.PacedFor) : seat;
         sender.Send(bytes.Slice(0, seat.Encode(bytes)), client.Link);
     }
 }

@@ -6,30 +6,50 @@ namespace LagSim.Net.Sessions.Hosts;
 
 /// <summary>
 /// The time before which a host accepts no event any more: the history before the clock, or before where the world stands if that is
-/// behind. With promises it is later: as far as all who play have promised to stamp no more events. It never goes back.
+/// behind. It waits for players whose events are on their way, as long as the host's options say. With early confirmation it is later: as
+/// far as all who play have promised to stamp no more events. It never goes back.
 /// </summary>
 /// <remarks>
 /// <para>While a host is stuck, what it has not simulated can still be changed, above all by removing what it is stuck on.</para>
 /// <para>No honest client loses an event by promises: a client that came in stamps nothing before the watermark that it is told with its
 /// number, and while its first promise is on its way the watermark goes on by the history alone. What it promises counts once all events
 /// before the promise are here and were judged.</para>
+/// <para>A player that acts promises several times in a history, so one whose promises stay out has a link that holds its events back: the
+/// watermark stays at its newest promise until they come, since whatever it did since is stamped later. One that does nothing is not waited
+/// for: its link would have to carry promises all the time.</para>
 /// </remarks>
 /// <param name="sharedTime">The session's time.</param>
 /// <param name="world">The world.</param>
-/// <param name="history">How late an event may be at the most.</param>
-/// <param name="players">Who makes promises; null if they do not count.</param>
-internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, SimDuration history, ClientRoster? players = null)
+/// <param name="options">How late an event may be.</param>
+/// <param name="players">Who makes promises; null if nobody does.</param>
+internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, HostOptions options, ClientRoster? players = null)
 {
-    /// <summary>
-    /// The longest pause between two promises of a client, where they count. Shorter, and things are final sooner; each is a datagram.
-    /// </summary>
-    internal static readonly SimDuration Pace = SimDuration.FromMilliseconds(50);
+    /// <summary>For how long after its newest event a player counts as one that acts, unless all promises count.</summary>
+    internal static readonly SimDuration Acting = SimDuration.FromSeconds(10);
 
+    /// <summary>
+    /// The pause between two promises of a client where things are to be final early. Shorter, and they are final sooner; each is a datagram.
+    /// </summary>
+    private static readonly SimDuration EarlyPace = SimDuration.FromMilliseconds(50);
+
+    /// <summary>The longest pause where they only tell that nothing is on its way.</summary>
+    private static readonly SimDuration SlowPace = SimDuration.FromMilliseconds(250);
+
+    private readonly SimDuration history = options.Window.History;
+    private readonly SimDuration longest = options.LongestHistory;
     private SimTime newest = SimTime.MinValue;
     private int holds;
 
-    /// <summary>Whether promises count.</summary>
-    internal bool CountsPromises => players is not null;
+    /// <summary>The longest pause between two promises of a client; zero if they do not count.</summary>
+    internal SimDuration Pace => players is null || (longest == history && !options.ConfirmsEarly) ? SimDuration.Zero
+        : options.ConfirmsEarly || history / 4 < EarlyPace ? EarlyPace
+        : history / 4 < SlowPace ? history / 4 : SlowPace;
+
+    /// <summary>For how long after its newest event a client keeps that pace; the longest span for always.</summary>
+    internal SimDuration PacedFor => options.ConfirmsEarly ? SimDuration.MaxValue : Acting;
+
+    /// <summary>By how much it is behind the clock, or the world, until the next promise comes.</summary>
+    internal SimDuration Behind => WaitedFor(Simulated) < Simulated - history ? longest : history;
 
     /// <summary>The watermark now.</summary>
     internal SimTime Now
@@ -41,15 +61,23 @@ internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, SimDu
                 return newest;
             }
 
-            SimTime now = sharedTime.Now;
-            SimTime simulated = world.Live is null ? now : SimTime.Min(now, world.Live.Simulation.SimulatedTo);
-            newest = SimTime.Max(newest, simulated - history);
-            if (players is not null && world.Live is { IsBehind: false })
+            SimTime simulated = Simulated;
+            newest = SimTime.Max(newest, SimTime.Max(simulated - longest, SimTime.Min(simulated - history, WaitedFor(simulated))));
+            if (options.ConfirmsEarly && players is not null && world.Live is { IsBehind: false })
             {
-                newest = SimTime.Max(newest, SimTime.Min(simulated, players.Promised));
+                newest = SimTime.Max(newest, SimTime.Min(simulated, players.Promised(SimTime.MinValue)));
             }
 
             return newest;
+        }
+    }
+
+    private SimTime Simulated
+    {
+        get
+        {
+            SimTime now = sharedTime.Now;
+            return world.Live is null ? now : SimTime.Min(now, world.Live.Simulation.SimulatedTo);
         }
     }
 
@@ -58,4 +86,8 @@ internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, SimDu
 
     /// <summary>Lets it go on.</summary>
     internal void Resume() => holds--;
+
+    /// <summary>What the players that act have promised; the latest instant if none does.</summary>
+    private SimTime WaitedFor(SimTime simulated) =>
+        players is null || longest == history ? SimTime.MaxValue : players.Promised(simulated - Acting);
 }
