@@ -277,7 +277,7 @@ internal sealed class Snippets(Scene scene, Action<Vector3D> show)
 
     internal static HostOptions Capped()
     {
-        HostOptions options = new() { MaxBytesPerSecond = 16_000 };
+        HostOptions options = new() { MaxBytesPerSecond = 16_000, Timeout = SimDuration.FromSeconds(10) };
         return options;
     }
 
