@@ -15,7 +15,7 @@ public sealed class EventKindTextTests
     {
         string[] words =
         [
-            "none", "start", "spawn", "teleport", "setvelocity", "impulse", "grab", "holdknot", "release", "remove", "setfilter", "command", "timer", "impact", "stepend", "crossing", "lost",
+            "none", "start", "spawn", "teleport", "setvelocity", "impulse", "grab", "holdknot", "release", "remove", "player", "setfilter", "command", "timer", "impact", "stepend", "crossing", "lost",
         ];
 
         Assert.Equal(words, Enum.GetValues<EventKind>().Order().Select(EventKindText.Of));
