@@ -76,7 +76,7 @@ internal sealed class KnownHosts(string file)
         }
     }
 
-    private string[] Lines() => System.IO.File.Exists(file) ? System.IO.File.ReadAllLines(file) : [];
+    private string[] Lines() => SecretFile.TargetOf(file) is string target && System.IO.File.Exists(target) ? System.IO.File.ReadAllLines(target) : [];
 
     private (string Address, HostFingerprint Fingerprint)? Read(string line, int number)
     {

@@ -23,6 +23,7 @@ internal static class SecretFile
     /// <exception cref="IOException">The file cannot be read.</exception>
     internal static string? ReadLine(string file)
     {
+        file = TargetOf(file); // a link to nothing exists, too
         if (!File.Exists(file))
         {
             return null;

@@ -84,7 +84,7 @@ public sealed class LabelTests
             taken += SealedDatagram.TryDecode(changed, out SealedDatagram other, out _) && other.TryOpen(host, opened, out _) ? 1 : 0;
         }
 
-        Assert.Equal(isAssociated ? 0 : 64, taken); // every bit of the session id; header and number are refused in any case
+        Assert.Equal(isAssociated ? 0 : 72, taken); // every bit of session id and generation; header and number are refused in any case
     }
 
     private static void AssertIs(byte[] hash, Token128 token) => Assert.Equal(new Token128(hash), token);
