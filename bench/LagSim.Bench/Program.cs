@@ -14,6 +14,7 @@ internal static class Program
     {
         ["traffic"] = _ => TrafficTable.Print(),
         ["steering"] = SteeringTable.Print,
+        ["lateness"] = LateInputTable.Print,
         ["protection"] = ProtectionTable.Print,
         ["heal"] = HealTable.Print,
         ["rules"] = RuleHealTable.Print,

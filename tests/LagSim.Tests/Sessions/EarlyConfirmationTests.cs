@@ -169,7 +169,7 @@ public sealed class EarlyConfirmationTests
             }
 
             SimTime stamp = now - SimDuration.FromMilliseconds(50);
-            client.Claim(1, ExternalEvent.SetVelocity(stamp, client.Peer, 1, First, V(1)));
+            client.Claim(1, ExternalEvent.Teleport(stamp, client.Peer, 1, First, V(0, 4)));
             Assert.Equal(promised >= 0 ? Verdict.TooLate : Verdict.Accepted, group.Log[1].Verdict);
             Assert.True(group.Host.Watermark <= group.Host.SharedTime.Now);
         }

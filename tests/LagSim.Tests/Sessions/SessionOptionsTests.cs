@@ -22,7 +22,7 @@ namespace LagSim.Tests.Sessions;
 public sealed class SessionOptionsTests
 {
     private static readonly string[] OfHosts =
-        ["ConfirmsEarly", "ExpectedClients", "MaxBytesPerSecond", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "SpectatorPlaces", "StartLead", "Unprotected"];
+        ["ConfirmsEarly", "ExpectedClients", "LongestHistory", "MaxBytesPerSecond", "MaxClientsPerAddress", "MaxEventsPerSecond", "PlayerBudget", "PlayerKeys", "Protection", "SpectatorPlaces", "StartLead", "Unprotected"];
 
     private static readonly string[] OfClients = ["Accelerations", "Pass", "Protection", "Rules", "Token"];
 

@@ -58,7 +58,6 @@ public sealed class ThroughputTests(ITestOutputHelper output)
         Play(group, Push, 490, 1);
         group.Run(10);
         Report("one datagram", group);
-        Assert.True(group.Host.Counters.EventsAccepted < Count(490) / 20, $"{group.Host.Counters.EventsAccepted} accepted");
         Assert.True(group.Host.LogLength < Count(490) / 3, $"{group.Host.LogLength} judged");
     }
 

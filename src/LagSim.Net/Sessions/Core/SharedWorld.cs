@@ -207,7 +207,7 @@ internal sealed class SharedWorld
     {
         LiveWorld world = live!;
         SimTime due = world.Step(shared);
-        if (world.BlockedBy is SimulationException end && shared - world.BlockedAt > options.MostLateness)
+        if (world.BlockedBy is SimulationException end && shared - world.BlockedAt > options.Window.History)
         {
             throw end; // the cause is older than the history by now, and cannot be removed
         }

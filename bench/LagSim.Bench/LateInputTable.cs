@@ -1,0 +1,106 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Testing;
+using LagSim.Testing.Links;
+using LagSim.Time;
+
+namespace LagSim.Bench;
+
+/// <summary>
+/// What becomes of the inputs of a host and three clients who all hold a stick, 30 times a second, on each link; and what it costs that the
+/// watermark waits for them: in virtual time, with the history of a second alone, and with the default of thrice that at the most.
+/// </summary>
+internal static class LateInputTable
+{
+    private const int Clients = 3;
+    private const double Rate = 30, Seconds = 30;
+
+    internal static void Print(bool isBrief)
+    {
+        long all = 0, refused = 0, moved = 0;
+        Console.WriteLine("| link | longest history, s | inputs | refused | moved | all agree | watermark behind: p50, s | p99 | max | segments at the most | heals |");
+        Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|---|");
+        foreach (string link in isBrief ? ["wifi-good", "blackout", "delay-2000ms"] : LinkProfiles.Names)
+        {
+            foreach (double longest in new double[] { 1, 3 })
+            {
+                Row row = new();
+                for (ulong seed = 1; seed <= (isBrief ? 1UL : 11); seed++)
+                {
+                    row.Play(link, longest, seed);
+                }
+
+                Console.WriteLine(row.Text(link, longest));
+                (all, refused, moved) = longest > 1 ? (all + row.Inputs, refused + row.Refused, moved + row.Moved) : (all, refused, moved);
+            }
+        }
+
+        Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"With 3 s: {all:N0} inputs, {refused:N0} refused, {moved:N0} moved."));
+    }
+
+    private sealed class Row
+    {
+        private readonly List<double> behind = [];
+        private int segments;
+        private long heals;
+        private bool agree = true;
+
+        internal long Inputs { get; private set; }
+
+        internal long Refused { get; private set; }
+
+        internal long Moved { get; private set; }
+
+        internal void Play(string link, double longest, ulong seed)
+        {
+            SceneBuilder builder = new SceneBuilder("marbles").AddPlane("floor", Vector3D.Up, Vector3D.Zero);
+            for (int n = 0; n <= Clients; n++)
+            {
+                builder.AddBody(Name(n), new BodySpec(0.3, 1, 0.6, friction: 0.5, rollingResistance: 0.02), new Vector3D(n * 2.5, 0.3, 0));
+            }
+
+            Scene scene = builder.Build();
+            SessionTest test = new SessionTest(scene).WithClients(Clients, link).WithSeed(seed)
+                .WithOptions(player => player == 0 ? new HostOptions { LongestHistory = SimDuration.FromSeconds(longest) } : new ClientOptions());
+            for (int player = 0; player <= Clients; player++)
+            {
+                BodyId body = scene.BodyNamed(Name(player));
+                int n = 0;
+                test = test.Every(1 / Rate, player, me =>
+                {
+                    if (me.Session is HostSession host)
+                    {
+                        behind.Add((host.SharedTime.Now - host.Watermark).ToSeconds());
+                        segments = Math.Max(segments, host.World!.Simulation.Engine.Timelines.Alive);
+                    }
+
+                    me.Do(PlayerAction.Impulse(body, new Vector3D(n++ % 20 < 10 ? 0.1 : -0.1, 0, 0)));
+                });
+            }
+
+            SessionTestResult result = test.RunUnchecked(Seconds);
+            Inputs += result.EventsAccepted + result.EventsRefused;
+            Refused += result.EventsRefused;
+            Moved += result.EventsMoved;
+            heals += result.Heals;
+            agree &= result.WorldsAgree;
+        }
+
+        internal string Text(string link, double longest)
+        {
+            double[] sorted = [.. behind.Order()];
+            return string.Create(
+                CultureInfo.InvariantCulture,
+                $"| {link} | {longest} | {Inputs} | {Refused} | {Moved} | {(agree ? "yes" : "no")} | {At(0.5):F2} | {At(0.99):F2} | {At(1):F2} | {segments} | {heals} |");
+
+            double At(double share) => sorted[(int)(share * (sorted.Length - 1))];
+        }
+
+        private static string Name(int player) => FormattableString.Invariant($"marble {player}");
+    }
+}
