@@ -105,16 +105,19 @@ public sealed class InvariantCheckTests
     [Fact]
     public void Run_HistoryTooShort_TooLateIsAFailure()
     {
-        // Half a second there, and a quarter of one is allowed: the host refuses what clients do, and their senders retract it.
-        CheckOptions options = new() { Sessions = 3, Profile = LinkProfiles.PureDelay(500), ShrinkingPlays = 0, History = SimDuration.FromMilliseconds(250) };
+        // Half a second there, and the host waits three tenths of one at the most: it refuses spawns and grabs of clients, and their senders retract them.
+        CheckOptions options = new() { Sessions = 3, Profile = LinkProfiles.PureDelay(500), ShrinkingPlays = 0, History = SimDuration.FromMilliseconds(100) };
         CheckReport report = Run(options);
         Assert.Equal([1UL, 2, 3], report.Failures.Select(f => f.Whole.Seed));
         Assert.All(report.Outcomes, o => Assert.Equal((true, $"{o.TooLateEvents} events were too late."), (o.TooLateEvents > 0, o.Failure)));
         Assert.Equal(0, report.DifferingBits);
 
-        // The control: with the history that such a link needs none of them is.
-        CheckReport whole = Run(options with { History = null });
-        Assert.Equal((0, 0L, 0L), (whole.Failures.Count, whole.TooLateEvents, whole.DifferingBits));
+        // The control: with the history that such a link needs none of them is, nor with half of it, since the host waits for what was promised.
+        foreach (SimDuration? history in new SimDuration?[] { null, SimDuration.FromMilliseconds(250) })
+        {
+            CheckReport whole = Run(options with { History = history });
+            Assert.Equal((0, 0L, 0L), (whole.Failures.Count, whole.TooLateEvents, whole.DifferingBits));
+        }
     }
 
     [Fact]
