@@ -3,7 +3,6 @@ using System.Collections.Generic;
 using System.Text;
 using System.Threading;
 using LagSim.Net.Sessions;
-using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;

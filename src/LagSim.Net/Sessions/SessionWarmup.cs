@@ -6,7 +6,6 @@ using System.Threading.Tasks;
 using LagSim.Events;
 using LagSim.Hosting;
 using LagSim.Net.Strategies;
-using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Time;
 using LagSim.Timelines;

@@ -1,5 +1,4 @@
 using LagSim.Net.Sessions.Links;
-using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
