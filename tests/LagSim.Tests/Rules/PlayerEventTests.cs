@@ -3,10 +3,8 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Hosting;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
-using LagSim.Timelines;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 

@@ -9,7 +9,6 @@ using LagSim.Net.Recordings;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
-using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Testing;
 using LagSim.Testing.Links;
@@ -389,7 +388,7 @@ public sealed class PlayersHeardTests
     [Fact]
     public void SessionTest_WithALateClient_HearsOfAll()
     {
-        SessionTestResult result = new SessionTest(ScriptedActions.Box().With(Hosts, 1)).WithClients(2, "awful").WithLateClient(1, "4g").Run(seconds: 4);
+        SessionTestResult result = new SessionTest(ScriptedActions.Box().With(Hosts, 1)).WithClients(2, "awful").WithLateClient(1, "4g").Run(seconds: 4, TestContext.Current.CancellationToken);
         Assert.Equal(4, result.StateOfRules<GivenState>().Count);
     }
 
