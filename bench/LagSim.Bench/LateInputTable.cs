@@ -23,8 +23,8 @@ internal static class LateInputTable
     internal static void Print(bool isBrief)
     {
         long all = 0, refused = 0, moved = 0;
-        Console.WriteLine("| link | longest history, s | inputs | refused | moved | all agree | watermark behind: p50, s | p99 | max | segments at the most | heals |");
-        Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|---|");
+        Console.WriteLine("| link | longest history, s | inputs | refused | moved | without a verdict | all agree | watermark behind: p50, s | p99 | max | segments after it, at the most | heals |");
+        Console.WriteLine("|---|---|---|---|---|---|---|---|---|---|---|---|");
         foreach (string link in isBrief ? ["wifi-good", "blackout", "delay-2000ms"] : LinkProfiles.Names)
         {
             foreach (double longest in new double[] { 1, 3 })
@@ -47,7 +47,7 @@ internal static class LateInputTable
     {
         private readonly List<double> behind = [];
         private int segments;
-        private long heals;
+        private long heals, judged;
         private bool agree = true;
 
         internal long Inputs { get; private set; }
@@ -76,15 +76,16 @@ internal static class LateInputTable
                     if (me.Session is HostSession host)
                     {
                         behind.Add((host.SharedTime.Now - host.Watermark).ToSeconds());
-                        segments = Math.Max(segments, host.World!.Simulation.Engine.Timelines.Alive);
+                        segments = n % 10 == 0 ? Math.Max(segments, SegmentsAfter(host.Watermark, host.World!.Simulation)) : segments;
                     }
 
                     me.Do(PlayerAction.Impulse(body, new Vector3D(n++ % 20 < 10 ? 0.1 : -0.1, 0, 0)));
+                    Inputs++;
                 });
             }
 
             SessionTestResult result = test.RunUnchecked(Seconds);
-            Inputs += result.EventsAccepted + result.EventsRefused;
+            judged += result.EventsAccepted + result.EventsRefused;
             Refused += result.EventsRefused;
             Moved += result.EventsMoved;
             heals += result.Heals;
@@ -96,9 +97,25 @@ internal static class LateInputTable
             double[] sorted = [.. behind.Order()];
             return string.Create(
                 CultureInfo.InvariantCulture,
-                $"| {link} | {longest} | {Inputs} | {Refused} | {Moved} | {(agree ? "yes" : "no")} | {At(0.5):F2} | {At(0.99):F2} | {At(1):F2} | {segments} | {heals} |");
+                $"| {link} | {longest} | {Inputs} | {Refused} | {Moved} | {Inputs - judged} | {(agree ? "yes" : "no")} | {At(0.5):F2} | {At(0.99):F2} | {At(1):F2} | {segments} | {heals} |");
 
             double At(double share) => sorted[(int)(share * (sorted.Length - 1))];
+        }
+
+        /// <summary>How many pieces of paths may still change: what a world keeps for the history.</summary>
+        private static int SegmentsAfter(SimTime watermark, Simulation world)
+        {
+            int count = 0;
+            for (int slot = 0; slot <= Clients; slot++)
+            {
+                int segment = world.Engine.Timelines.Last(slot);
+                for (; segment >= 0 && world.Engine.Timelines.Key(segment).Time >= watermark; segment = world.Engine.Timelines.Previous(segment))
+                {
+                    count++;
+                }
+            }
+
+            return count;
         }
 
         private static string Name(int player) => FormattableString.Invariant($"marble {player}");

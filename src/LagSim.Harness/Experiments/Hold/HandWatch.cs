@@ -2,7 +2,6 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Harness.Experiments.Peers;
 using LagSim.Net.Sessions;
-using LagSim.Net.Wire;
 
 namespace LagSim.Harness.Experiments.Hold;
 

@@ -1,7 +1,6 @@
 using LagSim.Events;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
-using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
