@@ -60,7 +60,7 @@ public sealed class InvariantCheckTests
 
     /// <summary>
     /// A player whose link carries 12 to 18 kbit/s and falls to a fifth for five of every few seconds gets in. It did not while a host gave a copy no longer than it takes at 1,000
-    /// bytes a second, a link did not count round trips above 10 s and so saw no queue, and clock readings were exchanged fifty times a second until the first answer.
+    /// bytes a second, a link did not count round trips above 10 s and so saw no queue, and every event had a datagram of its own.
     /// </summary>
     [Theory]
     [InlineData(502_977UL)]

@@ -13,7 +13,7 @@ public sealed class SessionFaultTests
 {
     [Theory]
     [InlineData(SessionFault.ForgetsTooEarly, 49u)]
-    [InlineData(SessionFault.DropsWhenMerging, 2u)]
+    [InlineData(SessionFault.DropsWhenMerging, 3u)]
     [InlineData(SessionFault.DropsWhenMerging, 18u)]
     [InlineData(SessionFault.DropsWhenMerging, 37u)]
     internal void Run_KeptTogetherInAWayKnownToBeWrong_IsCaught(SessionFault fault, uint seed)

@@ -224,9 +224,9 @@ public sealed class SessionCommandTests
         using LiveTool relay = LiveTool.Run($"relay {host.Address} --profile delay-200ms");
         using LiveTool client = LiveTool.Run($"join {relay.Address} --for-s 1.9 --do set-velocity@1.8:2,9,0 --do teleport@1.85:0,12,0");
         client.Ends(3);
-        Assert.Contains("The host refused --do set-velocity@1.8:2,9,0: it came too late, ", client.Error.ToString(), StringComparison.Ordinal);
+        Assert.DoesNotContain("set-velocity@1.8", client.Error.ToString(), StringComparison.Ordinal); // happened later, when it came
         Assert.Contains("The host refused --do teleport@1.85:0,12,0: it came too late, ", client.Error.ToString(), StringComparison.Ordinal);
-        Assert.Contains("events: 0 accepted, 2 refused", client.Output.ToString(), StringComparison.Ordinal);
+        Assert.Contains("events: 1 accepted, 1 refused", client.Output.ToString(), StringComparison.Ordinal);
     }
 
     [Fact]

@@ -70,7 +70,7 @@ public sealed class ContactNoticesTests
 
     [Theory]
     [InlineData("awful", 1, "healing", true)]
-    [InlineData("loss-20", 5, "healing", true)]
+    [InlineData("loss-20", 6, "healing", true)]
     [InlineData("delay-500ms", 3, "full-rollback", true)]
     [InlineData("delay-500ms", 4, "none", false)]
     public void Notices_OfASessionOnABadLink_AreTheSameOnAllPeers(string link, int seed, string strategy, bool agrees)

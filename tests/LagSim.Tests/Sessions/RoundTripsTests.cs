@@ -28,9 +28,9 @@ public sealed class RoundTripsTests(ITestOutputHelper output)
             for (int n = 0; n < 300; n++)
             {
                 now += Pause;
-                double sample = random.Next(30) == 0 ? random.Next(2) == 0 ? -0.001 : 10.1 : random.NextDouble() * 0.5;
+                double sample = random.Next(30) == 0 ? random.Next(2) == 0 ? -0.001 : 60.1 : random.NextDouble() * 0.5;
                 trips.Add(SimDuration.FromSeconds(sample), now);
-                if (sample is >= 0 and <= 10)
+                if (sample is >= 0 and <= 60)
                 {
                     deviation = isFirst ? sample / 2 : deviation + ((Math.Abs(sample - mean) - deviation) / 4); // RFC 6298, 2.2 and 2.3
                     mean = isFirst ? sample : mean + ((sample - mean) / 8);

@@ -129,7 +129,8 @@ public sealed class SessionWarmupTests
         Assert.NotEqual(alone, Play(warmups: false, actions: 41));
     }
 
-    private static IReadOnlyList<EventKind> PlayersKinds { get; } = [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Timer)];
+    private static IReadOnlyList<EventKind> PlayersKinds { get; } =
+        [.. Enum.GetValues<EventKind>().Where(k => k is >= EventKind.Spawn and < EventKind.Timer and not EventKind.Player)]; // the host alone says who plays, and only to rules that listen
 
     private static string[] Play(bool warmups, int actions)
     {

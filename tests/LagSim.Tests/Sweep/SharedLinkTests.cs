@@ -44,7 +44,8 @@ public sealed class SharedLinkTests(ITestOutputHelper output)
         output.WriteLine(FormattableString.Invariant(
             $"queue {queueMs} ms, {first} and {second}: the greater share is {ratios[0]:0.0} to {ratios[^1]:0.0} times the other, median {ratios[seeds / 2]:0.0}; {used:P0} of the link used; {ratios.Count(r => r <= 2)} of {seeds} within 2"));
         Assert.InRange(ratios[seeds / 2], 1, 2);
-        Assert.InRange(ratios[^1], 1, 4.3); // the worst of 120 runs that nothing was tuned on (docs/LINKS.md)
+        Assert.InRange(ratios.Count(r => r <= 2), 8, seeds);
+        Assert.InRange(ratios[^1], 1, 7); // one newcomer in a dozen takes the queue that it finds for the link's own delay (docs/LINKS.md)
     }
 
     /// <summary>

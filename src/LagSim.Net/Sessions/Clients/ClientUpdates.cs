@@ -30,9 +30,7 @@ internal sealed class ClientUpdates(
         update.Start = attempt is null && connection.IsStartTold ? world.Live!.Simulation.Start : SimTime.MinValue;
         link.Fill(unconfirmed, now);
         bool isComingIn = attempt is not null && !(attempt.Seat is not null && world.Live is null);
-        SimDuration silence = link.Silence(now); // before the first answer it is all that is known of the round trip
-        SimDuration trip = link.Trips.Mean > silence ? link.Trips.Mean : silence;
-        SimDuration wanted = link.Trips.HasQueue ? trip : trip / 8;
+        SimDuration wanted = link.Trips.HasQueue ? link.Trips.Mean : link.Trips.Mean / 8;
         SimDuration pace = wanted > JoinAttempt.Pace ? wanted : JoinAttempt.Pace;
         SimDuration rest = isComingIn ? pace : keepAlive.RestAfterUpdate(link, false, now, keepAlive.KeepAlive);
         if (attempt is null && connection.Promises.AreWanted)
