@@ -26,7 +26,8 @@ public sealed class SessionRecorderTests
     public void Recordings_OfAllPeersALateOneIncluded_AgreeAndReplay(string link, int seed)
     {
         Assert.True(LinkProfiles.TryGet(link, out LinkProfile? profile, out _));
-        SessionGroup group = new(ScriptedActions.Box(), 4, profile, (ulong)seed, expected: 2);
+        SessionGroup group = new(
+            ScriptedActions.Box(), 4, profile, (ulong)seed, _ => new HostOptions { Timeout = SimDuration.FromSeconds(20) }, expected: 2); // some of which is cut
         MemoryStream[] streams = Record(group, out SessionRecorder[] recorders);
         group.Cut(3, 0);
         Assert.True(group.RunUntil(() => group.Sessions.Take(3).All(s => s.State == SessionState.Running)));
