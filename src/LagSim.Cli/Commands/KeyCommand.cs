@@ -24,7 +24,7 @@ internal static class KeyCommand
         Option<bool> change = new("--change")
         {
             Description = "Draw a new key, and keep the former one in the file for --keep-days: clients that know the host by it join all the same, and are"
-                + " told the new fingerprint, for which it vouches. Start the host anew afterwards.",
+                + " told the new fingerprint. Restart the host afterwards.",
         };
         Option<double> days = CommonOptions.Number(
             "--keep-days", "With --change: for how many days the host still answers to the former key; 0: not at all", UsualDays, 0, HostIdentity.MaxKept.TotalDays);

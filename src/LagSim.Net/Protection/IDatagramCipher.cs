@@ -6,7 +6,7 @@ namespace LagSim.Net.Protection;
 /// <remarks>
 /// For one thread. Every datagram has a number, which the caller counts up and sends along: the same number is never sealed twice, and
 /// of the datagrams that arrive the caller accepts each number once. Its keys never change: an exchange over the link, begun by the client's
-/// end, gives another cipher, which whoever knows all of this one's secrets cannot compute. Disposing it wipes the keys.
+/// end, gives another cipher, whose keys cannot be computed from this one's. Disposing it wipes the keys.
 /// </remarks>
 public interface IDatagramCipher : IDisposable
 {

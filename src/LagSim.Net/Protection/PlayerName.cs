@@ -11,7 +11,7 @@ namespace LagSim.Net.Protection;
 internal static class PlayerName
 {
     /// <summary>The longest name, in bytes of UTF-8.</summary>
-    internal const int MaxBytes = 64;
+    internal const int MaxBytes = Events.PlayerEvent.MaxNameBytes;
 
     /// <summary>
     /// Blanks other than the space, separators of lines and paragraphs, what changes the direction of text, and all else that shows nothing:

@@ -32,8 +32,8 @@ public sealed class WorkLedger : IWorkObserver
     private const double DefaultMaxWorkPerStep = 20_000;
 
     /// <summary>
-    /// A step ends by the clock too, so that whoever advances the world gets to its other work; one event never takes longer than this, or
-    /// the thread was not at work meanwhile.
+    /// The most that the clock counts for one event. A step ends by the clock too, so that a session serves its port in time; what takes longer is
+    /// taken for a thread that waited for its core, and its count stands. Only steps are cut by it: players pay for counted work alone.
     /// </summary>
     private const double MaxSecondsPerEvent = 0.02;
 

@@ -43,7 +43,7 @@ public sealed class KeyChangeTests : IDisposable
         Assert.All(group.Sessions, s => Assert.Equal((0L, 0L), (s.Counters.DatagramsForged, s.Counters.StatesDiffered)));
     }
 
-    /// <summary>The host is started anew with its changed key while a client plays, and later without the former one: the client follows.</summary>
+    /// <summary>The host restarts with its changed key while a client plays, and later without the former one: the client follows.</summary>
     [Fact]
     public void Session_OfAHostThatChangesItsKey_GoesOn()
     {

@@ -26,7 +26,7 @@ internal sealed class JoinLimits
     internal int MinSnapshots { get; set; } = 4;
 
     /// <summary>
-    /// The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second: half of what a link of 12 kbit/s
+    /// The rate at which a client on the slowest supported link downloads its snapshot, in bytes per second: three fifths of what a link of 12 kbit/s
     /// carries that falls to a fifth for five of every six seconds. A slower download holds no place, only its share of <see cref="SnapshotBytes"/>.
     /// </summary>
     internal double SlowestDownload { get; set; } = 300;
