@@ -239,8 +239,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         keys.Tend(now);
         if (keys.IsOverdue(now) && Parts.World.Live is not null)
         {
-            string why = FormattableString.Invariant($"The {Connection.Name} agreed on no fresh keys for {LinkKeys.MaxAge.ToSeconds():0} s.");
-            Loss.Rejoin(SessionEnd.Disconnected, why, isLinkGood: false);
+            Loss.Rejoin(SessionEnd.Disconnected, Loss.NoFreshKeys, isLinkGood: false);
         }
     }
 
