@@ -267,6 +267,8 @@ public sealed class KeyExchangeTests : IDisposable
 
         private sealed class Handshake(IClientHandshake begun) : IClientHandshake
         {
+            public bool IsHostKeyChanged => begun.IsHostKeyChanged;
+
             public void WriteBinding(Span<byte> destination) => begun.WriteBinding(destination);
 
             public void Write(ReadOnlySpan<byte> payload, Span<byte> message) => begun.Write(payload, message);
