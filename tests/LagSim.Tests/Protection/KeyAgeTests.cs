@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Net.Wire;
