@@ -66,8 +66,8 @@ internal sealed class SecretWords
 
     private void Take(Array array, string path)
     {
-        int bytes = array is byte[] or uint[] or int[] ? Buffer.ByteLength(array) / sizeof(uint) : 0;
-        for (int n = 0; n < bytes; n++)
+        bool isOfNumbers = array is byte[] or uint[] or int[];
+        for (int n = 0; isOfNumbers && n < Buffer.ByteLength(array) / sizeof(uint); n++)
         {
             int at = n;
             Take(path, () => MemoryMarshal.Cast<byte, uint>(MemoryMarshal.CreateSpan(ref MemoryMarshal.GetArrayDataReference(array), Buffer.ByteLength(array)))[at]);
