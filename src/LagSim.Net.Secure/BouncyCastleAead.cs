@@ -45,6 +45,7 @@ internal sealed class BouncyCastleAead : Aead
     {
         isWiped = true;
         stream.Wipe();
+        mac.Init(new KeyParameter(Zeros, 0, MacKeyBytes)); // it keeps the key of the last text
         CryptographicOperations.ZeroMemory(block);
         CryptographicOperations.ZeroMemory(from);
         CryptographicOperations.ZeroMemory(to);
@@ -89,6 +90,8 @@ internal sealed class BouncyCastleAead : Aead
 
         if (from.Length < text.Length)
         {
+            CryptographicOperations.ZeroMemory(from);
+            CryptographicOperations.ZeroMemory(to);
             from = new byte[text.Length];
             to = new byte[text.Length];
         }
@@ -132,7 +135,9 @@ internal sealed class BouncyCastleAead : Aead
     {
         internal KeyStream(byte[] key)
         {
-            Init(true, new ParametersWithIV(new KeyParameter(key), new byte[NonceBytes]));
+            Init(true, new ParametersWithIV(new KeyParameter(new byte[KeyBytes]), new byte[NonceBytes])); // which copies that key
+            SetKey(key, new byte[NonceBytes]);
+            Reset();
         }
 
         internal void Restart(byte[] nonce)

@@ -1,4 +1,5 @@
 using System;
+using System.Security.Cryptography;
 
 namespace LagSim.Net.Protection;
 
@@ -7,19 +8,25 @@ internal sealed class ClientHandshake : IClientHandshake
 {
     private readonly NoiseSymmetricState state;
     private readonly Curve25519KeyPair own;
+    private readonly HostFingerprint shown;
     private readonly Action<HostFingerprint> finished;
     private readonly byte[] binding;
 
     /// <param name="state">What is known after the tokens of the client's message, before its payload.</param>
     /// <param name="own">The client's key of one use.</param>
+    /// <param name="shown">The fingerprint of the key by which the host proves itself in this handshake.</param>
     /// <param name="finished">Called once an answer has proved the host, with the fingerprint that it has from now on.</param>
-    internal ClientHandshake(NoiseSymmetricState state, Curve25519KeyPair own, Action<HostFingerprint> finished)
+    internal ClientHandshake(NoiseSymmetricState state, Curve25519KeyPair own, HostFingerprint shown, Action<HostFingerprint> finished)
     {
         this.state = state;
         this.own = own;
+        this.shown = shown;
         this.finished = finished;
         binding = state.HandshakeHash.ToArray();
     }
+
+    /// <inheritdoc/>
+    public bool IsHostKeyChanged { get; private set; }
 
     /// <inheritdoc/>
     public void WriteBinding(Span<byte> destination) => binding.CopyTo(destination);
@@ -36,14 +43,17 @@ internal sealed class ClientHandshake : IClientHandshake
         Span<byte> said = stackalloc byte[HostFingerprint.Bytes + payload.Length];
         bool isProved = message.Length == NoiseHandshake.KeyBytes + said.Length + Aead.TagBytes
             && NoiseHandshake.TryReadSecond(trial, own, key, message, said);
-        System.Security.Cryptography.CryptographicOperations.ZeroMemory(key);
+        CryptographicOperations.ZeroMemory(key);
         if (!isProved)
         {
             return null;
         }
 
         said.Slice(HostFingerprint.Bytes).CopyTo(payload);
-        finished(HostFingerprint.Read(said));
+        HostFingerprint newest = HostFingerprint.Read(said);
+        IsHostKeyChanged = newest != shown;
+        finished(newest);
+        CryptographicOperations.ZeroMemory(said); // what the host told is a secret, too
         return NoiseCipher.OfClient(trial);
     }
 

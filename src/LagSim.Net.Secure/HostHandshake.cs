@@ -1,4 +1,5 @@
 using System;
+using System.Security.Cryptography;
 
 namespace LagSim.Net.Protection;
 
@@ -21,7 +22,8 @@ internal sealed class HostHandshake(NoiseSymmetricState state, byte[] clientKey,
         newest.Write(said);
         payload.CopyTo(said.Slice(HostFingerprint.Bytes));
         Answer(key, said, message);
-        System.Security.Cryptography.CryptographicOperations.ZeroMemory(key);
+        CryptographicOperations.ZeroMemory(key);
+        CryptographicOperations.ZeroMemory(said); // what the client is told is a secret, too
         return NoiseCipher.OfHost(state);
     }
 

@@ -11,7 +11,7 @@ namespace LagSim.Net.Protection;
 /// publishes the <see cref="Fingerprint"/>. With the secret anyone can pose as this host, and read what clients said in joins that they
 /// recorded; what was said in sessions stays unreadable.</para>
 /// <para>A host changes its key by <see cref="ChangeKey"/>: the new identity keeps the former key for a while, by which clients that know
-/// only that one join, and are told the new fingerprint (<see cref="SecureClient.Successor"/>).</para>
+/// only that one join, and are told the new fingerprint (<see cref="Sessions.ClientSession.HostKeyChanged"/>).</para>
 /// <para>Safe on any thread. Disposing it wipes the keys; dispose it after the sessions that use it.</para>
 /// </remarks>
 public sealed class HostIdentity : IDisposable
@@ -61,20 +61,22 @@ public sealed class HostIdentity : IDisposable
             return false;
         }
 
-        FormerHostKey[] before = new FormerHostKey[words.Length - 1];
-        for (int n = 0; n < before.Length; n++)
+        List<FormerHostKey> before = new();
+        for (int n = 1; n < words.Length; n++)
         {
-            string[] parts = words[n + 1].Split('@');
-            if (parts.Length != 2 || ReadKey(parts[0]) is not Curve25519KeyPair old
-                || !long.TryParse(parts[1], NumberStyles.None, CultureInfo.InvariantCulture, out long until) || until > LastSecond)
+            string[] parts = words[n].Split('@');
+            if (parts.Length != 2 || !long.TryParse(parts[1], NumberStyles.None, CultureInfo.InvariantCulture, out long until) || until > LastSecond
+                || ReadKey(parts[0]) is not Curve25519KeyPair old)
             {
+                newest.Dispose();
+                Wipe(before);
                 return false;
             }
 
-            before[n] = new FormerHostKey(old, DateTimeOffset.FromUnixTimeSeconds(until));
+            before.Add(new FormerHostKey(old, DateTimeOffset.FromUnixTimeSeconds(until)));
         }
 
-        identity = new HostIdentity(newest, before);
+        identity = new HostIdentity(newest, before.ToArray());
         return true;
     }
 
@@ -112,8 +114,13 @@ public sealed class HostIdentity : IDisposable
             }
         }
 
-        return kept.Count <= MaxFormerKeys ? new HostIdentity(Curve25519KeyPair.Draw(), kept.ToArray())
-            : throw new InvalidOperationException($"The identity keeps {MaxFormerKeys} former keys already, the most there may be: {kept[kept.Count - 1]}.");
+        if (kept.Count > MaxFormerKeys)
+        {
+            Wipe(kept);
+            throw new InvalidOperationException($"The identity keeps {MaxFormerKeys} former keys already, the most there may be: {kept[kept.Count - 1]}.");
+        }
+
+        return new HostIdentity(Curve25519KeyPair.Draw(), kept.ToArray());
     }
 
     /// <summary>The same key without former ones, for instance since they were stolen: clients that know only those do not join any more.</summary>
@@ -141,10 +148,7 @@ public sealed class HostIdentity : IDisposable
     public void Dispose()
     {
         keys.Dispose();
-        foreach (FormerHostKey old in former)
-        {
-            old.Keys.Dispose();
-        }
+        Wipe(former);
     }
 
     /// <summary>The keys that prove this host at a time, the newest first.</summary>
@@ -157,6 +161,14 @@ public sealed class HostIdentity : IDisposable
             {
                 yield return old.Keys;
             }
+        }
+    }
+
+    private static void Wipe(IEnumerable<FormerHostKey> keys)
+    {
+        foreach (FormerHostKey old in keys)
+        {
+            old.Keys.Dispose();
         }
     }
 

@@ -12,6 +12,7 @@ internal sealed class NoiseCipher : IDatagramCipher
     private readonly Aead sending;
     private readonly Aead receiving;
     private readonly byte[] chain;
+    private bool isWiped;
 
     private NoiseCipher(ReadOnlySpan<byte> sending, ReadOnlySpan<byte> receiving, byte[] chain)
     {
@@ -29,6 +30,7 @@ internal sealed class NoiseCipher : IDatagramCipher
     /// <summary>Wipes the keys.</summary>
     public void Dispose()
     {
+        isWiped = true;
         sending.Dispose();
         receiving.Dispose();
         CryptographicOperations.ZeroMemory(chain);
@@ -45,7 +47,7 @@ internal sealed class NoiseCipher : IDatagramCipher
     /// <inheritdoc/>
     public IKeyExchange BeginExchange(ReadOnlySpan<byte> prologue, Span<byte> message)
     {
-        NoiseSymmetricState state = NoiseExchange.Begin(prologue, chain);
+        NoiseSymmetricState state = NoiseExchange.Begin(prologue, Chain());
         Curve25519KeyPair own = Curve25519KeyPair.Draw();
         NoiseExchange.WriteFirst(state, own, default, message);
         return new KeyExchange(state, own);
@@ -54,7 +56,7 @@ internal sealed class NoiseCipher : IDatagramCipher
     /// <inheritdoc/>
     public IDatagramCipher? TryAnswerExchange(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> answer)
     {
-        using NoiseSymmetricState state = NoiseExchange.Begin(prologue, chain);
+        using NoiseSymmetricState state = NoiseExchange.Begin(prologue, Chain());
         if (message.Length != IDatagramCipher.ExchangeBytes || !NoiseExchange.TryReadFirst(state, message, default))
         {
             return null;
@@ -64,6 +66,9 @@ internal sealed class NoiseCipher : IDatagramCipher
         bool isAgreed = NoiseExchange.TryWriteSecond(state, own, message.Slice(0, NoiseHandshake.KeyBytes), default, answer);
         return isAgreed ? OfHost(state) : null;
     }
+
+    /// <summary>The secret for the next exchange. A wiped one is known to everybody, so it begins none.</summary>
+    private byte[] Chain() => isWiped ? throw new ObjectDisposedException(nameof(NoiseCipher)) : chain;
 
     private static NoiseCipher Of(NoiseSymmetricState handshake, bool isHost)
     {

@@ -17,7 +17,6 @@ namespace LagSim.Net.Protection;
 public sealed class SecureClient : IClientProtection
 {
     private volatile object? other; // likewise
-    private volatile object? successor; // likewise
     private volatile object? trusted; // a boxed fingerprint, so that other threads read it whole
 
     /// <summary>Joins only the host with this fingerprint.</summary>
@@ -29,15 +28,10 @@ public sealed class SecureClient : IClientProtection
 
     /// <summary>
     /// The fingerprint of the host that this client joins; null while it joins whichever host answers first, and none has. It is another one
-    /// once the host has told its <see cref="Successor"/>.
+    /// once the host has changed its key (<see cref="HostIdentity.ChangeKey"/>), and the one that this client knew has vouched for the new
+    /// one, in the handshake by which it joined: <see cref="Sessions.ClientSession.HostKeyChanged"/> says so.
     /// </summary>
     public HostFingerprint? Host => (HostFingerprint?)trusted;
-
-    /// <summary>
-    /// The fingerprint to remember in place of the one that was given: the host changed its key (<see cref="HostIdentity.ChangeKey"/>), and the
-    /// one that this client knew vouched for the new one, in the handshake by which it joined. Null if there is none, and until it has joined.
-    /// </summary>
-    public HostFingerprint? Successor => (HostFingerprint?)successor;
 
     /// <summary>
     /// The fingerprint that the last host showed which answered and is not the one to join; null while none has. Nothing proves it.
@@ -75,13 +69,6 @@ public sealed class SecureClient : IClientProtection
             return null; // that public key is none
         }
 
-        return new ClientHandshake(state, own, newest => Trust(shown, newest));
-    }
-
-    /// <summary>The host with a fingerprint has proved itself, and says which one it has from now on.</summary>
-    private void Trust(HostFingerprint shown, HostFingerprint newest)
-    {
-        trusted = newest;
-        successor = newest == shown ? successor : newest;
+        return new ClientHandshake(state, own, shown, newest => trusted = newest);
     }
 }

@@ -114,5 +114,6 @@ public sealed class SecureHost : IHostProtection
         hash.Slice(0, IHostProtection.ResetKeyBytes).CopyTo(key);
         CryptographicOperations.ZeroMemory(secret);
         CryptographicOperations.ZeroMemory(ofAll);
+        CryptographicOperations.ZeroMemory(hash);
     }
 }

@@ -80,7 +80,6 @@ internal static class JoinCommand
             CarrierInUse carrier = udp is null ? CarrierInUse.Of(socket!) : CarrierInUse.Of(udp);
             PeerAddress address = udp is null ? WebSocketClientPort.Host : PeerAddress.From(there[0]);
             ClientSession session = new(null, carrier.Port, new StopwatchClock(), options, address, Session.DrawNumber());
-            HostFingerprint? told = null; // of the host's change of its key
             if (passFile is not null)
             {
                 session.KeepsPlace = true; // a pass is kept to come back with
@@ -103,11 +102,7 @@ internal static class JoinCommand
                 session.PassGiven += TellTrustOnce;
             }
 
-            if (protection is not null)
-            {
-                session.PassGiven += TellChange; // after each join: the host may change its key while this client is in
-            }
-
+            session.HostKeyChanged += () => console.Error.WriteLine(trust.Follow(Whole()));
             SessionPrinter printer = new(console, parsed.GetValue(common.Json), "join", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
                 Server = udp is null ? place : null,
@@ -125,15 +120,6 @@ internal static class JoinCommand
             {
                 session.PassGiven -= TellTrustOnce;
                 console.Error.WriteLine(trust.Remember(Whole()));
-            }
-
-            void TellChange(PlayerPass given)
-            {
-                if (protection!.Successor is HostFingerprint successor && successor != told)
-                {
-                    told = successor;
-                    console.Error.WriteLine(trust.Follow(Whole()));
-                }
             }
 
             string Whole() => udp is null ? $"{place}#{protection!.Host!.Value}"

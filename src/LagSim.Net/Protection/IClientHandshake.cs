@@ -29,6 +29,12 @@ public interface IClientHandshake : IDisposable
     /// <returns>The cipher of the link to the host; null if the message is not an answer of this host to this handshake.</returns>
     IDatagramCipher? TryFinish(string connectKey, ReadOnlySpan<byte> message, Span<byte> payload);
 
+    /// <summary>
+    /// Whether the answer that let the client in says that the host has another key from now on: the one by which the client knew it vouches
+    /// for that, and the <see cref="IClientProtection"/> that began this handshake wants the host with the new one. False before that answer.
+    /// </summary>
+    bool IsHostKeyChanged { get; }
+
     /// <summary>Reads the answer that does not let the client in.</summary>
     /// <param name="message">The host's message.</param>
     /// <param name="payload">

@@ -26,6 +26,7 @@ public sealed class ClientSession : Session
     private readonly ClientProtocol client;
     private readonly HandlerList<Action<string>> interrupted;
     private readonly HandlerList<Action<PlayerPass>> passGiven;
+    private readonly HandlerList<Action> hostKeyChanged;
     private readonly HandlerList<Action> regained;
     private readonly HandlerList<Action<Divergence>> diverged;
 
@@ -47,10 +48,12 @@ public sealed class ClientSession : Session
         this.client = client;
         interrupted = new(client.Parts.Owner);
         passGiven = new(client.Parts.Owner);
+        hostKeyChanged = new(client.Parts.Owner);
         regained = new(client.Parts.Owner);
         diverged = new(client.Parts.Owner);
         client.Loss.Interrupted += why => interrupted.Raise(why, static (handler, told) => handler(told));
         client.Seat.PassGiven += pass => passGiven.Raise(pass, static (handler, told) => handler(told));
+        client.Requests.HostKeyChanged += () => hostKeyChanged.Raise(0, static (handler, _) => handler());
         client.Loss.Regained += () => regained.Raise(0, static (handler, _) => handler());
         client.Finder.Found += found => diverged.Raise(found, static (handler, told) => handler(told));
     }
@@ -73,6 +76,20 @@ public sealed class ClientSession : Session
     {
         add => passGiven.Add(value);
         remove => passGiven.Remove(value);
+    }
+
+    /// <summary>
+    /// Raised on the session's thread when the host has proved itself by the key that this peer was given, and said that it has another one
+    /// from now on, for which that one vouches. Remember the new fingerprint, <c>SecureClient.Host</c>, in place of the one that was given:
+    /// the host does not answer to the former key for ever.
+    /// </summary>
+    /// <remarks>
+    /// While it joins, before there is a world, or each time that it joins again; once for each change. Never in a session without protection.
+    /// </remarks>
+    public event Action? HostKeyChanged
+    {
+        add => hostKeyChanged.Add(value);
+        remove => hostKeyChanged.Remove(value);
     }
 
     /// <summary>

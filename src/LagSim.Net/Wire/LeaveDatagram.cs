@@ -33,7 +33,7 @@ internal readonly struct LeaveDatagram
     /// </summary>
     public string Sentence => sentence ?? "";
 
-    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Away;
+    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.KeysTooOld;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, from <see cref="WireFormat.LeaveBytes"/> to <see cref="WireFormat.MaxLeaveBytes"/>.</returns>

@@ -29,4 +29,7 @@ internal enum LeaveReason : byte
 
     /// <summary>It left on its own and may come back: the host keeps its number for it, as for one that fell silent.</summary>
     Away = 9,
+
+    /// <summary>Its link got no fresh keys for too long (<see cref="Sessions.Links.LinkKeys.MaxAge"/>).</summary>
+    KeysTooOld = 10,
 }

@@ -38,7 +38,7 @@ internal readonly struct ResetDatagram
     /// <summary>What only who has the link's key can make of the reason.</summary>
     public Token128 Proof { get; }
 
-    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.Away;
+    private bool IsWellFormed => Reason is >= LeaveReason.Left and <= LeaveReason.KeysTooOld;
 
     /// <summary>Writes the datagram.</summary>
     /// <returns>Its length, <see cref="WireFormat.ResetBytes"/>.</returns>

@@ -21,6 +21,15 @@ internal static class SecuritySnippets
         using PeerThread client = PeerThread.Join(new IPEndPoint(Dns.GetHostAddresses(address.Host)[0], address.Port), options);
     }
 
+    internal static void ChangedKey(HostAddress address, IPEndPoint there)
+    {
+        SecureClient protection = new(address.Fingerprint); // the one that was remembered
+        using PeerThread client = PeerThread.Join(there, new ClientOptions { Protection = protection }, setUp: session =>
+            session.HostKeyChanged += () => Remember(protection.Host!.Value)); // called on the session's thread, when it joins or joins again
+
+        static void Remember(HostFingerprint fingerprint) => GC.KeepAlive(fingerprint);
+    }
+
     internal static void Tokens(TokenIssuer issuer, HostAddress hostAddress, HostIdentity identity, HostAddress address)
     {
         // backend: keeps issuer.ToSecretText(), gives hosts issuer.Key

@@ -40,7 +40,7 @@ public sealed partial class SnippetTests
     [InlineData("src/LagSim.Net.LiteNetLib/README.md", 1)]
     [InlineData("src/LagSim.Net.WebSockets/README.md", 2)]
     [InlineData("src/LagSim.Net.Secure/README.md", 1)]
-    [InlineData("docs/SECURITY.md", 2)]
+    [InlineData("docs/SECURITY.md", 3)]
     [InlineData("docs/FORCES.md", 7)]
     [InlineData("docs/SENSORS.md", 3)]
     [InlineData("docs/RULES.md", 5)]

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Linq;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
@@ -18,6 +19,7 @@ public sealed class KeyChangeTests : IDisposable
     private readonly HostIdentity former = HostIdentity.Draw();
     private readonly HostIdentity changed;
     private readonly PathAttacker attacker = new();
+    private readonly List<(int At, SessionState State, HostFingerprint? Host)> told = []; // by the sessions: by which, in which state, and which host
     private DateTimeOffset now = Noon;
 
     public KeyChangeTests() => changed = former.ChangeKey(TimeSpan.FromDays(30), Noon);
@@ -34,12 +36,11 @@ public sealed class KeyChangeTests : IDisposable
         SessionGroup group = Hosting(changed);
         SecureClient knowsFormer = new(former.Fingerprint), knowsNew = new(changed.Fingerprint), trusting = SecureClient.TrustOnFirstUse();
         Assert.Equal(SessionState.Running, Joined(group, 1, knowsFormer).State);
-        Assert.Equal((changed.Fingerprint, changed.Fingerprint), (knowsFormer.Successor, knowsFormer.Host));
         Assert.Equal(SessionState.Running, Joined(group, 2, knowsNew).State);
-        Assert.Equal((null, changed.Fingerprint), (knowsNew.Successor, knowsNew.Host));
         Assert.Equal(SessionState.Running, Joined(group, 3, trusting).State);
-        Assert.Equal((null, changed.Fingerprint), (trusting.Successor, trusting.Host));
+        Assert.All([knowsFormer, knowsNew, trusting], client => Assert.Equal(changed.Fingerprint, client.Host));
         group.Run(5);
+        Assert.Equal([(1, SessionState.Synchronising, changed.Fingerprint)], told); // before there is a world, and not who knew it
         Assert.All(group.Sessions, s => Assert.Equal((0L, 0L), (s.Counters.DatagramsForged, s.Counters.StatesDiffered)));
     }
 
@@ -50,14 +51,15 @@ public sealed class KeyChangeTests : IDisposable
         SessionGroup group = Hosting(former);
         SecureClient client = new(former.Fingerprint);
         ClientSession session = Joined(group, 1, client);
-        Assert.Null(client.Successor);
+        Assert.Empty(told);
         group.RestartHost(new HostOptions { Protection = Host(changed) });
         Assert.True(group.RunUntil(() => session.Counters.Renewals == 1 && session.State == SessionState.Running, 30), session.EndReason);
-        Assert.Equal(changed.Fingerprint, client.Successor);
+        Assert.Equal([(1, SessionState.Rejoining, changed.Fingerprint)], told);
         using HostIdentity alone = changed.ForgetFormerKeys();
         group.RestartHost(new HostOptions { Protection = Host(alone) });
         Assert.True(group.RunUntil(() => session.Counters.Renewals == 2 && session.State == SessionState.Running, 30), session.EndReason);
-        Assert.Equal(changed.Fingerprint, client.Successor);
+        Assert.Single(told);
+        Assert.Equal(changed.Fingerprint, client.Host);
     }
 
     /// <summary>
@@ -78,7 +80,7 @@ public sealed class KeyChangeTests : IDisposable
         SecureClient client = isTrusting ? SecureClient.TrustOnFirstUse() : new SecureClient(former.Fingerprint);
         ClientSession session = Joined(group, 1, client);
         Assert.Equal(isJoined ? SessionState.Running : SessionState.Ended, session.State);
-        Assert.Null(client.Successor);
+        Assert.Empty(told);
         Assert.Equal(isJoined ? own.Fingerprint : former.Fingerprint, client.Host);
     }
 
@@ -95,13 +97,14 @@ public sealed class KeyChangeTests : IDisposable
         if (isTold)
         {
             Assert.Equal(SessionState.Running, Joined(Hosting(changed), 1, client).State);
-            client = new SecureClient(client.Successor!.Value); // as it was remembered
+            client = new SecureClient(Assert.Single(told).Host!.Value); // as it was remembered
+            told.Clear();
         }
 
         using HostIdentity thief = former.ChangeKey(TimeSpan.FromDays(300), Noon);
         ClientSession session = Joined(Hosting(thief), 1, client);
         Assert.Equal(isTold ? SessionState.Ended : SessionState.Running, session.State);
-        Assert.Equal(isTold ? null : thief.Fingerprint, client.Successor);
+        Assert.Equal(isTold ? [] : [(1, SessionState.Synchronising, thief.Fingerprint)], told);
     }
 
     /// <summary>From the stated instant on the host does not answer to its former key; a second before it does.</summary>
@@ -126,7 +129,7 @@ public sealed class KeyChangeTests : IDisposable
     {
         SessionGroup group = Hosting(changed);
         Assert.Equal(SessionState.Running, Joined(group, 1, new SecureClient(former.Fingerprint)).State);
-        byte[] told = attacker.Last(0, PathAttacker.SecureWelcome);
+        byte[] welcome = attacker.Last(0, PathAttacker.SecureWelcome);
         using HostIdentity other = HostIdentity.Draw();
         foreach ((HostIdentity host, HostIdentity known) in new[] { (changed, former), (other, other) })
         {
@@ -137,16 +140,17 @@ public sealed class KeyChangeTests : IDisposable
             {
                 if (from == 0 && bytes[3] == PathAttacker.SecureWelcome)
                 {
-                    attacker.Send(0, 1, [.. bytes[..12], .. told[12..]]); // with this attempt's nonce
+                    attacker.Send(0, 1, [.. bytes[..12], .. welcome[12..]]); // with this attempt's nonce
                     replayed++;
                 }
 
                 return from == 0 && bytes[3] == PathAttacker.SecureWelcome;
             };
-            ClientSession session = next.Join(1, 7, new ClientOptions { Protection = client });
+            told.Clear();
+            ClientSession session = Asking(next, 1, client);
             next.Run(3);
             Assert.True(replayed > 0 && session.Counters.DatagramsForged >= replayed);
-            Assert.Equal((SessionState.Joining, null, known.Fingerprint), (session.State, client.Successor, client.Host));
+            Assert.Equal((SessionState.Joining, 0, known.Fingerprint), (session.State, told.Count, client.Host));
             attacker.Drops = (_, _) => false;
         }
 
@@ -165,12 +169,13 @@ public sealed class KeyChangeTests : IDisposable
         Assert.NotNull(same.TryFinish("", answer, payload)); // the control
         Assert.Null(another.TryFinish("", answer, payload));
         Assert.Equal((changed.Fingerprint, changed.Fingerprint, default), (first, again, fresh));
+        Assert.Equal((true, true, false), (one.IsHostKeyChanged, same.IsHostKeyChanged, another.IsHostKeyChanged));
 
         ClientHandshake Begun(Curve25519KeyPair keys, Action<HostFingerprint> finished)
         {
             NoiseSymmetricState state = NoiseHandshake.Begin([1], shown);
             Assert.True(NoiseHandshake.TryMixFirst(state, keys, shown));
-            return new ClientHandshake(state, keys, finished);
+            return new ClientHandshake(state, keys, former.Fingerprint, finished);
         }
     }
 
@@ -185,12 +190,12 @@ public sealed class KeyChangeTests : IDisposable
             return false;
         };
         SecureClient client = new(former.Fingerprint);
-        ClientSession session = group.Join(1, 7, new ClientOptions { Protection = client });
+        ClientSession session = Asking(group, 1, client);
         group.Run(3);
-        Assert.Equal((SessionState.Joining, null, former.Fingerprint, changed.Fingerprint), (session.State, client.Successor, client.Host, client.Other));
+        Assert.Equal((SessionState.Joining, 0, former.Fingerprint, changed.Fingerprint), (session.State, told.Count, client.Host, client.Other));
         attacker.Drops = (_, _) => false;
         Assert.True(group.RunUntil(() => session.State == SessionState.Running, 5));
-        Assert.Equal(changed.Fingerprint, client.Successor);
+        Assert.Equal([(1, SessionState.Synchronising, changed.Fingerprint)], told);
     }
 
     /// <summary>A backend's tokens name the host by the fingerprint that the backend knows: the former one counts as long as the key does.</summary>
@@ -259,9 +264,16 @@ public sealed class KeyChangeTests : IDisposable
         Assert.Empty(last.ForgetFormerKeys().FormerKeys);
     }
 
-    private static ClientSession Joined(SessionGroup group, int at, SecureClient protection)
+    private ClientSession Asking(SessionGroup group, int at, SecureClient protection)
     {
         ClientSession session = group.Join(at, 7 + (ulong)at, new ClientOptions { Protection = protection });
+        session.HostKeyChanged += () => told.Add((at, session.State, protection.Host));
+        return session;
+    }
+
+    private ClientSession Joined(SessionGroup group, int at, SecureClient protection)
+    {
+        ClientSession session = Asking(group, at, protection);
         Assert.True(group.RunUntil(() => session.State is SessionState.Running or SessionState.Ended, 15));
         return session;
     }

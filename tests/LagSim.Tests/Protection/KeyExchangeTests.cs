@@ -67,6 +67,8 @@ public sealed class KeyExchangeTests : IDisposable
         Assert.Equal([0, 1, 2, 3, 4], Generations(0));
         Assert.Equal(0, interruptions);
         Assert.True(acts > 100);
+        Assert.Null(group.Difference());
+        Assert.NotNull(group.Difference(group.Alone(group.Accepted.Skip(1)))); // the control: a world that lacks one of their acts
         Assert.All(group.Sessions, s => Assert.Equal(
             (0L, 0L, 0L, 0L), (s.Counters.DatagramsForged, s.Counters.StatesDiffered, s.Counters.EventsLost, s.Counters.Renewals)));
         Assert.All(group.Sessions, s => Assert.True(s == group.Host || s.Counters.StatesAgreed > 3000));
@@ -265,6 +267,8 @@ public sealed class KeyExchangeTests : IDisposable
 
         private sealed class Handshake(IClientHandshake begun) : IClientHandshake
         {
+            public bool IsHostKeyChanged => begun.IsHostKeyChanged;
+
             public void WriteBinding(Span<byte> destination) => begun.WriteBinding(destination);
 
             public void Write(ReadOnlySpan<byte> payload, Span<byte> message) => begun.Write(payload, message);

@@ -176,6 +176,8 @@ public sealed class StolenIdentityTests : IDisposable
 
         private sealed class Handshake(IClientHandshake begun, byte[] identity) : IClientHandshake
         {
+            public bool IsHostKeyChanged => begun.IsHostKeyChanged;
+
             public void WriteBinding(Span<byte> destination) => identity.CopyTo(destination);
 
             public void Write(ReadOnlySpan<byte> payload, Span<byte> message) => begun.Write(payload, message);

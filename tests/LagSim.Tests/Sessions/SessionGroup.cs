@@ -190,11 +190,16 @@ internal sealed class SessionGroup
     }
 
     /// <summary>The first difference between that world and any peer's, at many instants of what all still have; null for none.</summary>
+    /// <remarks>
+    /// A world at rest steps seldom: one may be simulated up to before another's history begins. All can be read up to their horizon.
+    /// </remarks>
     internal string? Difference(Simulation? expected = null)
     {
         expected ??= Alone();
-        SimTime first = SimTime.Max(expected.Start, Sessions.Max(s => s.World!.Simulation.HistoryEdge));
-        SimTime last = Sessions.Min(s => s.World!.Simulation.SimulatedTo);
+        Simulation[] all = [.. Sessions.Select(s => s.World!.Simulation).Append(expected)];
+        SimTime first = SimTime.Max(expected.Start, all.Max(one => one.HistoryEdge));
+        SimTime last = SimTime.Min(all.Min(one => one.Horizon), all.Max(one => one.SimulatedTo));
+        Assert.True(first <= last, $"nothing that all have: from {first} to {last}");
         const int instants = 40;
         for (int i = 0; i <= instants; i++)
         {

@@ -232,7 +232,7 @@ public class ValueRangeTests
             AssertRefused(answer);
         }
 
-        foreach (byte reason in new byte[] { 0, 10, 255 })
+        foreach (byte reason in new byte[] { 0, 11, 255 })
         {
             byte[] leave = AnyDatagram.Bytes(new LeaveDatagram(1, 2, LeaveReason.Left).Encode);
             leave[^1] = reason;

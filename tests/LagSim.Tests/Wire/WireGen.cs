@@ -226,7 +226,7 @@ internal static class WireGen
     internal static readonly Gen<LeaveDatagram> Leave =
         from session in Bits64
         from peer in Byte
-        from reason in Gen.Choose(1, 9)
+        from reason in Gen.Choose(1, 10)
         from sentence in Gen.Elements("", "The world ended at 3 s.", "\U0001F3D2 \u00E4\n\uD800", new string('\u20AC', 400))
         select new LeaveDatagram(session, peer, (LeaveReason)reason, sentence);
 

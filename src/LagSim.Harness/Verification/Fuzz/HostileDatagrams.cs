@@ -135,7 +135,7 @@ public sealed class HostileDatagrams
             1 => new ChallengeDatagram(random.NextUInt64(), Token()).Encode(buffer),
             2 => Join().Encode(buffer),
             3 => new SnapshotRequestDatagram(Session(), (byte)Below(SnapshotRequestDatagram.MaxShorter + 1), (uint)Below(100), (uint)Below(100_000), random.NextUInt64()).Encode(buffer),
-            4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below(9)), "The world ended.").Encode(buffer),
+            4 => new LeaveDatagram(random.NextUInt64(), (byte)Below(10), (LeaveReason)(1 + Below((int)LeaveReason.KeysTooOld)), "The world ended.").Encode(buffer),
             5 => new WelcomeDatagram(
                 random.NextUInt64(), Session(), SimDuration.FromSeconds(1), SimDuration.FromSeconds(1 + Below(3)), 1 + Below(SessionSnapshot.MaxBytes), random.NextUInt64(), (uint)Below(9)).Encode(buffer),
             6 => new DesyncQueryDatagram(
@@ -144,7 +144,7 @@ public sealed class HostileDatagrams
             8 => Seat().Encode(buffer),
             9 => new MoveDatagram(Session(), (byte)Below(10), Token()).Encode(buffer),
             10 => new MoveChallengeDatagram(Session(), Token()).Encode(buffer),
-            11 => new ResetDatagram(Session(), (LeaveReason)(1 + Below(9)), Token()).Encode(buffer),
+            11 => new ResetDatagram(Session(), (LeaveReason)(1 + Below((int)LeaveReason.KeysTooOld)), Token()).Encode(buffer),
             12 => Sealed(),
             13 => Roster().Encode(buffer),
             14 => new RosterReceivedDatagram(Session(), (byte)Below(10), (uint)Below(20)).Encode(buffer),

@@ -19,7 +19,6 @@ internal sealed class ClientProtocol : ISessionProtocol
     private static readonly SimDuration MinJump = SimDuration.FromSeconds(1);
 
     private readonly JoinAttempts attempts;
-    private readonly JoinRequests requests;
     private readonly SnapshotClient snapshot;
     private readonly WorldEntry entry;
     private readonly LogFollower log;
@@ -38,7 +37,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
         LastAnswer answer = new();
         progress = new JoinProgress(attempts, Connection, answer, parts.World, parts.Status, options.IsProtected);
-        requests = new JoinRequests(
+        Requests = new JoinRequests(
             attempts, Connection, Seat, answer, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, options);
         snapshot = new SnapshotClient(
             attempts, Connection, parts.World, parts.Status, parts.Sender, parts.Counters, parts.Clock, new SceneCode(options.Accelerations, options.Rules));
@@ -65,6 +64,8 @@ internal sealed class ClientProtocol : ISessionProtocol
     internal SessionParts Parts { get; }
 
     internal HostConnection Connection { get; }
+
+    internal JoinRequests Requests { get; }
 
     internal PlayerSeat Seat { get; }
 
@@ -107,7 +108,7 @@ internal sealed class ClientProtocol : ISessionProtocol
     {
         if (Connection.IsHost(from) && RefusalDatagram.TryReadAnyVersion(datagram, out ulong nonce, out byte version))
         {
-            requests.OnOtherVersion(nonce, version, from);
+            Requests.OnOtherVersion(nonce, version, from);
         }
     }
 
@@ -124,28 +125,28 @@ internal sealed class ClientProtocol : ISessionProtocol
         {
             case DatagramType.Challenge when counters.IsWellFormed(
                 ChallengeDatagram.TryDecode(datagram, out ChallengeDatagram challenge, out _)):
-                requests.OnChallenge(challenge, from);
+                Requests.OnChallenge(challenge, from);
                 break;
             case DatagramType.Welcome when counters.IsWellFormed(WelcomeDatagram.TryDecode(datagram, out WelcomeDatagram welcome, out _)):
-                requests.OnWelcome(welcome);
+                Requests.OnWelcome(welcome);
                 break;
             case DatagramType.SecureWelcome when counters.IsWellFormed(
                 SecureAnswerDatagram.TryDecode(datagram, type, out SecureAnswerDatagram answer, out _)):
-                requests.OnSecureWelcome(answer);
+                Requests.OnSecureWelcome(answer);
                 break;
             case DatagramType.SecureRefusal when counters.IsWellFormed(
                 SecureAnswerDatagram.TryDecode(datagram, type, out SecureAnswerDatagram answer, out _)):
-                requests.OnSecureRefusal(answer);
+                Requests.OnSecureRefusal(answer);
                 break;
             case DatagramType.MoveChallenge when counters.IsWellFormed(
                 MoveChallengeDatagram.TryDecode(datagram, out MoveChallengeDatagram challenge, out _)):
-                requests.OnMoveChallenge(challenge);
+                Requests.OnMoveChallenge(challenge);
                 break;
             case DatagramType.Reset when counters.IsWellFormed(ResetDatagram.TryDecode(datagram, out ResetDatagram reset, out _)):
                 Loss.OnReset(reset);
                 break;
             case DatagramType.Refusal when counters.IsWellFormed(RefusalDatagram.TryDecode(datagram, out RefusalDatagram refusal, out _)):
-                requests.OnRefusal(refusal, isSealed, from);
+                Requests.OnRefusal(refusal, isSealed, from);
                 break;
             case DatagramType.SnapshotChunk when counters.IsWellFormed(SnapshotChunkDatagram.TryDecode(datagram, out SnapshotChunkDatagram chunk, out _)):
                 snapshot.OnSnapshotChunk(chunk, datagram.Length);
@@ -218,7 +219,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         peers.Tend(now);
         if (attempts.IsAsking)
         {
-            requests.Tend(now);
+            Requests.Tend(now);
         }
         else
         {
@@ -239,8 +240,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         keys.Tend(now);
         if (keys.IsOverdue(now) && Parts.World.Live is not null)
         {
-            string why = FormattableString.Invariant($"The {Connection.Name} agreed on no fresh keys for {LinkKeys.MaxAge.ToSeconds():0} s.");
-            Loss.Rejoin(SessionEnd.Disconnected, why, isLinkGood: false);
+            Loss.Rejoin(SessionEnd.Disconnected, Loss.NoFreshKeys, isLinkGood: false);
         }
     }
 

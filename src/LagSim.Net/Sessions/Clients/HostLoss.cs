@@ -36,6 +36,10 @@ internal sealed class HostLoss(
     /// <summary>Raised when a silent host answers again before it has disconnected this peer.</summary>
     internal event Action? Regained;
 
+    /// <summary>That the link got no fresh keys, as both ends say it.</summary>
+    internal string NoFreshKeys =>
+        FormattableString.Invariant($"The {connection.Name} agreed on no fresh keys for {LinkKeys.MaxAge.ToSeconds():0} s.");
+
     private string Silence =>
         FormattableString.Invariant($"The {connection.Name} fell silent for {options.Timeout.ToSeconds():0.###} s.");
 
@@ -84,7 +88,7 @@ internal sealed class HostLoss(
     /// <summary>Handles a host that says outside the link that it does not have this peer, and proves it.</summary>
     internal void OnReset(in ResetDatagram reset)
     {
-        if (connection.Link is not UpdateLink { Seal: LinkSeal seal } link || reset.SessionId != link.SessionId)
+        if (connection.Link is not UpdateLink { Seal: LinkSeal { IsWiped: false } seal } link || reset.SessionId != link.SessionId)
         {
             counters.DatagramsIgnored++;
         }
@@ -162,7 +166,7 @@ internal sealed class HostLoss(
     {
         string why = Sentence(reason, said);
         SimTime now = clock.Now;
-        bool isOver = reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind);
+        bool isOver = reason is not (LeaveReason.TimedOut or LeaveReason.NotJoined or LeaveReason.FellBehind or LeaveReason.KeysTooOld);
         if (isOver)
         {
             SessionEnd by = reason == LeaveReason.HostEnded ? SessionEnd.HostEnded
@@ -249,6 +253,7 @@ internal sealed class HostLoss(
         LeaveReason.FellBehind => FormattableString.Invariant(
             $"The link to the {connection.Name} is too slow: what happened {options.Timeout.ToSeconds():0.###} s ago")
             + " has not come over it yet.",
+        LeaveReason.KeysTooOld => NoFreshKeys,
         LeaveReason.HostFailed => $"The {connection.Name} failed, and the session is over.{(said.Length == 0 ? "" : $" {said}")}",
         LeaveReason.Kicked => $"The {connection.Name} sent this player away.{(said.Length == 0 ? "" : $" {said}")}",
         _ => $"The {connection.Name} ended the session.",

@@ -23,6 +23,9 @@ internal sealed class JoinRequests(
     private readonly RateLimit joins = new(HandshakesPerSecond, HandshakesPerSecond, clock.Now);
     private readonly RateLimit answers = new(HandshakesPerSecond, HandshakesPerSecond, clock.Now);
 
+    /// <summary>Raised when the host that lets this peer in has another key from now on, for which the one that was known vouches.</summary>
+    internal event Action? HostKeyChanged;
+
     /// <summary>Asks if it is time to.</summary>
     internal void Tend(SimTime now)
     {
@@ -114,9 +117,14 @@ internal sealed class JoinRequests(
         WireReader reader = new(payload);
         WelcomeDatagram welcome = WelcomeDatagram.ReadTerms(ref reader, answer.Nonce);
         LinkSeal seal = new(cipher, Token128.Read(ref reader));
+        bool isKeyChanged = answered!.Handshake!.IsHostKeyChanged; // the attempt wipes the handshake
         if (counters.IsWellFormed(reader.Finish(out _)))
         {
             Enter(attempt, answered, welcome, seal);
+            if (isKeyChanged)
+            {
+                HostKeyChanged?.Invoke();
+            }
         }
         else
         {

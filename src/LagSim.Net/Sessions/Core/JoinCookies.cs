@@ -36,7 +36,8 @@ internal sealed class JoinCookies : IDisposable
     {
         byte[] secret = new byte[HashBytes];
         RandomNumberGenerator.Fill(secret); // does not affect determinism: a cookie or session id is right or wrong whatever its bits
-        maker = new HMACSHA256(secret);
+        maker = new HMACSHA256(secret); // which copies it, and wipes the copy when it is disposed
+        CryptographicOperations.ZeroMemory(secret);
     }
 
     public void Dispose() => maker.Dispose();
@@ -48,7 +49,9 @@ internal sealed class JoinCookies : IDisposable
     /// <param name="binding">What the handshake alone has; empty in a session without protection.</param>
     internal static Token128 Prove(string connectKey, ulong nonce, Token128 cookie, ReadOnlySpan<byte> binding = default)
     {
-        using HMACSHA256 prover = new(Encoding.UTF8.GetBytes(connectKey));
+        byte[] key = Encoding.UTF8.GetBytes(connectKey);
+        using HMACSHA256 prover = new(key);
+        CryptographicOperations.ZeroMemory(key);
         return Prove(prover, KeyLabel, nonce, cookie, binding);
     }
 
@@ -70,6 +73,7 @@ internal sealed class JoinCookies : IDisposable
         BinaryPrimitives.WriteUInt64LittleEndian(key, pass.First);
         BinaryPrimitives.WriteUInt64LittleEndian(key.AsSpan(sizeof(ulong)), pass.Second);
         using HMACSHA256 prover = new(key);
+        CryptographicOperations.ZeroMemory(key);
         return Prove(prover, PassLabel, nonce, cookie, binding);
     }
 

@@ -69,13 +69,18 @@ internal sealed class ClientTimeouts
             }
 
             client.Link.Seal?.Keys.Tend(now);
-            bool isSilent = now - client.Link.Heard > TimeoutWith(client) || client.Link.Seal?.Keys.AreTooOld(now) == true || (client.Peer == 0 && now > client.Claim.Until);
-            if (isSilent || HasFallenBehind(client, now))
+            if (WhyGivenUp(client, now) is LeaveReason why)
             {
-                roster.Dismiss(client, isSilent ? LeaveReason.TimedOut : LeaveReason.FellBehind);
+                roster.Dismiss(client, why);
             }
         }
     }
+
+    private LeaveReason? WhyGivenUp(Client client, SimTime now) =>
+        now - client.Link.Heard > TimeoutWith(client) || (client.Peer == 0 && now > client.Claim.Until) ? LeaveReason.TimedOut
+        : client.Link.Seal?.Keys.AreTooOld(now) == true ? LeaveReason.KeysTooOld
+        : HasFallenBehind(client, now) ? LeaveReason.FellBehind
+        : null;
 
     private SimDuration TimeoutWith(Client client) => client.HasWritten || timeout < SilentPlace ? timeout : SilentPlace;
 

@@ -117,7 +117,7 @@ internal sealed class LinkKeys(IDatagramCipher first) : IDisposable
     /// <param name="offering">The offer; it belongs to this object.</param>
     internal bool TryOffer(ulong sessionId, SimTime now, out KeyExchangeDatagram offering)
     {
-        bool isDue = isInUse && since != SimTime.MinValue && now - since >= Interval && (begun is null || now - offered >= Again);
+        bool isDue = !IsWiped && isInUse && since != SimTime.MinValue && now - since >= Interval && (begun is null || now - offered >= Again);
         if (isDue)
         {
             begun ??= current.BeginExchange(Prologue(sessionId, Generation + 1), offer);
@@ -131,7 +131,7 @@ internal sealed class LinkKeys(IDatagramCipher first) : IDisposable
     /// <summary>At a client: takes the host's answer. False if it answers no offer that is open.</summary>
     internal bool TryFinish(in KeyExchangeDatagram reply)
     {
-        if (begun is null || reply.Generation != Generation + 1 || begun.TryFinish(reply.Message) is not IDatagramCipher fresh)
+        if (IsWiped || begun is null || reply.Generation != Generation + 1 || begun.TryFinish(reply.Message) is not IDatagramCipher fresh)
         {
             return false;
         }
@@ -149,7 +149,7 @@ internal sealed class LinkKeys(IDatagramCipher first) : IDisposable
     internal bool TryAnswer(scoped in KeyExchangeDatagram offering, SimTime now, out KeyExchangeDatagram reply)
     {
         reply = new KeyExchangeDatagram(offering.SessionId, offering.Generation, answer);
-        if (offering.Generation != Generation + 1)
+        if (IsWiped || offering.Generation != Generation + 1)
         {
             return false;
         }

@@ -24,7 +24,7 @@ internal sealed class LinkSeal : IDisposable
     }
 
     /// <summary>The key by which a host proves that it does not have the link any more.</summary>
-    internal Token128 ResetKey { get; }
+    internal Token128 ResetKey { get; private set; }
 
     /// <summary>The keys, of which fresh ones are agreed on while the link lasts.</summary>
     internal LinkKeys Keys { get; }
@@ -33,7 +33,11 @@ internal sealed class LinkSeal : IDisposable
     internal bool IsWiped => Keys.IsWiped;
 
     /// <summary>Wipes the keys.</summary>
-    public void Dispose() => Keys.Dispose();
+    public void Dispose()
+    {
+        Keys.Dispose();
+        ResetKey = default;
+    }
 
     /// <summary>Seals a datagram.</summary>
     /// <returns>The length, <see cref="WireFormat.SealBytes"/> more than before.</returns>
