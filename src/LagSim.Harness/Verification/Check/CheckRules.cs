@@ -27,8 +27,11 @@ internal sealed class CheckRules
     /// <summary>Whether the session has any.</summary>
     internal bool Exist { get; }
 
+    /// <summary>Whether they hear of players.</summary>
+    internal bool HearPlayers { get; set; }
+
     /// <summary>Returns a scene with the session's rules.</summary>
-    internal Scene On(Scene scene) => Exist ? scene.With(new DrawnRules(seed), seed) : scene;
+    internal Scene On(Scene scene) => Exist ? scene.With(new DrawnRules(seed, HearPlayers), seed) : scene;
 
     /// <summary>Adds commands, often in the instant of another action.</summary>
     internal void AddTo(List<CheckAction> actions, CheckScene room, int players, ulong attempt)
