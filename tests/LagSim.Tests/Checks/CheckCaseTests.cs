@@ -110,6 +110,6 @@ public sealed class CheckCaseTests
         }
 
         CheckCase none = ruled.Except(heard).First();
-        Assert.Equal(new CheckCase(none.Seed, new CheckOptions { Rules = RulesOfSessions.None }).Players, none.Players);
+        Assert.Equal(new CheckCase(none.Seed, new CheckOptions { Rules = RulesOfSessions.None }).Players.Select(p => p.ToString()), none.Players.Select(p => p.ToString()));
     }
 }

@@ -91,9 +91,7 @@ internal sealed class CheckCase
         DrawIndexes(random.Fork(IndexStream));
         bool isOrbit = !isHeap && sort >= HeapPercent + BoxPercent && sort < HeapPercent + BoxPercent + OrbitPercent;
         filters = new CheckFilters(random.Fork(FilterStream), mayExist: !isOrbit); // what passes through a sphere that pulls ends in its centre
-        rules = new CheckRules(random.Fork(RuleStream), seed, options.Rules);
-        Visits = new CheckVisits(random.Fork(VisitStream), mayExist: rules.Exist);
-        rules.HearPlayers = Visits.Exist;
+        rules = new CheckRules(random.Fork(RuleStream), random.Fork(VisitStream), seed, options.Rules);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
@@ -148,7 +146,7 @@ internal sealed class CheckCase
     internal IReadOnlyList<CheckPlayer> Players => players;
 
     /// <summary>Who of them is heard of by rules, leaves and comes back.</summary>
-    internal CheckVisits Visits { get; }
+    internal CheckVisits Visits => rules.Visits;
 
     /// <summary>Whether any link has a rate, so that events may wait in its queue or be dropped.</summary>
     internal bool HasFullLinks => players.Exists(p => p.Link.ToHost.Bottleneck is not null || p.Link.FromHost.Bottleneck is not null);
