@@ -15,6 +15,7 @@ internal static class Program
         ["traffic"] = _ => TrafficTable.Print(),
         ["steering"] = SteeringTable.Print,
         ["lateness"] = LateInputTable.Print,
+        ["promises"] = PromiseTable.Print,
         ["protection"] = ProtectionTable.Print,
         ["heal"] = HealTable.Print,
         ["rules"] = RuleHealTable.Print,

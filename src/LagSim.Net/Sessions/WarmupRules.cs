@@ -5,7 +5,8 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>The rules of the scene that <see cref="SessionWarmup"/> plays in: a command sets a timer, and that pushes a ball.</summary>
+/// <summary>The rules of the scene that <see cref="SessionWarmup"/> plays in: a command sets a timer, and that pushes a ball;
+/// whoever comes or goes is heard of.</summary>
 internal sealed class WarmupRules : GameRules
 {
     internal WarmupRules()
@@ -16,6 +17,12 @@ internal sealed class WarmupRules : GameRules
 
     /// <inheritdoc/>
     public override void OnContact(RuleWorld world, in RuleContact contact) => world.State<int>()++;
+
+    /// <inheritdoc/>
+    public override bool HearsPlayers => true;
+
+    /// <inheritdoc/>
+    public override void OnPlayer(RuleWorld world, PlayerEvent player) => world.State<int>()++;
 
     /// <inheritdoc/>
     public override void OnCommand(RuleWorld world, byte player, GameCommand command) => world.SetTimer(1, SimDuration.FromMilliseconds(10));

@@ -31,12 +31,6 @@ public sealed class WorkLedger : IWorkObserver
 
     private const double DefaultMaxWorkPerStep = 20_000;
 
-    /// <summary>
-    /// The most that the clock counts for one event. A step ends by the clock too, so that a session serves its port in time; what takes longer is
-    /// taken for a thread that waited for its core, and its count stands. Only steps are cut by it: players pay for counted work alone.
-    /// </summary>
-    private const double MaxSecondsPerEvent = 0.02;
-
     /// <summary>The cost of cutting a segment for a late event, besides what is simulated again. Measured by <c>LagSim.Bench -- counted</c>.</summary>
     private const double WorkPerCut = 1;
 
@@ -193,7 +187,7 @@ public sealed class WorkLedger : IWorkObserver
         SimTime now = clock.Now;
         double took = Math.Max(0, (now - measured).ToSeconds());
         measured = now;
-        thisStep += Math.Max(work, Math.Min(took, MaxSecondsPerEvent) * 1e6);
+        thisStep += Math.Max(work, took * 1e6); // so that a session serves its port in time; players pay for counted work alone
         return new Cost(work, took);
     }
 

@@ -136,7 +136,7 @@ internal class RuleLog : IRuleTriggers
     }
 
     /// <summary>Adds what rules are to be called for, or finds the call that is kept for it.</summary>
-    internal void Add(in EventKey key, in RuleTrigger trigger)
+    internal virtual void Add(in EventKey key, in RuleTrigger trigger)
     {
         int at = FirstFrom(key);
         for (int end = FirstFrom(key.JustAfter); at < end;) // of the contacts of one impact

@@ -29,6 +29,29 @@ public sealed class WorkLedgerClockTests
         Assert.Equal(0, idle.SecondsFor(Player));
     }
 
+    /// <summary>
+    /// A step ends once it took as long as it may, whatever one event of it took: with events that take 60 ms each, a step of 0.1 s has two. The
+    /// control: by the count alone it has them all.
+    /// </summary>
+    [Theory]
+    [InlineData(true, 2)]
+    [InlineData(false, 32)]
+    public void Step_OfEventsThatTakeLong_EndsByTheClock(bool hasClock, int events)
+    {
+        SceneBuilder builder = new SceneBuilder("drops").AddPlane("floor", Vector3D.Up, 0.0);
+        for (int n = 0; n < 32; n++)
+        {
+            builder.AddBody($"ball {n}", new BodySpec(0.25, 1, 1), new Vector3D(2 * n, 1 + (0.001 * n), 0));
+        }
+
+        LiveWorld world = new(builder.Build(), new SimulationOptions())
+        {
+            Work = new WorkLedger(hasClock ? new BusyClock(SimDuration.FromMilliseconds(60)) : null) { MaxWorkPerStep = 100_000 },
+        };
+        world.Step(SimTime.FromSeconds(0.4));
+        Assert.Equal(events, world.Simulation.EventsProcessed);
+    }
+
     /// <summary>A clock that goes back, as no steady one does, takes nothing from what was told before.</summary>
     [Fact]
     public void SecondsFor_AClockThatGoesBack_IsNeverLess() =>

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Events;
 using LagSim.Harness.Verification.Check;
+using LagSim.Net.Sessions;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Time;
@@ -77,5 +78,38 @@ public sealed class CheckCaseTests
         Assert.Contains(hands, h => h.Where(d => d.Kind == EventKind.Grab).GroupBy(d => (d.Body, d.Spawn)).Any(g => g.Select(d => d.Peer).Distinct().Skip(1).Any()));
         Assert.All(cases, c => Assert.All(c.Actions, d => Assert.True(
             d.Spawn < 0 || (c.Actions[d.Spawn].Kind == EventKind.Spawn && c.Actions[d.Spawn].AtSeconds <= d.AtSeconds))));
+    }
+
+    /// <summary>
+    /// Where rules hear of players, these leave with and without their places and come back as who they were or as strangers; with the same
+    /// actions. The control: where they hear of none nobody comes back, and what is drawn is what would be without rules that could.
+    /// </summary>
+    [Fact]
+    public void Draw_RulesThatHearPlayers_PlayersLeaveAndComeBack()
+    {
+        CheckCase[] ruled = [.. Enumerable.Range(1, 24).Select(seed => new CheckCase((ulong)seed, new CheckOptions { Rules = RulesOfSessions.All }))];
+        CheckCase[] heard = [.. ruled.Where(c => c.Scene.Rules!.HearsPlayers)];
+        Assert.InRange(heard.Length, 8, 16);
+        CheckPlayer[] back = [.. heard.SelectMany(c => c.Players).Where(p => p.Returns is not null)];
+        Assert.True(back.Length > 6, $"{back.Length}");
+        Assert.All(heard, c => Assert.All(c.Players, p => Assert.True(p.Returns is not int former || c.Players[former].LeavesAtSeconds < p.AsksAtSeconds)));
+        Assert.Equal(2, back.Select(p => p.HasPass).Distinct().Count());
+        Assert.Equal(2, back.Select(p => p.KeepsPlace).Distinct().Count());
+        Assert.Equal(2, back.Select(p => p.IsKilled).Distinct().Count());
+        CheckPlayer[] clients = [.. heard.SelectMany(c => c.Players.Skip(1))];
+        Assert.Equal([PeerRole.Player, PeerRole.Bot], clients.Select(p => p.Role).Distinct().Order());
+        Assert.Contains(clients, p => p.Name.Length == 0);
+        Assert.Contains(clients, p => p.Name.Any(letter => letter > 0x7F));
+        Assert.Equal(2, heard.Select(c => c.Visits.Timeout).Distinct().Count());
+        Assert.All(heard.SelectMany(c => c.Actions.Select(a => (c, a))), pair => Assert.Null(pair.c.Players[pair.a.Peer].Returns));
+
+        foreach (CheckCase deaf in ruled.Except(heard))
+        {
+            Assert.All(deaf.Players, p => Assert.True(p is { Returns: null, KeepsPlace: false, Name: "", Role: PeerRole.Player }));
+            Assert.Equal((SimDuration.FromSeconds(20), new HostOptions().RejoinTime), (deaf.Visits.Timeout, deaf.Visits.RejoinTime));
+        }
+
+        CheckCase none = ruled.Except(heard).First();
+        Assert.Equal(new CheckCase(none.Seed, new CheckOptions { Rules = RulesOfSessions.None }).Players.Select(p => p.ToString()), none.Players.Select(p => p.ToString()));
     }
 }

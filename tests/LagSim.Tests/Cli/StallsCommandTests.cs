@@ -76,6 +76,23 @@ public sealed class StallsCommandTests
         Assert.DoesNotContain(" came too late)", text, StringComparison.Ordinal);
     }
 
+    /// <summary>Where events were refused, the text says how many of them came too late: all, some or none.</summary>
+    [Theory]
+    [InlineData(0, 0, "0 refused")]
+    [InlineData(3, 3, "3 refused (they came too late)")]
+    [InlineData(3, 1, "3 refused (1 of them came too late)")]
+    [InlineData(3, 0, "3 refused (0 of them came too late)")]
+    public void Text_OfRefusedEvents_SaysHowManyCameTooLate(int refused, int late, string expected)
+    {
+        using StringWriter text = new();
+        StallOutcome outcome = new() { Case = new StallCase(9), Accepted = 7, Expected = 14, Compared = 1, Refused = refused, RefusedTooLate = late };
+        StallsText.Write(text, [outcome], [outcome], []);
+        string[] lines = text.ToString().Split(Environment.NewLine);
+        string sentence = $"7 events accepted, 0 of 14 lost on the way to clients, {expected}";
+        Assert.Contains($"    {sentence}", lines);
+        Assert.Contains($"; {sentence}; ", lines[0], StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Stalls_WithProcesses_TellsWhichSessionIsPlayedAndHowLongItTakes()
     {

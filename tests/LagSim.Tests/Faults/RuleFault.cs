@@ -1,4 +1,5 @@
 using System;
+using LagSim.Events;
 using LagSim.Rules;
 using LagSim.Scenes;
 using LagSim.Time;
@@ -28,6 +29,9 @@ internal enum RuleFault
 
     /// <summary>Of a failed command that counts as none, what it did before it failed stays.</summary>
     KeepsFailed = 32,
+
+    /// <summary>What is said of a player is heard after all that was heard when it came, whatever its time.</summary>
+    OrdersPlayersByArrival = 64,
 }
 
 /// <summary>Makes the parts of a world with faulty rules.</summary>
@@ -41,6 +45,14 @@ internal sealed class FaultyRules(RuleFault fault) : EngineParts
 
     private sealed class Log(Scene scene, SimTime start, ReadOnlySpan<byte> state, RuleFault fault) : RuleLog(scene, start, state)
     {
+        internal override void Add(in EventKey key, in RuleTrigger trigger)
+        {
+            bool isAfterAll = fault.HasFlag(RuleFault.OrdersPlayersByArrival) && key.Kind == EventKind.Player && Count > 0 && this[Count - 1].Key.Time > key.Time;
+            base.Add(
+                isAfterAll ? new EventKey(this[Count - 1].Key.Time + SimDuration.OneTick, key.Round, key.Kind, key.Body, key.Other, key.Peer, key.Sequence) : key,
+                trigger);
+        }
+
         internal override bool HaveReconverged() => fault.HasFlag(RuleFault.StopsTooEarly) || base.HaveReconverged();
     }
 

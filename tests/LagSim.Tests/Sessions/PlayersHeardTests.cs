@@ -174,6 +174,40 @@ public sealed class PlayersHeardTests
         AssertHeardByAll(group);
     }
 
+    /// <summary>
+    /// One who is sent away, by hand or for what it cost, has left as who it was, with number, name, role and identity, though a place would be
+    /// kept for one who is away. The control: the other one, who stays.
+    /// </summary>
+    [Theory]
+    [InlineData("kicked")]
+    [InlineData("banned")]
+    [InlineData("over its budget")]
+    public void SentAway_HasLeftAsWhoItWas(string how)
+    {
+        PlayerBudget? budget = how == "over its budget" ? new PlayerBudget(20, 100) : null;
+        SessionGroup group = Group(3, options: peer => peer == 0
+            ? Usual() with { PlayerBudget = budget } : new ClientOptions { Timeout = Timeout, RejoinTime = Kept, Name = $"Zoë{peer}", Role = peer == 1 ? PeerRole.Bot : PeerRole.Player });
+        ClientSession one = group.Client(1);
+        byte number = one.Peer;
+        if (budget is null)
+        {
+            Assert.True(how == "banned" ? group.Host.Ban(number) is not null : group.Host.Kick(number));
+        }
+
+        for (int n = 0; n < 100 && one.State == SessionState.Running; n++)
+        {
+            group.Do(1, PlayerAction.Impulse(BodyId.OfScene(n % 4), V(1, 3)));
+            group.Run(0.02);
+        }
+
+        Assert.Equal(SessionEnd.Kicked, one.EndedBy);
+        PlayerEvent[] hers = [.. Said(group).Where(p => p.Number == number)];
+        Assert.Equal(new PlayerEvent(PlayerEventKind.Joined, number, hers[0].Identity, "Zoë1", PeerRole.Bot), hers[0]);
+        Assert.Equal([hers[0], new PlayerEvent(PlayerEventKind.Left, number, hers[0].Identity, "Zoë1", PeerRole.Bot)], hers);
+        Assert.All(Said(group).Where(p => p.Number != number), p => Assert.Equal(PlayerEventKind.Joined, p.Kind));
+        AssertHeardByAll(group, but: one);
+    }
+
     /// <summary>One who was expelled keeps its pass, but is not waited for. The control: one who is away is.</summary>
     [Theory]
     [InlineData(LeaveReason.Kicked, false)]

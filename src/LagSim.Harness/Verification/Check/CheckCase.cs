@@ -58,6 +58,7 @@ internal sealed class CheckCase
     private const ulong RuleStream = 8;
     private const ulong FilterStream = 29;
     private const ulong MeetingStream = 272;
+    private const ulong VisitStream = 34;
     private const ulong FirstRoom = 100;
     private const ulong FirstHands = 1000;
     private const ulong MaxAttempts = 20;
@@ -90,7 +91,7 @@ internal sealed class CheckCase
         DrawIndexes(random.Fork(IndexStream));
         bool isOrbit = !isHeap && sort >= HeapPercent + BoxPercent && sort < HeapPercent + BoxPercent + OrbitPercent;
         filters = new CheckFilters(random.Fork(FilterStream), mayExist: !isOrbit); // what passes through a sphere that pulls ends in its centre
-        rules = new CheckRules(random.Fork(RuleStream), seed, options.Rules);
+        rules = new CheckRules(random.Fork(RuleStream), random.Fork(VisitStream), seed, options.Rules);
         SeededRandom rest = random.Fork(2);
         long budget = rest.IsLucky(HeavyPercent) ? HeavyEvents : UsualEvents;
         for (ulong attempt = 0; ; attempt++)
@@ -118,6 +119,7 @@ internal sealed class CheckCase
             room.Sensors = new CheckSensors(sensed, room.BodyCount); // after its events are counted, so that all else that is drawn stays the same
         }
 
+        Visits.AddTo(players); // after their actions, which a player that comes back goes on with
         LookAhead = SimDuration.FromMilliseconds(rest.Pick(1000.0 / 30, 100, 250));
 
         // Compares everything since the start, or only what a session keeps by default.
@@ -142,6 +144,9 @@ internal sealed class CheckCase
 
     /// <summary>The host, and the clients in the order of their addresses.</summary>
     internal IReadOnlyList<CheckPlayer> Players => players;
+
+    /// <summary>Who of them is heard of by rules, leaves and comes back.</summary>
+    internal CheckVisits Visits => rules.Visits;
 
     /// <summary>Whether any link has a rate, so that events may wait in its queue or be dropped.</summary>
     internal bool HasFullLinks => players.Exists(p => p.Link.ToHost.Bottleneck is not null || p.Link.FromHost.Bottleneck is not null);
@@ -246,12 +251,14 @@ internal sealed class CheckCase
             players[who] = players[who] with { Stop = (at, seconds) };
             for (int peer = 1; peer < players.Count && who == 0; peer++)
             {
-                // A client that is joining gives up on a host that stalls for longer than its timeout, and is right to.
-                bool isInVain = players[peer].AsksAtSeconds is double asks && asks > at - LongestEntry && asks < at + seconds;
-                players[peer] = isInVain ? players[peer] with { AsksAtSeconds = at + seconds } : players[peer];
+                players[peer] = players[peer].AsksAtSeconds is double asks ? players[peer] with { AsksAtSeconds = AskOf(asks, players[0]) } : players[peer];
             }
         }
     }
+
+    /// <summary>When a player asks to join that would at a given time: after a stall of the host, since one that is joining then gives up, and is right to.</summary>
+    internal static double AskOf(double atSeconds, CheckPlayer host) =>
+        host.Stop is (double at, double seconds) && atSeconds > at - LongestEntry && atSeconds < at + seconds ? at + seconds : atSeconds;
 
     private void DrawIndexes(SeededRandom random)
     {

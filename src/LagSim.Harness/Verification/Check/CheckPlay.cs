@@ -30,6 +30,7 @@ internal sealed class CheckPlay
     private readonly CancellationToken cancellation;
     private readonly VirtualRun run;
     private readonly List<CheckMember> members = []; // by address; clients that join late are added when they ask
+    private readonly Dictionary<int, PlayerPass> passes = []; // of those who have left
     private readonly BodyId?[] spawned;
     private (double AtSeconds, SimTime Stamp) last = (-1, SimTime.MinValue); // the last action
 
@@ -106,7 +107,7 @@ internal sealed class CheckPlay
     {
         switch (step.Kind)
         {
-            case CheckStepKind.Ask:
+            case CheckStepKind.Ask when drawn.Players[step.Index].Returns is not int former || passes.ContainsKey(former):
                 Add(step.Index, 0);
                 break;
             case CheckStepKind.Leave:
@@ -138,7 +139,9 @@ internal sealed class CheckPlay
             RenderedPast = SimDuration.Zero,
             Strategy = LateEventStrategies.OfName(options.Strategy),
             ExpectedClients = expectedClients,
-            Timeout = SimDuration.FromSeconds(20), // several times the slowest round trip
+            Timeout = drawn.Visits.Timeout,
+            RejoinTime = drawn.Visits.RejoinTime,
+            Name = player.Name,
             Cancellation = cancellation,
         };
         (Session session, int number) = run.Open(
@@ -155,7 +158,15 @@ internal sealed class CheckPlay
         Session session = address == 0
             ? new HostSession(drawn.Scene, port, clock, hostOptions, drawn.Seed)
             : new ClientSession(
-                null, port, clock, ClientOptions.From(hostOptions) with { Accelerations = drawn.Accelerations, Rules = drawn.Scene.Rules is SceneRules rules ? [rules] : null },
+                null, port, clock,
+                ClientOptions.From(hostOptions) with
+                {
+                    Accelerations = drawn.Accelerations,
+                    Rules = drawn.Scene.Rules is SceneRules rules ? [rules] : null,
+                    RejoinTime = CheckVisits.UsualRejoinTime, // how long it asks again, not how long the host keeps its place
+                    Role = drawn.Players[address].Role,
+                    Pass = drawn.Players[address] is { Returns: int former, HasPass: true } ? passes[former] : default,
+                },
                 VirtualRun.HostAddress, drawn.Seed + (ulong)address);
         options.PrepareSession?.Invoke(address, session);
         return session;
@@ -177,7 +188,10 @@ internal sealed class CheckPlay
         }
 
         member.HasGone = true;
-        member.Session.Leave();
+        ClientSession client = (ClientSession)member.Session;
+        passes[address] = client.Pass ?? default;
+        client.KeepsPlace = drawn.Players[address].KeepsPlace;
+        client.Leave();
         run.Steps.Wake(member.Number);
     }
 
@@ -210,7 +224,7 @@ internal sealed class CheckPlay
             return; // its body was left out
         }
 
-        CheckMember actor = members.Find(m => m.Peer == action.Peer && m.Session.State == SessionState.Running && !m.IsStopped)
+        CheckMember actor = members.Find(m => drawn.Players[m.Peer].Person(m.Peer) == action.Peer && m.Session.State == SessionState.Running && !m.IsStopped)
             ?? members[0];
         if (actor.IsStopped)
         {

@@ -17,18 +17,22 @@ internal sealed class CheckRules
     private readonly SeededRandom random;
     private readonly ulong seed;
 
-    internal CheckRules(SeededRandom random, ulong seed, RulesOfSessions which)
+    internal CheckRules(SeededRandom random, SeededRandom ofVisits, ulong seed, RulesOfSessions which)
     {
         this.random = random;
         this.seed = seed;
         Exist = random.Fork(0).IsLucky(SomePercent) ? which != RulesOfSessions.None : which == RulesOfSessions.All;
+        Visits = new CheckVisits(ofVisits, mayExist: Exist);
     }
 
     /// <summary>Whether the session has any.</summary>
     internal bool Exist { get; }
 
+    /// <summary>Whether they hear of players, and who of these leaves and comes back then.</summary>
+    internal CheckVisits Visits { get; }
+
     /// <summary>Returns a scene with the session's rules.</summary>
-    internal Scene On(Scene scene) => Exist ? scene.With(new DrawnRules(seed), seed) : scene;
+    internal Scene On(Scene scene) => Exist ? scene.With(new DrawnRules(seed, Visits.Exist), seed) : scene;
 
     /// <summary>Adds commands, often in the instant of another action.</summary>
     internal void AddTo(List<CheckAction> actions, CheckScene room, int players, ulong attempt)

@@ -8,7 +8,8 @@ using LagSim.Timelines;
 namespace LagSim.Harness.Verification.Check;
 
 /// <summary>Rules drawn by a seed: they hear of some contacts, of commands, timers and bodies, read bodies and regions, draw random
-/// numbers, and act on bodies; everything that they come to know goes into a digest in their state.</summary>
+/// numbers, and act on bodies; everything that they come to know goes into a digest in their state. Where a session asks for it they hear of
+/// its players too.</summary>
 internal sealed class DrawnRules : GameRules
 {
     /// <summary>The most bodies that they spawn.</summary>
@@ -22,10 +23,13 @@ internal sealed class DrawnRules : GameRules
     private readonly bool hearsBodies;
 
     /// <summary>The rules of a seed.</summary>
-    internal DrawnRules(ulong seed)
+    /// <param name="seed">The seed.</param>
+    /// <param name="hearsPlayers">Whether they hear of players. It changes nothing else that they do.</param>
+    internal DrawnRules(ulong seed, bool hearsPlayers = false)
         : base("drawn", unchecked((int)seed))
     {
         this.seed = seed;
+        HearsPlayers = hearsPlayers;
         contacts = 1 + (int)(Mix(seed, 1) % 3);
         acts = 2 + (int)(Mix(seed, 2) % 5);
         hearsBodies = Mix(seed, 3) % 2 == 0;
@@ -43,6 +47,9 @@ internal sealed class DrawnRules : GameRules
 
     /// <inheritdoc/>
     public override bool HearsBodies => hearsBodies;
+
+    /// <inheritdoc/>
+    public override bool HearsPlayers { get; }
 
     /// <inheritdoc/>
     public override bool HearsContact(BodyId first, BodyId second, int surface) =>
@@ -66,6 +73,40 @@ internal sealed class DrawnRules : GameRules
         if (SkipsFailedCommands && command.Length % 3 == 1)
         {
             throw new InvalidOperationException("A command of such a length fails.");
+        }
+    }
+
+    /// <inheritdoc/>
+    /// <remarks>By the kind it is a push, a ball, or points, of a size that hangs on the player's number, its identity, or how much was heard before.</remarks>
+    public override void OnPlayer(RuleWorld world, PlayerEvent player)
+    {
+        Note(world, ((ulong)player.Kind << 16) | ((ulong)player.Role << 8) | player.Number);
+        Note(world, player.Identity);
+        foreach (char letter in player.Name)
+        {
+            Note(world, letter);
+        }
+
+        ref Total total = ref world.State<Total>();
+        int bodies = world.Scene.Bodies.Count;
+        BodyId body = bodies == 0 ? default : BodyId.OfScene((int)(player.Identity % (ulong)bodies));
+        Vector3D some = new(total.Calls % 4, player.Number % 3, (player.Identity % 5) - 2.0);
+        switch ((Mix(seed, 6) + (ulong)player.Kind) % 4)
+        {
+            case 0 when bodies > 0:
+                world.Impulse(body, some * world.SpecOf(body).Mass);
+                break;
+            case 1 when bodies > 0 && total.Spawns < MaxSpawns:
+                total.Spawns++;
+                SceneBody like = world.Scene.Bodies[body.Index];
+                total.Last = world.Spawn(like.Spec, like.Position, some, whenOccupied: (WhenOccupied)(player.Number % 3)).Packed;
+                break;
+            case 2:
+                total.Score += (int)(total.Calls % 4) + player.Number;
+                break;
+            default:
+                Act(world, body);
+                break;
         }
     }
 

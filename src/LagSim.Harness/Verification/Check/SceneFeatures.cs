@@ -27,6 +27,7 @@ public readonly record struct SceneFeatures
         ("fixed_steps", met => met.FixedSteps), ("force_on_sphere", met => met.ForceOnSphere), ("force_with_rolling", met => met.ForceWithRolling),
         ("filter_changed", met => met.FilterChanged),
         ("crossings", met => met.Crossings), ("rules_called", met => met.RulesCalled), ("two_in_contact", met => met.TwoInContact),
+        ("players_heard", met => met.PlayersHeard),
     ];
 
     /// <summary>Five or more touching bodies moved as an island.</summary>
@@ -77,6 +78,9 @@ public readonly record struct SceneFeatures
     /// <summary>Two players acted within a tenth of a second on one body that was awake, in contact steps.</summary>
     public bool TwoInContact { get; init; }
 
+    /// <summary>Rules heard of a player who left, or came back.</summary>
+    public bool PlayersHeard { get; init; }
+
     /// <summary>Bodies entered and left sensors, ten times or more.</summary>
     public bool Crossings { get; init; }
 
@@ -90,7 +94,8 @@ public readonly record struct SceneFeatures
             ContactSteps = contactSteps > 0,
             PeriodicBox = alone.Scene.Box.Exists,
             Crossings = alone.Crossings(alone.Start, alone.SimulatedTo).Count >= Often,
-            RulesCalled = alone.Engine.Rules?.Position >= Often
+            RulesCalled = alone.Engine.Rules?.Position >= Often,
+            PlayersHeard = accepted.Any(e => e.PlayerEvent?.Kind is PlayerEventKind.Returned or PlayerEventKind.Left),
         };
         List<(BodyId Body, BodySpec Spec, BodyState State)> there = [];
         Dictionary<EventKey, int> steps = [];
