@@ -12,7 +12,7 @@ using LagSim.Time;
 namespace LagSim.Bench;
 
 /// <summary>
-/// What becomes of the inputs of a host and three clients who all hold a stick, 30 times a second, on each link; and what it costs that the
+/// What becomes of the inputs of a host and three clients, two of whom hold a stick and two a body, 30 times a second, on each link; and what it costs that the
 /// watermark waits for them: in virtual time, with the history of a second alone, and with the default of thrice that at the most.
 /// </summary>
 internal static class LateInputTable
@@ -70,6 +70,8 @@ internal static class LateInputTable
             for (int player = 0; player <= Clients; player++)
             {
                 BodyId body = scene.BodyNamed(Name(player));
+                bool isStick = player < 2; // what a hand does cannot happen later than it is done: it would be refused
+                double x = player * 2.5;
                 int n = 0;
                 test = test.Every(1 / Rate, player, me =>
                 {
@@ -79,7 +81,10 @@ internal static class LateInputTable
                         segments = n % 10 == 0 ? Math.Max(segments, SegmentsAfter(host.Watermark, host.World!.Simulation)) : segments;
                     }
 
-                    me.Do(PlayerAction.Impulse(body, new Vector3D(n++ % 20 < 10 ? 0.1 : -0.1, 0, 0)));
+                    me.Do(isStick ? PlayerAction.Impulse(body, new Vector3D(n % 20 < 10 ? 0.1 : -0.1, 0, 0))
+                        : n == 0 ? PlayerAction.Grab(body)
+                        : PlayerAction.HoldKeyframe(body, new Vector3D(x + (0.2 * Math.Sin(0.1 * n)), 0.6, 0), new Vector3D(0.6 * Math.Cos(0.1 * n), 0, 0)));
+                    n++;
                     Inputs++;
                 });
             }

@@ -72,6 +72,14 @@ internal sealed class CommonOptions
         return option;
     }
 
+    /// <summary>An option with a number that may be left out; <paramref name="otherwise"/> says what is so then.</summary>
+    internal static Option<double?> NumberOr(string otherwise, string name, string description, double least, double most) => new(name)
+    {
+        Description = string.Create(CultureInfo.InvariantCulture, $"{description} ({least} to {most}); {otherwise}"),
+        HelpName = "NUMBER",
+        CustomParser = result => ParseNumber(result, name, least, most),
+    };
+
     /// <summary>How far behind the present <c>interpolation</c> shows the world.</summary>
     internal static Option<double> DisplayDelay() => Number(
         DisplayDelayName, "How far behind shared time the interpolation strategy shows the world", Math.Round(Interpolation.DefaultDelay.ToMilliseconds(), 6), 0, Interpolation.MaxDelay.ToMilliseconds());

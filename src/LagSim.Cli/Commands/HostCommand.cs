@@ -1,5 +1,6 @@
 using System;
 using System.CommandLine;
+using System.Globalization;
 using System.Linq;
 using System.Net;
 using LagSim.Cli.Output;
@@ -32,7 +33,12 @@ internal static class HostCommand
         Option<int> clients = CommonOptions.Whole(
             "--joiners", "Start once this many clients have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
         clients.Aliases.Add("--clients");
-        Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive and still be accepted", 1, 0.05, 5);
+        Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive in any case and still count when it was done", 1, 0.05, 5);
+        Option<double?> longest = CommonOptions.NumberOr(
+            "by default three times --history-s, 5 at the most", "--longest-history-s",
+            "How late those of a player may arrive whose link holds them back; from --history-s on", 0.05, 5);
+        Option<double?> rate = CommonOptions.NumberOr(
+            "by default what the events need and the link carries", "--max-bytes-per-s", "How many bytes a second each client is sent in the mean", 4_000, 100_000_000);
         Option<bool> early = new("--confirm-early")
         {
             Description = "Make what has happened final as soon as the players' links allow, rather than after --history-s;"
@@ -57,7 +63,7 @@ internal static class HostCommand
         Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
-            scene, port, address, clients, history, early, perAddress, budget, identity, tokens, unprotected, admin,
+            scene, port, address, clients, history, longest, rate, early, perAddress, budget, identity, tokens, unprotected, admin,
         };
         shared.AddTo(command);
         web.AddTo(command);
@@ -86,7 +92,15 @@ internal static class HostCommand
                 ConfirmsEarly = parsed.GetValue(early),
                 ExpectedClients = parsed.GetResult(clients)?.Implicit != false ? HostedScene.ExpectedClients(loaded) : parsed.GetValue(clients),
                 Window = request.Options.Window.WithHistory(SimDuration.FromSeconds(parsed.GetValue(history))),
+                MaxBytesPerSecond = (int?)parsed.GetValue(rate),
             };
+            if (parsed.GetValue(longest) is double seconds)
+            {
+                options = seconds >= parsed.GetValue(history) ? options with { LongestHistory = SimDuration.FromSeconds(seconds) }
+                    : throw new UsageException(string.Create(
+                        CultureInfo.InvariantCulture, $"--longest-history-s is '{seconds}'; it must be at least --history-s, {parsed.GetValue(history)}."));
+            }
+
             if (parsed.GetValue(perAddress) is int most and > 0)
             {
                 options = options with { MaxClientsPerAddress = most };

@@ -160,7 +160,7 @@ internal sealed class SessionActions
 
     private static string Why(Verdict verdict) => verdict switch
     {
-        Verdict.TooLate => "it came too late, when nothing could change any more what was to happen then (the host's --history-s)",
+        Verdict.TooLate => "it came too late, when nothing could change any more what was to happen then (the host's --history-s and --longest-history-s)",
         Verdict.TooEarly => "it is stamped too far in the future",
         Verdict.NoRight =>
             "this peer may not do that: it has no right to, or what it did costs more than the host allows (docs/BUDGETS.md)",

@@ -99,7 +99,7 @@ public sealed record HostOptions : SessionOptions
     /// <remarks>
     /// <para>A player that acts tells with each update, and at least four times in a history, before which instant it stamps nothing any
     /// more. While that stays out the link holds its events back, and nothing later than it becomes final until they come, or this bound is
-    /// reached. A player that has done nothing for ten seconds is not waited for.</para>
+    /// reached. One that has done nothing for ten seconds makes no promises: it is waited for by the round trip of its link.</para>
     /// <para>Cost: nothing while all are heard but four small datagrams a second of a player that acts seldom, for ten seconds after it.
     /// While one is waited for, what happens is final that much later, and every peer keeps as much more of the past: memory as for the
     /// history of the window. A player that withholds its updates on purpose costs all others no more than that. What is later still is

@@ -20,25 +20,39 @@ public sealed class LateInputTests
     private const double Hz = 30;
 
     [Theory]
-    [InlineData("wifi-good", 12)] // with a fixed history of a second it loses 32 in a row
-    [InlineData("wifi-busy", 6)]
-    [InlineData("awful", 12)]
-    [InlineData("blackout", 24)]
-    [InlineData("delay-2000ms", 6)]
-    [InlineData("modem-64k", 6)]
-    public void HeldSticks_OfAHostAndThreeClients_LoseNothing(string link, double seconds)
+    [InlineData("wifi-good", 12, false)] // with a fixed history of a second it loses 32 in a row
+    [InlineData("wifi-busy", 6, false)]
+    [InlineData("awful", 12, false)]
+    [InlineData("blackout", 24, false)]
+    [InlineData("delay-2000ms", 6, false)]
+    [InlineData("modem-64k", 6, false)]
+    [InlineData("wifi-good", 12, true)]
+    [InlineData("blackout", 24, true)]
+    [InlineData("delay-1000ms", 6, true)]
+    [InlineData("delay-2000ms", 6, true)]
+    public void HeldSticksAndHands_OfAHostAndThreeClients_LoseNothing(string link, double seconds, bool isHand)
     {
-        SessionTestResult result = Steer(link, seconds, longest: null, out int done, out double behind);
-        Assert.Equal((done, 0), (result.EventsAccepted, result.EventsRefused));
+        SessionTestResult result = Steer(link, seconds, longest: null, isHand, out int done, out double behind);
+        Assert.Equal((done, 0, 0), (result.EventsAccepted, result.EventsRefused, result.EventsMoved));
         Assert.True(result.WorldsAgree, $"{result}");
         Assert.InRange(behind, 1, 3.1);
+    }
+
+    [Theory]
+    [InlineData("wifi-good", 12)]
+    [InlineData("blackout", 24)]
+    [InlineData("delay-2000ms", 6)]
+    public void Hands_WithAFixedHistory_LoseKeyframes(string link, double seconds)
+    {
+        SessionTestResult not = Steer(link, seconds, LatencyCompensationWindow.DefaultHistory, isHand: true, out int _, out double _);
+        Assert.InRange(not.EventsTooLate, 10, 2000); // the control: a keyframe does not move
     }
 
     [Fact]
     public void HeldSticks_WithAFixedHistory_AreMovedInstead()
     {
-        SessionTestResult waits = Steer("wifi-good", 12, longest: null, out int done, out double _);
-        SessionTestResult not = Steer("wifi-good", 12, LatencyCompensationWindow.DefaultHistory, out int doneThen, out double behind);
+        SessionTestResult waits = Steer("wifi-good", 12, longest: null, isHand: false, out int done, out double _);
+        SessionTestResult not = Steer("wifi-good", 12, LatencyCompensationWindow.DefaultHistory, isHand: false, out int doneThen, out double behind);
         Assert.Equal((0, 0, done), (waits.EventsMoved, waits.EventsRefused, waits.EventsAccepted));
         Assert.Equal((0, doneThen), (not.EventsRefused, not.EventsAccepted));
         Assert.InRange(not.EventsMoved, 10, 100); // the control: so many were too late for the second
@@ -235,13 +249,14 @@ public sealed class LateInputTests
 
     private static double Behind(SessionGroup group) => (group.Host.SharedTime.Now - group.Host.Watermark).ToSeconds();
 
-    /// <summary>A host and three clients who push their marbles to and fro, each a push a thirtieth of a second.</summary>
+    /// <summary>A host and three clients who push their marbles to and fro, or hold and wave them, each an act a thirtieth of a second.</summary>
     /// <param name="link">Over which profile.</param>
     /// <param name="seconds">For how long.</param>
     /// <param name="longest">The longest history; null for the default.</param>
-    /// <param name="done">How many pushes there were.</param>
+    /// <param name="isHand">Whether they hold them.</param>
+    /// <param name="done">How many acts there were.</param>
     /// <param name="behind">The most by which the watermark was behind after the first two seconds.</param>
-    private static SessionTestResult Steer(string link, double seconds, SimDuration? longest, out int done, out double behind)
+    private static SessionTestResult Steer(string link, double seconds, SimDuration? longest, bool isHand, out int done, out double behind)
     {
         SceneBuilder marbles = new SceneBuilder("marbles").AddPlane("floor", Vector3D.Up, Vector3D.Zero);
         for (int n = 0; n <= 3; n++)
@@ -257,10 +272,14 @@ public sealed class LateInputTests
         for (int player = 0; player <= 3; player++)
         {
             BodyId body = scene.BodyNamed($"m{player}");
+            double x = player * 2.5;
             int n = 0;
             test = test.Every(1 / Hz, player, me =>
             {
-                me.Do(PlayerAction.Impulse(body, V(n++ % 20 < 10 ? 0.1 : -0.1)));
+                me.Do(!isHand ? PlayerAction.Impulse(body, V(n % 20 < 10 ? 0.1 : -0.1))
+                    : n == 0 ? PlayerAction.Grab(body)
+                    : PlayerAction.HoldKeyframe(body, new Vector3D(x + (0.2 * Math.Sin(0.1 * n)), 0.6, 0), new Vector3D(0.6 * Math.Cos(0.1 * n), 0, 0)));
+                n++;
                 pushes++;
                 if (me.Session is HostSession host && n > 2 * Hz)
                 {

@@ -25,20 +25,35 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
     internal int PlayerCount => CountUpTo(SessionOptions.MaxClients);
 
     /// <summary>
-    /// The time before which none of those who play, and have acted since an instant, will stamp an event any more; the latest instant if
-    /// there is nobody like that besides the host.
+    /// The time before which none of those who play will stamp an event any more; the latest instant if nobody plays besides the host.
     /// </summary>
-    /// <param name="actedSince">The instant; the earliest for all who play.</param>
-    internal SimTime Promised(SimTime actedSince)
+    internal SimTime Promised()
     {
         SimTime promised = SimTime.MaxValue;
         foreach (Client client in clients)
         {
-            bool counts = client.Stamps.Latest >= actedSince && PlayerPlaces.IsFor(client.Peer, isSpectator: false);
-            promised = counts ? SimTime.Min(promised, client.Stamps.Promised) : promised;
+            promised = Plays(client) ? SimTime.Min(promised, client.Stamps.Promised) : promised;
         }
 
         return promised;
+    }
+
+    /// <summary>
+    /// The time before which none of those who play is expected to stamp an event that is still on its way: what those who act have promised;
+    /// of the others a round trip ago, so that the first that one of them does on a slow link is not too late.
+    /// </summary>
+    /// <param name="now">The instant that a round trip is counted from.</param>
+    /// <param name="acting">For how long after its newest event one acts.</param>
+    internal SimTime Expected(SimTime now, SimDuration acting)
+    {
+        SimTime expected = SimTime.MaxValue;
+        foreach (Client client in clients)
+        {
+            expected = !Plays(client) ? expected
+                : SimTime.Min(expected, client.Stamps.Acted >= now - acting ? client.Stamps.Promised : now - client.Link.Trips.Least);
+        }
+
+        return expected;
     }
 
     /// <summary>Returns the client with that link. A loop, since a delegate would be allocated for every datagram.</summary>
@@ -60,6 +75,8 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
 
     /// <summary>What a backend says of the player with that number; null without a connect token.</summary>
     internal PlayerAdmission? AdmissionOf(byte player) => Seated(player) is null ? null : places[player].Admission;
+
+    private static bool Plays(Client client) => PlayerPlaces.IsFor(client.Peer, isSpectator: false);
 
     private int CountUpTo(byte number)
     {

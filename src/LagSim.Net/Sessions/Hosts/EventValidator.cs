@@ -7,16 +7,17 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Decides the host's verdict on a client's event; changes nothing else.</summary>
+/// <summary>Decides the host's verdict on a client's event, and notes that the client acts; changes nothing else.</summary>
 internal sealed class EventValidator(
     PlayerPlaces places, SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, EventJournal journal,
     SimDuration history)
 {
     /// <param name="external">The event; at another time if it is too late and happens later.</param>
-    /// <param name="stamps">When its player's events happened.</param>
+    /// <param name="stamps">When its player's events happened; gets when it acted.</param>
     internal Verdict Validate(ref ExternalEvent external, ClientStamps stamps)
     {
         SimTime now = sharedTime.Now;
+        stamps.Acted = now; // refused or not: were only those counted that happen, who is too late once would be too late for good
         if (world.Live is null || !world.MayEnter(external))
         {
             return Verdict.Invalid;

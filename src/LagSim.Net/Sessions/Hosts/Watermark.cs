@@ -15,8 +15,9 @@ namespace LagSim.Net.Sessions.Hosts;
 /// number, and while its first promise is on its way the watermark goes on by the history alone. What it promises counts once all events
 /// before the promise are here and were judged.</para>
 /// <para>A player that acts promises several times in a history, so one whose promises stay out has a link that holds its events back: the
-/// watermark stays at its newest promise until they come, since whatever it did since is stamped later. One that does nothing is not waited
-/// for: its link would have to carry promises all the time.</para>
+/// watermark stays at its newest promise until they come, since whatever it did since is stamped later. One that does nothing makes no
+/// promises, which its link would have to carry all the time; what it begins with is a round trip late at most, unless its link is held up just
+/// then.</para>
 /// </remarks>
 /// <param name="sharedTime">The session's time.</param>
 /// <param name="world">The world.</param>
@@ -24,7 +25,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <param name="players">Who makes promises; null if nobody does.</param>
 internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, HostOptions options, ClientRoster? players = null)
 {
-    /// <summary>For how long after its newest event a player counts as one that acts, unless all promises count.</summary>
+    /// <summary>For how long after its newest event a player counts as one that acts, unless all promises count: as long as a silent peer is
+    /// waited for by default.</summary>
     internal static readonly SimDuration Acting = SimDuration.FromSeconds(10);
 
     /// <summary>
@@ -32,7 +34,7 @@ internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, HostO
     /// </summary>
     private static readonly SimDuration EarlyPace = SimDuration.FromMilliseconds(50);
 
-    /// <summary>The longest pause where they only tell that nothing is on its way.</summary>
+    /// <summary>The longest pause where they only tell that nothing is on its way: four in the default history, so that three may be lost.</summary>
     private static readonly SimDuration SlowPace = SimDuration.FromMilliseconds(250);
 
     private readonly SimDuration history = options.Window.History;
@@ -65,7 +67,7 @@ internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, HostO
             newest = SimTime.Max(newest, SimTime.Max(simulated - longest, SimTime.Min(simulated - history, WaitedFor(simulated))));
             if (options.ConfirmsEarly && players is not null && world.Live is { IsBehind: false })
             {
-                newest = SimTime.Max(newest, SimTime.Min(simulated, players.Promised(SimTime.MinValue)));
+                newest = SimTime.Max(newest, SimTime.Min(simulated, players.Promised()));
             }
 
             return newest;
@@ -87,7 +89,7 @@ internal sealed class Watermark(SharedClock sharedTime, SharedWorld world, HostO
     /// <summary>Lets it go on.</summary>
     internal void Resume() => holds--;
 
-    /// <summary>What the players that act have promised; the latest instant if none does.</summary>
+    /// <summary>The time of what may still be on its way; the latest instant if nothing is waited for.</summary>
     private SimTime WaitedFor(SimTime simulated) =>
-        players is null || longest == history ? SimTime.MaxValue : players.Promised(simulated - Acting);
+        players is null || longest == history ? SimTime.MaxValue : players.Expected(simulated, Acting);
 }

@@ -55,6 +55,9 @@ internal sealed class RoundTrips
     /// <summary>The newest round trip; zero before there is one.</summary>
     internal SimDuration Newest { get; private set; }
 
+    /// <summary>The shortest of the last minute; zero before there is one.</summary>
+    internal SimDuration Least => least.Value;
+
     /// <summary>The smoothed mean, as in TCP (RFC 6298).</summary>
     internal SimDuration Mean { get; private set; }
 
