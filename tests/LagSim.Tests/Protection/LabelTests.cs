@@ -12,8 +12,8 @@ using Xunit;
 namespace LagSim.Tests.Protection;
 
 /// <summary>
-/// Every use of a secret has the label that docs/SECURITY.md gives it: what the code makes is computed here from the page's table. And what
-/// stands before a sealed datagram is authenticated with it.
+/// Every use of a secret has a label of its own in docs/SECURITY.md, and those that another implementation must compute have that label: what
+/// the code makes is computed here from the page's table. (Cookies and session ids only their host computes.) And what stands before a sealed datagram is authenticated with it.
 /// </summary>
 public sealed class LabelTests
 {

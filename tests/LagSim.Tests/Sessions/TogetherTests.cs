@@ -29,6 +29,8 @@ public sealed class TogetherTests(ITestOutputHelper output)
     [InlineData(250, 0)]
     [InlineData(5, 2)]
     [InlineData(50, 1)]
+    [InlineData(100, 2)]
+    [InlineData(250, 1)]
     public void Steering_TakesAtMostTwiceWhatTheEventsNeed_AndSixtyDatagramsASecond(double delay, double loss)
     {
         Played played = Play(delay, loss, Rate);

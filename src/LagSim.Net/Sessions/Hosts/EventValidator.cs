@@ -17,7 +17,6 @@ internal sealed class EventValidator(
     internal Verdict Validate(ref ExternalEvent external, ClientStamps stamps)
     {
         SimTime now = sharedTime.Now;
-        stamps.Acted = now; // refused or not: were only those counted that happen, who is too late once would be too late for good
         if (world.Live is null || !world.MayEnter(external))
         {
             return Verdict.Invalid;
@@ -29,6 +28,7 @@ internal sealed class EventValidator(
         }
 
         SimTime earliest = SimTime.Max(watermark.Now, world.Live.Simulation.Start);
+        stamps.Acted = now; // refused or not: were only those counted that happen, who is too late once would be too late for good
         bool isLate = external.Time < earliest;
         bool isBehind = external.Time <= stamps.LatestMoved; // stamped after one that has moved, and would come before it
         bool isMoved = (isLate || isBehind) && LateActions.MayMove(external, stamps, journal.Recent);
