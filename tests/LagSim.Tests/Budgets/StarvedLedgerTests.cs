@@ -1,0 +1,103 @@
+using System;
+using System.Linq;
+using LagSim.Events;
+using LagSim.Hosting;
+using LagSim.Net.Sessions;
+using LagSim.Scenes;
+using LagSim.Testing.Links;
+using LagSim.Tests.Sessions;
+using LagSim.Time;
+using Xunit;
+using static LagSim.Tests.TestWorlds;
+
+namespace LagSim.Tests.Budgets;
+
+/// <summary>
+/// A host that gets little time, in virtual time: its thread waits for its core again and again in the middle of its work. Honest players stay.
+/// </summary>
+public sealed class StarvedLedgerTests(ITestOutputHelper output)
+{
+    private const double Seconds = 3;
+    private const int Clients = 3;
+
+    /// <summary>
+    /// Drawn plays of honest players, each twice with the same host that is starved alike. The control is the rule of before, a ledger that charges
+    /// what the clock says, up to 20 ms for an event: it sends somebody away in each of them.
+    /// </summary>
+    [Theory]
+    [InlineData(0.1)]
+    [InlineData(0.5)]
+    public void Play_WithAStarvedHost_SendsNobodyAwayUnlessTheClockCharges(double share)
+    {
+        int sentAway = 0;
+        for (int seed = 1; seed <= 4; seed++)
+        {
+            (string[] byCount, double late, double most) = Play(seed, share, null);
+            (string[] byClock, _, double mostByClock) = Play(seed, share, static (counted, took) => Math.Max(counted, Math.Min(took, 20_000)));
+            output.WriteLine(FormattableString.Invariant($"{share} {seed}: late {late:0.000} s, {most:0.00} of the budget; by the clock {mostByClock:0.00} {string.Join(" ", byClock)}"));
+            Assert.Empty(byCount);
+            Assert.True(late > 0.05, $"{late} s"); // it was starved
+            sentAway += byClock.Length > 0 ? 1 : 0;
+        }
+
+        Assert.Equal(4, sentAway);
+    }
+
+    private static (string[] SentAway, double Late, double Most) Play(int seed, double share, Func<double, double, double>? rule)
+    {
+        SceneBuilder scene = new SceneBuilder("heap").AddPlane("floor", Vector3D.Up, V(0), 0.3, friction: 0.3);
+        int bodies = 8 + (2 * (seed % 4));
+        for (int n = 0; n < bodies; n++)
+        {
+            scene.AddBody($"ball {n}", new BodySpec(0.25, 1, 0.3, friction: 0.3), V(0.45 * (n % 3), 0.3 + (0.5 * (n / 6)), 0.45 * (n / 3 % 2)));
+        }
+
+        SessionGroup group = new SessionGroup(scene.Build(), Clients + 1, LinkProfiles.PureDelay(50), (ulong)seed).Connect();
+        System.Collections.Generic.List<string> said = [];
+        group.Host.PlayerExpelled += expulsion => said.Add(expulsion.Sentence);
+        group.Host.World!.Work = new WorkLedger(new StarvedClock(group.Clock, share, new Random(seed))) { ChargeRule = rule };
+        group.BusyMilliseconds = 20;
+        Random random = new(seed);
+        double[] next = [.. Enumerable.Range(0, Clients).Select(_ => random.NextDouble() / 4)];
+        for (double at = 0; at < Seconds && said.Count == 0; at += 0.01)
+        {
+            for (int who = 0; who < Clients; who++)
+            {
+                if (at >= next[who])
+                {
+                    next[who] += (0.5 + random.NextDouble()) / 4;
+                    group.Do(who + 1, PlayerAction.Impulse(BodyId.OfScene(random.Next(bodies)), V(random.NextDouble() - 0.5, 2 * random.NextDouble(), random.NextDouble() - 0.5)));
+                }
+            }
+
+            group.Run(0.01);
+        }
+
+        return ([.. said], group.Host.World.MaxLateness.ToSeconds(), group.Host.Costs.Max(cost => cost.PeakWork) / PlayerBudget.Default.WorkAtOnce);
+    }
+
+    /// <summary>
+    /// The clock of a thread that runs for up to 3 ms, and then waits until it has had its share: each reading, which is one for each event,
+    /// comes 5 us of its own time after the last.
+    /// </summary>
+    private sealed class StarvedClock(IClock real, double share, Random random) : IClock
+    {
+        private double ran, slice, lost;
+
+        public SimTime Now
+        {
+            get
+            {
+                ran += 5e-6;
+                lost += 5e-6;
+                if (ran > slice)
+                {
+                    lost += slice * ((1 / share) - 1);
+                    (ran, slice) = (0, 0.001 + (0.002 * random.NextDouble()));
+                }
+
+                return real.Now + SimDuration.FromSeconds(lost);
+            }
+        }
+    }
+}
