@@ -80,7 +80,7 @@ public sealed class CallChargeTests
     public void Work_ForAPlayersBallThatRulesTouch_StaysOnThatAccount(bool isTouched)
     {
         GivenRules rules = new() { HearsAll = true, Spawned = (world, body) => world.SetFilter(body, isTouched ? new CollisionFilter(2, 1) : default) };
-        Scene scene = new SceneBuilder("gap").WithGravity(Floating).AddPlane("floor", Vector3D.Up, 0).AddPlane("roof", V(0, -1), -0.203)
+        Scene scene = new SceneBuilder("gap").WithGravity(Floating).WithSmallestRadius(0.1).AddPlane("floor", Vector3D.Up, 0).AddPlane("roof", V(0, -1), -0.203)
             .WithRules(isTouched ? rules : new GivenRules()).Build();
         LiveWorld world = new(scene, new SimulationOptions()) { Work = new WorkLedger() };
         world.Submit(PlayerAction.Spawn(new BodySpec(0.1, 1, 1), V(0, 0.1), V(0, 20)).Stamp(At(0.1), 3, 1));
