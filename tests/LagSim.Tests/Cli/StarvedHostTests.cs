@@ -12,8 +12,7 @@ public sealed class StarvedHostTests
 {
     /// <summary>
     /// A host at a tenth of a core, and one beside sixteen spinning programs, each of another scene. With next to no budget players are sent away,
-    /// and the run says so: that shows that it would be seen, whoever is starved. What a clock that charges does to a host that gets little
-    /// time is shown in virtual time, by <see cref="Budgets.StarvedLedgerTests"/>.
+    /// and the run says so: that shows that it would be seen, whoever is starved.
     /// </summary>
     [Theory]
     [InlineData("--seed 0", true)]
