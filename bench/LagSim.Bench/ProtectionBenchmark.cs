@@ -39,7 +39,7 @@ public class ProtectionBenchmark
         host.WriteIdentity(new byte[IHostProtection.FingerprintBytes], shown);
         using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue)!;
         client.Write(claims, join);
-        using IHostHandshake read = host.TryRead(prologue, join, claims)!;
+        using IHostHandshake read = host.TryRead(0, prologue, join, claims)!;
         cipher = read.Accept("", terms, welcome);
         sender = new LinkSeal(client.TryFinish("", welcome, terms)!);
         castle = new BouncyCastleAead(shown);
@@ -83,7 +83,7 @@ public class ProtectionBenchmark
     [Benchmark]
     public void ReadJoin()
     {
-        using IHostHandshake? read = host.TryRead(prologue, join, claims);
+        using IHostHandshake? read = host.TryRead(0, prologue, join, claims);
     }
 
     /// <summary>Both sides of a whole join: seven agreements and keys.</summary>
@@ -92,7 +92,7 @@ public class ProtectionBenchmark
     {
         using IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, prologue)!;
         client.Write(claims, join);
-        using IHostHandshake read = host.TryRead(prologue, join, claims)!;
+        using IHostHandshake read = host.TryRead(0, prologue, join, claims)!;
         using IDatagramCipher hostEnd = read.Accept("", terms, welcome);
         using IDatagramCipher clientEnd = client.TryFinish("", welcome, terms)!;
     }

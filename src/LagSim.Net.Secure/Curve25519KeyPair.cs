@@ -1,5 +1,6 @@
 using System;
 using System.Security.Cryptography;
+using System.Threading;
 using Org.BouncyCastle.Math.EC.Rfc7748;
 
 namespace LagSim.Net.Protection;
@@ -13,6 +14,7 @@ internal sealed class Curve25519KeyPair : IDisposable
     private readonly byte[] privateKey;
     private readonly byte[] publicKey = new byte[Bytes];
     private bool isWiped;
+    private long agreements;
 
     /// <summary>Takes the private key of a pair.</summary>
     internal Curve25519KeyPair(ReadOnlySpan<byte> privateKey)
@@ -25,6 +27,9 @@ internal sealed class Curve25519KeyPair : IDisposable
     internal ReadOnlySpan<byte> PrivateKey => isWiped ? throw new ObjectDisposedException(nameof(Curve25519KeyPair)) : privateKey;
 
     internal ReadOnlySpan<byte> PublicKey => publicKey;
+
+    /// <summary>How many agreements were computed with it, each of which takes a tenth of a millisecond or more: what a host may be made to do.</summary>
+    internal long Agreements => Interlocked.Read(ref agreements);
 
     /// <summary>Draws a pair.</summary>
     internal static Curve25519KeyPair Draw()
@@ -54,6 +59,7 @@ internal sealed class Curve25519KeyPair : IDisposable
             throw new ObjectDisposedException(nameof(Curve25519KeyPair));
         }
 
+        Interlocked.Increment(ref agreements);
         byte[] agreed = new byte[Bytes];
         bool isSecret = X25519.CalculateAgreement(privateKey, 0, otherPublicKey.ToArray(), 0, agreed, 0);
         agreed.CopyTo(secret);

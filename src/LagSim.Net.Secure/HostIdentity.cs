@@ -16,7 +16,7 @@ namespace LagSim.Net.Protection;
 /// </remarks>
 public sealed class HostIdentity : IDisposable
 {
-    /// <summary>The most former keys that an identity has: each makes a host try once more to read a join.</summary>
+    /// <summary>The most former keys that an identity has.</summary>
     public const int MaxFormerKeys = 4;
 
     /// <summary>The longest time for which a former key is kept: 366 days.</summary>
@@ -163,6 +163,14 @@ public sealed class HostIdentity : IDisposable
             }
         }
     }
+
+    /// <summary>A key by its number, 0 for the newest; null if there is none, or its time is over.</summary>
+    internal Curve25519KeyPair? KeyAt(int number, DateTimeOffset now) =>
+        number == 0 ? keys : number > 0 && number <= former.Length && former[number - 1].Until > now ? former[number - 1].Keys : null;
+
+    /// <summary>The number of the key with a fingerprint; that of the newest if there is none.</summary>
+    internal int KeyOf(HostFingerprint fingerprint, DateTimeOffset now) =>
+        1 + Array.FindIndex(former, old => old.Until > now && old.Fingerprint == fingerprint);
 
     private static void Wipe(IEnumerable<FormerHostKey> keys)
     {

@@ -8,8 +8,8 @@ namespace LagSim.Net.Protection;
 /// </summary>
 /// <remarks>
 /// Give it to <see cref="Sessions.HostOptions.Protection"/>. Clients without a protection of their own are refused. Safe on any thread;
-/// sessions on different ports may share it. Cost: one agreement for each join that is read (and one for each newer key, if it is for a
-/// former one), two more for each that is answered; docs/SECURITY.md has times.
+/// sessions on different ports may share it. Cost: one agreement for each join that is read, however many former keys there are, two more
+/// for each that is answered; docs/SECURITY.md has times.
 /// </remarks>
 /// <example>
 /// <code>
@@ -74,33 +74,30 @@ public sealed class SecureHost : IHostProtection
         ConnectToken.TryReadId(token, out (ulong, ulong) id, out long until) && used.Add(id, until);
 
     /// <inheritdoc/>
-    public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination)
+    public int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination)
     {
-        HostFingerprint one = HostFingerprint.Read(wanted);
-        Curve25519KeyPair shown = Identity.Keys;
-        foreach (Curve25519KeyPair keys in Identity.KeysAt(clock()))
-        {
-            shown = HostFingerprint.OfPublicKey(keys.PublicKey) == one ? keys : shown;
-        }
-
-        shown.PublicKey.CopyTo(destination);
+        DateTimeOffset now = clock();
+        int key = Identity.KeyOf(HostFingerprint.Read(wanted), now);
+        Identity.KeyAt(key, now)!.PublicKey.CopyTo(destination);
+        return key;
     }
 
     /// <inheritdoc/>
-    public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
+    public IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
     {
-        byte[] binding = new byte[IHostProtection.BindingBytes];
-        foreach (Curve25519KeyPair keys in Identity.KeysAt(clock()))
+        if (Identity.KeyAt(key, clock()) is not Curve25519KeyPair keys)
         {
-            NoiseSymmetricState state = NoiseHandshake.Begin(prologue, keys.PublicKey);
-            if (NoiseHandshake.TryReadFirst(state, keys, message, payload, binding))
-            {
-                return new HostHandshake(state, message.Slice(0, NoiseHandshake.KeyBytes).ToArray(), binding, Identity.Fingerprint);
-            }
-
-            state.Dispose();
+            return null; // its time is over, since it was shown
         }
 
+        byte[] binding = new byte[IHostProtection.BindingBytes];
+        NoiseSymmetricState state = NoiseHandshake.Begin(prologue, keys.PublicKey);
+        if (NoiseHandshake.TryReadFirst(state, keys, message, payload, binding))
+        {
+            return new HostHandshake(state, message.Slice(0, NoiseHandshake.KeyBytes).ToArray(), binding, Identity.Fingerprint);
+        }
+
+        state.Dispose();
         return null;
     }
 

@@ -195,7 +195,7 @@ internal sealed class EventLoop(
         long made = caller!.Made;
         caller.Process();
         progress.EventsProcessed++;
-        return meter.TellCall(key, caller.Made > made);
+        return meter.TellCall(key, caller.Made > made, caller.Charged);
     }
 
     /// <summary>Not before the first instant that is kept: nothing could be read then.</summary>

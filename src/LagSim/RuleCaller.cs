@@ -52,6 +52,9 @@ internal class RuleCaller
     /// <summary>How many calls were made, those made again included.</summary>
     internal long Made { get; private set; }
 
+    /// <summary>What the call that was made last said that it costs.</summary>
+    internal double Charged => world.Charged;
+
     /// <summary>Forgets calls before a time, which can no longer change.</summary>
     internal void DropBefore(SimTime edge) => log.DropBefore(edge);
 

@@ -11,7 +11,7 @@ using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
 
-/// <summary>The commands of <c>lagsim host --admin</c>: list and disconnect players, ban addresses, remove bodies.</summary>
+/// <summary>The commands of <c>lagsim host --admin</c>: list and disconnect players, ban them or their addresses, remove bodies.</summary>
 internal sealed class HostAdmin
 {
     internal const string Syntax = "players, kick PLAYER, ban PLAYER, unban ADDRESS, remove-bodies PLAYER";

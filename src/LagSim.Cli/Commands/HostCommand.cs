@@ -60,7 +60,7 @@ internal static class HostCommand
             HelpName = "KEY",
         };
         Option<bool> unprotected = ProtectionOptions.Unprotected();
-        Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}." };
+        Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}. 'ban' shuts out for as long as the session lasts: with --tokens that player alone, otherwise everyone at its address." };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
             scene, port, address, clients, history, longest, rate, early, perAddress, budget, identity, tokens, unprotected, admin,

@@ -34,6 +34,9 @@ public interface IHostProtection
     /// <summary>The longest connect token, in bytes.</summary>
     public const int MaxTokenBytes = 256;
 
+    /// <summary>How many keys a host may have at a time: its own, and former ones.</summary>
+    public const int MaxKeys = 8;
+
     /// <summary>
     /// Whether clients need a connect token: one with a valid one, or with the pass of a player that came in with one, is let in.
     /// </summary>
@@ -42,9 +45,11 @@ public interface IHostProtection
     /// <summary>Writes the identity that this host shows to a client: the public key that it wants, if that is one of its own, else the newest.</summary>
     /// <param name="wanted">The fingerprint of the host that the client says it wants; all 0 for any.</param>
     /// <param name="destination">Receives <see cref="IdentityBytes"/> bytes.</param>
-    void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination);
+    /// <returns>Which key it is, for <see cref="TryRead"/>: from 0 to below <see cref="MaxKeys"/>, always the same for one key.</returns>
+    int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination);
 
-    /// <summary>Reads a client's handshake message. Cost: one Diffie-Hellman agreement.</summary>
+    /// <summary>Reads a client's handshake message. Cost: one Diffie-Hellman agreement, however many keys there are.</summary>
+    /// <param name="key">Which key the client was shown, as <see cref="WriteIdentity"/> returned it.</param>
     /// <param name="prologue">What both sides know of the handshake so far; if theirs differ, the message cannot be read.</param>
     /// <param name="message">The message.</param>
     /// <param name="payload">
@@ -52,7 +57,7 @@ public interface IHostProtection
     /// it, and it is not known yet who wrote it.
     /// </param>
     /// <returns>The handshake, to be answered or disposed; null if the message is not one for this host. Never throws.</returns>
-    IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload);
+    IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload);
 
     /// <summary>Reads a connect token. Cost: one signature checked.</summary>
     /// <param name="token">The token, up to <see cref="MaxTokenBytes"/> bytes.</param>

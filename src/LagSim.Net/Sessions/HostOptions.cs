@@ -140,7 +140,8 @@ public sealed record HostOptions : SessionOptions
     /// token, its key or its pass. If another is expelled from its machine within ten minutes, nobody without token or key is let in from
     /// there for as long. What it spawned is removed as of before the work began, and other bodies it moved that caused much of the work are
     /// stopped; see <see cref="HostSession.PlayerExpelled"/>.</para>
-    /// <para>Work is counted, not timed, so a machine that has little time for the host sends nobody away.</para>
+    /// <para>Work is counted, not timed, so a machine that has little time for the host sends nobody away. What a game's rules compute counts
+    /// as they say themselves (<see cref="Rules.RuleWorld.Charge"/>), and as nothing if they say nothing.</para>
     /// <para>A late event on a body in free flight counts some 5 units or more. The default <see cref="MaxEventsPerSecond"/> stays far from the
     /// budget; if you allow thousands a second, raise the budget in proportion.</para>
     /// </remarks>

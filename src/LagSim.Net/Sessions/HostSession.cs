@@ -199,7 +199,7 @@ public sealed class HostSession : Session
     /// <summary>
     /// Sends a player away, as <see cref="Kick"/> does, and does not let it in again for as long as this session lasts. If a connect token or
     /// a player's key proves who it is, that player is shut out and nobody else. Otherwise all players from its machine are sent away, and
-    /// everyone who shares it is shut out. A machine is an IP address, of IPv6 its first 64 bits.
+    /// everyone who shares it is shut out, also with a token or a key. A machine is an IP address, of IPv6 its first 64 bits.
     /// </summary>
     /// <remarks>On the session's thread.</remarks>
     /// <param name="player">The player's number.</param>
@@ -215,14 +215,15 @@ public sealed class HostSession : Session
         }
 
         PeerAddress machine = found.Link.Other.Machine;
-        PlayerNames who = host.Roster.NamesOf(found);
+        KnownPlayer who = host.Roster.KnownOf(found);
         host.Handshake.BanList.ShutOut(who, machine);
-        host.Roster.Kick(j => j == found || (!who.AreProven && j.Link.Other.Machine == machine));
+        host.Roster.Kick(j => j == found || (!who.IsProven && j.Link.Other.Machine == machine));
         return machine;
     }
 
     /// <summary>
-    /// Lets players in again from a machine: all who were banned there, and all who are shut out for a while because they cost too much.
+    /// Lets players in again from a machine: the machine itself, and all players who were sent away from it, banned or shut out for a while because
+    /// they cost too much, wherever they come from now.
     /// </summary>
     /// <param name="machine">The result of <see cref="Ban"/>, or any address of the machine.</param>
     /// <returns>False if nobody was shut out there.</returns>

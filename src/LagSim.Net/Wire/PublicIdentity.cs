@@ -15,8 +15,12 @@ internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
     internal bool IsNone => words == default;
 
     /// <summary>The identity that a host shows to a client that wants the host with a fingerprint.</summary>
-    internal static PublicIdentity Of(IHostProtection? protection, Token128 wanted)
+    /// <param name="protection">The host's protection; null for none.</param>
+    /// <param name="wanted">The fingerprint.</param>
+    /// <param name="key">Which of the host's keys it is.</param>
+    internal static PublicIdentity Of(IHostProtection? protection, Token128 wanted, out int key)
     {
+        key = 0;
         if (protection is null)
         {
             return default;
@@ -25,7 +29,7 @@ internal readonly struct PublicIdentity : IEquatable<PublicIdentity>
         Span<byte> bytes = stackalloc byte[IHostProtection.IdentityBytes];
         Span<byte> fingerprint = stackalloc byte[IHostProtection.FingerprintBytes];
         wanted.CopyTo(fingerprint);
-        protection.WriteIdentity(fingerprint, bytes);
+        key = protection.WriteIdentity(fingerprint, bytes);
         WireReader reader = new(bytes);
         return Read(ref reader);
     }

@@ -45,8 +45,11 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, EventWork 
     }
 
     /// <summary>Rules were called for an event, or that call stands: reports it to the observer.</summary>
+    /// <param name="key">The event.</param>
+    /// <param name="isMade">Whether the call was made.</param>
+    /// <param name="charged">What it then said that it costs.</param>
     /// <returns>The observer's verdict.</returns>
-    internal WorkVerdict TellCall(in EventKey key, bool isMade)
+    internal WorkVerdict TellCall(in EventKey key, bool isMade, double charged)
     {
         if (Observer is null)
         {
@@ -61,7 +64,7 @@ internal sealed class WorkMeter(BodyTable bodies, ContactGraph graph, EventWork 
             count = key.Other == key.Body ? count : Add(who, count, key.Other);
         }
 
-        return Observer.OnCall(key, who.Slice(0, count), isMade ? WorkPerCall : 1, IsAgain(key), bodies);
+        return Observer.OnCall(key, who.Slice(0, count), isMade ? WorkPerCall + charged : 1, IsAgain(key), bodies);
     }
 
     private int Add(Span<int> who, int count, BodyId body)

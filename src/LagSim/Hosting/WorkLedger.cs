@@ -188,14 +188,21 @@ public sealed class WorkLedger : IWorkObserver
         double took = Math.Max(0, (now - measured).ToSeconds());
         measured = now;
         thisStep += Math.Max(work, took * 1e6); // so that a session serves its port in time; players pay for counted work alone
-        return new Cost(work, took);
+        return new Cost(ChargeRule?.Invoke(work, took * 1e6) ?? work, took);
     }
+
+    /// <summary>
+    /// What is charged of what was counted and of the microseconds that it took by the clock; null, the default, for the count alone. Only tests
+    /// set it, to see that a clock that charges is noticed.
+    /// </summary>
+    internal Func<double, double, double>? ChargeRule { get; set; }
 
     /// <inheritdoc/>
     WorkVerdict IWorkObserver.OnWork(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {
         Cost cost = Measured(amount);
-        for (int n = 0; n < bodies.Length && EventKinds.IsOfPlayers(key.Kind); n++)
+        bool isOfPlayer = key.Peer != Nobody && EventKinds.IsOfPlayers(key.Kind); // what rules touch stays on the account where it is
+        for (int n = 0; n < bodies.Length && isOfPlayer; n++)
         {
             ref Entry entry = ref EntryOf(bodies[n], key.Time, table);
             entry.Charged = 0;
@@ -214,8 +221,8 @@ public sealed class WorkLedger : IWorkObserver
 
     /// <inheritdoc/>
     /// <remarks>
-    /// What rules compute in a call is the game's own, and nobody's. That there is a call is charged like the event for which it is made: to
-    /// the player of a command, the player of whom the host says something, or whose bodies took part.
+    /// What rules compute in a call is the game's own, and nobody's, but for what they say of it. That and the call are charged like the event for
+    /// which it is made: to the player of a command, the player of whom the host says something, or whose bodies took part.
     /// </remarks>
     WorkVerdict IWorkObserver.OnCall(in EventKey key, Span<int> bodies, double amount, bool isAgain, BodyTable table)
     {

@@ -77,6 +77,9 @@ public sealed class RuleWorld
     /// <summary>What the last call did to bodies.</summary>
     internal RuleDeeds Deeds => deeds;
 
+    /// <summary>What the last call said that it costs, in units of about a microsecond.</summary>
+    internal double Charged { get; private set; }
+
     /// <summary>What it told.</summary>
     internal List<RuleNotice> Notices => notices;
 
@@ -334,6 +337,26 @@ public sealed class RuleWorld
     /// <exception cref="RuleException">The call has made too many acts.</exception>
     public void SetFilter(BodyId body, CollisionFilter filter) => Act(ExternalEvent.SetFilter(key.Time, SceneRules.Peer, 1, body, filter));
 
+    /// <summary>
+    /// Says that this call is dear: so much work is charged to the player who caused it, besides what every call counts. No rule of the world
+    /// depends on it: where there is no <see cref="Hosting.WorkLedger"/>, nothing comes of it.
+    /// </summary>
+    /// <remarks>
+    /// <para>A command is charged to who sent it, what is told of a player to that player, and a contact, a crossing, or what is told of a
+    /// body to the account that the body is on. A timer and the start are nobody's. A host sends away who takes more than its
+    /// <c>PlayerBudget</c>.</para>
+    /// <para>Say what the call takes on the slowest machine that plays, before it is done: what a call has said counts also where it then
+    /// fails. A call that is made again for a late event counts again, by half for who was late. Several in one call add up.</para>
+    /// </remarks>
+    /// <param name="work">How much, in units of about a microsecond on one core; 0 to 1e9.</param>
+    /// <exception cref="RuleException">It is not from 0 to 1e9.</exception>
+    public void Charge(double work)
+    {
+        CheckCalled();
+        Charged += work is >= 0 and <= 1e9 ? work
+            : throw new RuleException($"A call says that it costs {work.ToString(System.Globalization.CultureInfo.InvariantCulture)}; it must be 0 to 1e9 units of about a microsecond.");
+    }
+
     /// <summary>Tells the game outside something, such as that there was a goal: <see cref="Hosting.RuleNotices"/> has it as predicted, and
     /// as confirmed when nothing can change it any more.</summary>
     /// <param name="code">What; the game's own meaning.</param>
@@ -367,6 +390,7 @@ public sealed class RuleWorld
         deeds.Begin(call);
         reads.Begin(key);
         notices.Clear();
+        Charged = 0;
         isCalled = true;
     }
 

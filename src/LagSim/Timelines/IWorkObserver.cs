@@ -22,7 +22,7 @@ internal interface IWorkObserver
     /// <summary>Rules were called for an event, or a call of theirs was found to stand.</summary>
     /// <param name="key">The event; for a command it includes the player.</param>
     /// <param name="bodies">The bodies that took part in it, as for work; none for a command, a timer and the start.</param>
-    /// <param name="amount">How much work the call is without what the rules themselves do in it, in units of about a microsecond.</param>
+    /// <param name="amount">How much work the call is, and what the rules said of what they do in it, in units of about a microsecond.</param>
     /// <param name="isAgain">As for work.</param>
     /// <param name="table">The table of these places.</param>
     /// <returns>Whether the advance continues.</returns>

@@ -10,6 +10,7 @@ internal static class LargeTypes
         new("LagSim.Engine", "puts the parts together, a field for each part; it has next to no code of its own"),
 
         new("LagSim.Hosting.LiveWorld", "a world with all that reports of it, and how late it was"),
+        new("LagSim.Rules.RuleWorld", "the public face of the world to rules: a documented member for each thing that a call may ask or do; next to no code"),
         new("LagSim.Scenes.Scene", "a field for each part that a scene has"),
         new("LagSim.Scenes.SceneBuilder", "a documented method for each part that a scene may have"),
         new("LagSim.Simulation", "the public face: a documented member for each thing that can be asked of a world; next to no code"),

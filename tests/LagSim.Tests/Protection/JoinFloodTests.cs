@@ -220,12 +220,12 @@ public sealed class JoinFloodTests(ITestOutputHelper output) : IDisposable
 
         public bool RequiresToken => host.RequiresToken;
 
-        public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => host.WriteIdentity(wanted, destination);
+        public int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => host.WriteIdentity(wanted, destination);
 
-        public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
+        public IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
         {
             Reads++;
-            return host.TryRead(prologue, message, payload);
+            return host.TryRead(key, prologue, message, payload);
         }
 
         public TokenReading ReadToken(ReadOnlySpan<byte> token) => host.ReadToken(token);

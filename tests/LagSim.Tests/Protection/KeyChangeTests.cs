@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
 using Xunit;
@@ -156,14 +157,14 @@ public sealed class KeyChangeTests : IDisposable
 
         byte[] shown = new byte[IHostProtection.IdentityBytes], wanted = new byte[16], join = new byte[48], payload = [], answer = new byte[64];
         former.Fingerprint.Write(wanted);
-        Host(changed).WriteIdentity(wanted, shown);
+        int shownKey = Host(changed).WriteIdentity(wanted, shown);
         using Curve25519KeyPair own = Curve25519KeyPair.Draw();
         HostFingerprint first = default, again = default, fresh = default;
         using ClientHandshake one = Begun(own, newest => first = newest), same = Begun(own, newest => again = newest), another = Begun(Curve25519KeyPair.Draw(), newest => fresh = newest);
         one.Write(payload, join);
         same.Write(payload, new byte[48]);
         another.Write(payload, new byte[48]);
-        using IHostHandshake read = Host(changed).TryRead([1], join, payload)!;
+        using IHostHandshake read = Host(changed).TryRead(shownKey, [1], join, payload)!;
         read.Accept("", payload, answer).Dispose();
         Assert.NotNull(one.TryFinish("", answer, payload));
         Assert.NotNull(same.TryFinish("", answer, payload)); // the control
@@ -264,6 +265,52 @@ public sealed class KeyChangeTests : IDisposable
         Assert.Empty(last.ForgetFormerKeys().FormerKeys);
     }
 
+    /// <summary>
+    /// The host reads a join by the one key that it showed for it, so that forged ones cost it no more after its key has changed. The control: a
+    /// host that tries all keys it has.
+    /// </summary>
+    [Theory]
+    [InlineData(false, 1)]
+    [InlineData(true, 5)]
+    public void Read_AForgedJoin_AgreesOnceHoweverManyFormerKeysThereAre(bool triesAll, int each)
+    {
+        HostIdentity many = changed;
+        List<HostFingerprint> known = [HostIdentity.Draw().Fingerprint, former.Fingerprint, changed.Fingerprint];
+        for (int n = 1; n < HostIdentity.MaxFormerKeys; n++)
+        {
+            many = many.ChangeKey(TimeSpan.FromDays(30), Noon);
+            known.Add(many.Fingerprint);
+        }
+
+        SecureHost real = Host(many);
+        SessionGroup group = new(
+            ScriptedActions.Box(), 1, LinkProfiles.Loopback, expected: 0, wrap: attacker.Wrap,
+            options: _ => new HostOptions { Protection = triesAll ? new TryingAll(real) : real });
+        group.Run(1);
+        byte[] bytes = new byte[WireFormat.MaxBytes], wanted = new byte[Token128.Bytes], join = new byte[WireFormat.SecureJoinBytes];
+        Random random = new(1);
+        foreach (HostFingerprint one in known)
+        {
+            one.Write(wanted);
+            attacker.Send(50, 0, bytes[..new ConnectRequestDatagram(77, new Token128(wanted)).Encode(bytes)]);
+            group.Run(0.02);
+            Assert.True(ChallengeDatagram.TryDecode(attacker.Last(0, 6), out ChallengeDatagram challenge, out _));
+            random.NextBytes(join);
+            JoinDatagram.WritePrologue(join, DatagramType.SecureJoin, 77, challenge.Cookie);
+            attacker.Send(50, 0, [.. join]);
+            group.Run(0.02);
+        }
+
+        Assert.Equal(known.Count * each, Agreements(many));
+        Assert.Equal(known.Count, group.Host.Counters.DatagramsForged);
+        for (int n = 1; n < known.Count; n++)
+        {
+            Assert.Equal(SessionState.Running, Joined(group, n, new SecureClient(known[n])).State); // each of its keys counts
+        }
+
+        static long Agreements(HostIdentity identity) => identity.Keys.Agreements + identity.FormerKeys.Sum(one => one.Keys.Agreements);
+    }
+
     private ClientSession Asking(SessionGroup group, int at, SecureClient protection)
     {
         ClientSession session = group.Join(at, 7 + (ulong)at, new ClientOptions { Protection = protection });
@@ -288,13 +335,42 @@ public sealed class KeyChangeTests : IDisposable
     {
         public bool RequiresToken => real.RequiresToken;
 
-        public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload) => real.TryRead(prologue, message, payload);
+        public IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload) => real.TryRead(key, prologue, message, payload);
 
         public TokenReading ReadToken(ReadOnlySpan<byte> token) => real.ReadToken(token);
 
         public bool TryUseToken(ReadOnlySpan<byte> token) => real.TryUseToken(token);
 
-        public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => other.Keys.PublicKey.CopyTo(destination);
+        public int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination)
+        {
+            other.Keys.PublicKey.CopyTo(destination);
+            return 0;
+        }
+
+        public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key) => real.WriteResetKey(link, key);
+    }
+
+    /// <summary>A host that tries each key that it may have.</summary>
+    private sealed class TryingAll(SecureHost real) : IHostProtection
+    {
+        public bool RequiresToken => real.RequiresToken;
+
+        public IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload)
+        {
+            IHostHandshake? read = null;
+            for (int n = 0; n < IHostProtection.MaxKeys && read is null; n++)
+            {
+                read = real.TryRead(n, prologue, message, payload);
+            }
+
+            return read;
+        }
+
+        public TokenReading ReadToken(ReadOnlySpan<byte> token) => real.ReadToken(token);
+
+        public bool TryUseToken(ReadOnlySpan<byte> token) => real.TryUseToken(token);
+
+        public int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => real.WriteIdentity(wanted, destination);
 
         public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key) => real.WriteResetKey(link, key);
     }

@@ -200,14 +200,14 @@ public sealed class KeyExchangeTests : IDisposable
 
         public bool RequiresToken => real.RequiresToken;
 
-        public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload) =>
-            real.TryRead(prologue, message, payload) is IHostHandshake read ? new Handshake(read, this, isDerivedAlone) : null;
+        public IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload) =>
+            real.TryRead(key, prologue, message, payload) is IHostHandshake read ? new Handshake(read, this, isDerivedAlone) : null;
 
         public TokenReading ReadToken(ReadOnlySpan<byte> token) => real.ReadToken(token);
 
         public bool TryUseToken(ReadOnlySpan<byte> token) => real.TryUseToken(token);
 
-        public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => real.WriteIdentity(wanted, destination);
+        public int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => real.WriteIdentity(wanted, destination);
 
         public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key) => real.WriteResetKey(link, key);
 

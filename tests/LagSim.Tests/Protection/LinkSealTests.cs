@@ -46,7 +46,7 @@ public sealed class LinkSealTests
         {
             using IClientHandshake mine = new SecureClient(identity.Fingerprint).Begin(shown, [1])!;
             mine.Write(payload, message);
-            using IHostHandshake its = host.TryRead([1], message, payload)!;
+            using IHostHandshake its = host.TryRead(0, [1], message, payload)!;
             byte[] answer = new byte[payload.Length + IHostProtection.WelcomeOverhead];
             using IDatagramCipher hostEnd = its.Accept("key", payload, answer);
             using IDatagramCipher clientEnd = mine.TryFinish("key", answer, payload)!;

@@ -81,7 +81,7 @@ public sealed class StolenIdentityTests : IDisposable
         IClientHandshake JoinWithTheProofsOf(byte[] heard)
         {
             byte[] claims = new byte[heard.Length - 28 - 48], shown = new byte[IHostProtection.IdentityBytes], forged = [.. heard];
-            using IHostHandshake? read = new SecureHost(identity).TryRead(heard.AsSpan(0, 28), heard.AsSpan(28), claims);
+            using IHostHandshake? read = new SecureHost(identity).TryRead(0, heard.AsSpan(0, 28), heard.AsSpan(28), claims);
             Assert.NotNull(read); // the join is encrypted to the stolen key
             new SecureHost(identity).WriteIdentity(new byte[16], shown);
             IClientHandshake own = new SecureClient(identity.Fingerprint).Begin(shown, heard.AsSpan(0, 28))!;
@@ -122,7 +122,7 @@ public sealed class StolenIdentityTests : IDisposable
         client.Write([], message);
         client.WriteBinding(its);
         Assert.Equal(mine, its); // also after the message
-        using IHostHandshake read = host.TryRead(prologue, message, [])!;
+        using IHostHandshake read = host.TryRead(0, prologue, message, [])!;
         read.WriteBinding(its);
         byte[] h = Hash("Noise_NKpsk2_25519_ChaChaPoly_SHA256"u8.ToArray());
         h = Hash([.. h, .. prologue]);
@@ -142,14 +142,14 @@ public sealed class StolenIdentityTests : IDisposable
     {
         public bool RequiresToken => real.RequiresToken;
 
-        public IHostHandshake? TryRead(ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload) =>
-            real.TryRead(prologue, message, payload) is IHostHandshake read ? new Handshake(read, real) : null;
+        public IHostHandshake? TryRead(int key, ReadOnlySpan<byte> prologue, ReadOnlySpan<byte> message, Span<byte> payload) =>
+            real.TryRead(key, prologue, message, payload) is IHostHandshake read ? new Handshake(read, real) : null;
 
         public TokenReading ReadToken(ReadOnlySpan<byte> token) => real.ReadToken(token);
 
         public bool TryUseToken(ReadOnlySpan<byte> token) => real.TryUseToken(token);
 
-        public void WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => real.WriteIdentity(wanted, destination);
+        public int WriteIdentity(ReadOnlySpan<byte> wanted, Span<byte> destination) => real.WriteIdentity(wanted, destination);
 
         public void WriteResetKey(ReadOnlySpan<byte> link, Span<byte> key) => real.WriteResetKey(link, key);
 

@@ -2,12 +2,14 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using LagSim.Events;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Sessions.Hosts;
 using LagSim.Net.Wire;
+using LagSim.Scenes;
 using LagSim.Testing.Links;
 using LagSim.Tests.Sessions;
 using Xunit;
@@ -106,6 +108,62 @@ public sealed class WrongKeyTests : IDisposable
         Assert.Equal(5, told.Count);
         Assert.Equal(RefusalReason.TooManyWrongKeys, answers[^1]);
         Assert.Null(Guess(group, PeerAddress.Virtual(50), Key, isProtected, 0.02, ada.Pass!.Value)); // the control: with the right key it comes back
+    }
+
+    /// <summary>
+    /// A player's key lets its owner in from a machine that is out for a while. So who guesses from there is slowed down and told of like any,
+    /// and hears nothing of the ban. The control: with as many wrong keys as one likes he finds it. From a machine that is out for good not even
+    /// the right key lets in.
+    /// </summary>
+    [Theory]
+    [InlineData(true, false, 5)]
+    [InlineData(false, false, 5)]
+    [InlineData(true, true, 5)]
+    [InlineData(false, true, 5)]
+    [InlineData(true, false, int.MaxValue)]
+    [InlineData(false, false, int.MaxValue)]
+    [InlineData(false, true, int.MaxValue)]
+    public void Guess_APlayersKeyFromAMachineThatIsOut_IsLimitedLikeAny(bool isProtected, bool isForGood, int free)
+    {
+        JoinLimits limits = new() { FreeWrongKeys = free, WrongKeyBurstOfAll = 100_000, HandshakeBurst = 1_000_000, HandshakesPerSecondOfAll = 1e6 };
+        SessionGroup group = new(
+            ScriptedActions.Box(), 1, LinkProfiles.Loopback, expected: 0, wrap: network.Wrap, options: _ => new HostOptions
+            {
+                Protection = isProtected ? new SecureHost(identity) : null,
+                PlayerKeys = new Dictionary<byte, string> { [3] = Key },
+                PlayerBudget = new PlayerBudget(1, 1),
+                JoinLimits = limits,
+            });
+        group.Host.KeyRefused += told.Add;
+        group.Run(1);
+        for (ulong n = 1; n <= (isForGood ? 1UL : 2); n++)
+        {
+            ClientSession client = group.Join(50, n, new ClientOptions { Protection = isProtected ? new SecureClient(identity.Fingerprint) : null });
+            Assert.True(group.RunUntil(() => client.State == SessionState.Running, 3), client.EndReason);
+            if (isForGood)
+            {
+                Assert.Equal(PeerAddress.Virtual(50).Machine, group.Host.Ban(client.Peer));
+            }
+            else
+            {
+                group.Do(1, PlayerAction.SetVelocity(BodyId.OfScene(0), new Vector3D(1, 0, 0)));
+            }
+
+            Assert.True(group.RunUntil(() => client.EndedBy == SessionEnd.Kicked, 3), client.EndReason);
+            group.DropLast();
+        }
+
+        Assert.Equal(RefusalReason.Banned, Guess(group, PeerAddress.Virtual(50), "", isProtected, 0.1)); // the machine is out
+        List<RefusalReason?> answers = [];
+        while (answers.Count < 400 && (answers.Count == 0 || answers[^1] is RefusalReason.WrongKey or RefusalReason.TooManyWrongKeys))
+        {
+            answers.Add(Guess(group, PeerAddress.Virtual(50), string.Create(CultureInfo.InvariantCulture, $"k{answers.Count}"), isProtected, 0.1));
+        }
+
+        bool isFound = free > 5;
+        Assert.Equal(isFound ? 301 : 400, answers.Count);
+        Assert.Equal(isFound ? isForGood ? RefusalReason.Banned : null : RefusalReason.TooManyWrongKeys, answers[^1]);
+        Assert.Equal(isFound ? 300 : 10, told.Count); // five, and after 1, 2, 4, 8 and 16 s another
     }
 
     /// <summary>Where there is no key there is nothing to guess: wrong ones are refused, and keep nobody out.</summary>

@@ -9,9 +9,14 @@ namespace LagSim.Tests.Rules;
 /// <summary>Rules of functions.</summary>
 internal sealed class GivenRules : GameRules
 {
-    internal GivenRules(bool bodies = false)
+    internal GivenRules(bool bodies = false, bool isSkipping = false)
         : base("given", 1)
     {
+        if (isSkipping)
+        {
+            WithFailedCommandsSkipped();
+        }
+
         WithWorldState<GivenState>();
         if (bodies)
         {

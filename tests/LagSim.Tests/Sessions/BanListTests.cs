@@ -12,15 +12,15 @@ public sealed class BanListTests
 {
     private static readonly PeerAddress Machine = PeerAddress.Virtual(1).Machine;
     private static readonly PeerAddress Other = PeerAddress.Virtual(2).Machine;
-    private static readonly PlayerNames Ada = new(new PlayerAdmission("ada", "Ada", PlayerRights.All), 0, null);
-    private static readonly PlayerNames Bob = new(new PlayerAdmission("bob", "Bob", PlayerRights.All), 0, null);
-    private static readonly PlayerNames Third = new(null, 3, null);
+    private static readonly KnownPlayer Ada = new(new PlayerAdmission("ada", "Ada", PlayerRights.All), 0, null);
+    private static readonly KnownPlayer Bob = new(new PlayerAdmission("bob", "Bob", PlayerRights.All), 0, null);
+    private static readonly KnownPlayer Third = new(null, 3, null);
     private static readonly SimTime Now = SimTime.FromSeconds(1);
 
     [Fact]
     public void ShutOutForAWhile_AgainAndAgain_LastsTwiceAsLongUpToAnHour()
     {
-        BanList shutOuts = new();
+        BanList shutOuts = new(new JoinLimits());
         SimTime now = Now;
         foreach (int seconds in (int[])[60, 120, 240, 480, 960, 1920, 3600, 3600])
         {
@@ -36,16 +36,16 @@ public sealed class BanListTests
     [Fact]
     public void ShutOutForAWhile_NobodyProven_TheMachineIsOutFromTheSecondOnWithinTenMinutes()
     {
-        BanList shutOuts = new();
+        BanList shutOuts = new(new JoinLimits());
         PlayersPlace first = new(1), second = new(2), third = new(3);
-        shutOuts.ShutOutForAWhile(first.Names, Machine, Now);
-        Assert.True(shutOuts.IsShutOut(first.Names, Machine, Now));
-        Assert.False(shutOuts.IsShutOut(second.Names, Machine, Now));
+        shutOuts.ShutOutForAWhile(first.Known, Machine, Now);
+        Assert.True(shutOuts.IsShutOut(first.Known, Machine, Now));
+        Assert.False(shutOuts.IsShutOut(second.Known, Machine, Now));
         SimTime next = Now + SimDuration.FromSeconds(601);
-        shutOuts.ShutOutForAWhile(second.Names, Machine, next);
+        shutOuts.ShutOutForAWhile(second.Known, Machine, next);
         Assert.False(shutOuts.IsShutOut(default, Machine, next));
         next += SimDuration.FromSeconds(599);
-        shutOuts.ShutOutForAWhile(third.Names, Machine, next);
+        shutOuts.ShutOutForAWhile(third.Known, Machine, next);
         Assert.True(shutOuts.IsShutOut(default, Machine, next + SimDuration.FromSeconds(59)));
         Assert.False(shutOuts.IsShutOut(default, Other, next));
         Assert.False(shutOuts.IsShutOut(Ada, Machine, next)); // a token proves that it is somebody else
@@ -60,7 +60,7 @@ public sealed class BanListTests
     [Fact]
     public void ShutOutForAWhile_ProvenPlayers_NeverTheirMachine()
     {
-        BanList shutOuts = new();
+        BanList shutOuts = new(new JoinLimits());
         shutOuts.ShutOutForAWhile(Ada, Machine, Now);
         shutOuts.ShutOutForAWhile(Bob, Machine, Now);
         shutOuts.ShutOutForAWhile(Third, Machine, Now);
@@ -77,8 +77,8 @@ public sealed class BanListTests
     [InlineData(false, true)]
     public void LetInAgain_EndsBothKindsForThePlayersOfTheMachine(bool isForGood, bool isProven)
     {
-        BanList shutOuts = new();
-        PlayerNames who = isProven ? Ada : default;
+        BanList shutOuts = new(new JoinLimits());
+        KnownPlayer who = isProven ? Ada : default;
         SimTime now = Now;
         Assert.False(shutOuts.LetInAgain(Machine, now));
         if (isForGood)
@@ -101,22 +101,75 @@ public sealed class BanListTests
     [Fact]
     public void ShutOutForAWhile_WhoIsOutForGood_StaysOut()
     {
-        BanList shutOuts = new();
+        BanList shutOuts = new(new JoinLimits());
         shutOuts.ShutOut(Ada, Machine);
         shutOuts.ShutOutForAWhile(Ada, Machine, Now);
         Assert.True(shutOuts.IsShutOut(Ada, Machine, Now + SimDuration.FromSeconds(100_000)));
+    }
+
+    /// <summary>
+    /// Thousands are sent away, each by its pass or token and from a machine of its own: no more are remembered than is stated, and one that is out
+    /// for good stays out. The control: without the limit they are all remembered, and an hour after they are over only who is out for good.
+    /// </summary>
+    [Theory]
+    [InlineData(100)]
+    [InlineData(int.MaxValue)]
+    public void ShutOutForAWhile_Thousands_AreRememberedUpToTheLimitOrForAnHour(int most)
+    {
+        BanList shutOuts = new(new JoinLimits { PassingBans = most });
+        shutOuts.ShutOut(Bob, Other);
+        shutOuts.ShutOut(default, Other);
+        SimTime now = Now;
+        for (int n = 0; n < 1000; n++, now += SimDuration.FromSeconds(0.01))
+        {
+            PeerAddress machine = PeerAddress.Virtual(100 + n).Machine;
+            shutOuts.ShutOutForAWhile(n % 2 == 0 ? new PlayersPlace((uint)(n % 16) + 1, (uint)n).Known : Account(n), machine, now);
+        }
+
+        Assert.Equal(most == int.MaxValue ? 1502 : 202, shutOuts.Count); // of those with tokens no machine
+        Assert.True(shutOuts.IsShutOut(Account(999), Machine, now)); // the latest are kept
+        Assert.Equal(most == int.MaxValue, shutOuts.IsShutOut(Account(1), Machine, now));
+        now += SimDuration.FromSeconds(3661);
+        shutOuts.ShutOutForAWhile(default, Machine, now);
+        shutOuts.ShutOutForAWhile(Ada, Machine, now);
+        Assert.Equal(4, shutOuts.Count);
+        Assert.True(shutOuts.IsShutOut(Bob, Machine, now));
+        Assert.True(shutOuts.IsShutOut(default, Other, now));
+
+        static KnownPlayer Account(int n) => new(new PlayerAdmission($"account {n}", "", PlayerRights.All), 0, null);
+    }
+
+    /// <summary>What is over is forgotten before what goes on, however much later it was added; then what ends first.</summary>
+    [Fact]
+    public void ShutOutForAWhile_MoreThanTheLimit_ForgetsWhatIsOverThenWhatEndsFirst()
+    {
+        BanList shutOuts = new(new JoinLimits { PassingBans = 2 });
+        shutOuts.ShutOutForAWhile(Ada, Machine, Now);
+        SimTime now = Now + SimDuration.FromSeconds(60);
+        shutOuts.ShutOutForAWhile(Ada, Machine, now); // for two minutes
+        shutOuts.ShutOutForAWhile(Bob, Machine, now); // for one
+        now += SimDuration.FromSeconds(61);
+        shutOuts.ShutOutForAWhile(Third, Machine, now);
+        Assert.Equal((true, true, 2), (shutOuts.IsShutOut(Ada, Other, now), shutOuts.IsShutOut(Third, Other, now), shutOuts.Count)); // Bob's was over
+        shutOuts.ShutOutForAWhile(Bob, Machine, now + SimDuration.OneTick);
+        Assert.Equal((false, true, true), (shutOuts.IsShutOut(Ada, Other, now), shutOuts.IsShutOut(Third, Other, now), shutOuts.IsShutOut(Bob, Other, now)));
     }
 
     /// <summary>A player whom nothing but the pass of its place tells from others.</summary>
     private sealed class PlayersPlace
     {
         internal PlayersPlace(uint visit)
+            : this(visit, visit)
         {
-            PlayerPlaces.Place place = new PlayerPlaces(new HostOptions(), Now)[(byte)visit];
-            place.Take(isSamePlayer: false, Machine, null, visit);
-            Names = new PlayerNames(null, 0, place);
         }
 
-        internal PlayerNames Names { get; }
+        internal PlayersPlace(uint number, uint visit)
+        {
+            PlayerPlaces.Place place = new PlayerPlaces(new HostOptions(), Now)[(byte)number];
+            place.Take(isSamePlayer: false, Machine, null, visit);
+            Known = new KnownPlayer(null, 0, place);
+        }
+
+        internal KnownPlayer Known { get; }
     }
 }

@@ -65,6 +65,23 @@ public sealed class SentAwayTests
         }
     }
 
+    /// <summary>Another link of the same player, which its key proves, is fetching its copy: after a ban it gets no number, after a kick it does.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Kick_OrBan_APlayerThatIsComingAgainAlready_OnlyIfNotBanned(bool isBanned)
+    {
+        ClientOptions own = new() { ConnectKey = "mine" };
+        SessionGroup group = new SessionGroup(
+            ScriptedActions.Box(), 2, LinkProfiles.PureDelay(20), options: peer => peer > 0 ? own : new HostOptions { PlayerKeys = new Dictionary<byte, string> { [3] = "mine" } }).Connect();
+        ClientSession again = group.Join(7, 77, own);
+        Assert.True(group.RunUntil(() => group.Host.ComingCount == 1, 3));
+        Assert.True(isBanned ? group.Host.Ban(3) is not null : group.Host.Kick(3));
+        group.Run(3);
+        Assert.Equal(SessionEnd.Kicked, group.Client(1).EndedBy);
+        Assert.Equal(isBanned ? (SessionState.Ended, SessionEnd.Refused, 0) : (SessionState.Running, SessionEnd.None, 1), (again.State, again.EndedBy, group.Host.ClientCount));
+    }
+
     /// <summary>Who shows the pass of a player that was sent away is a new player; who was only silent gets its own again.</summary>
     [Theory]
     [InlineData(true)]

@@ -3,6 +3,7 @@ using System.Buffers.Binary;
 using System.Security.Cryptography;
 using System.Text;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 using LagSim.Net.Wire;
 using LagSim.Time;
 
@@ -12,7 +13,8 @@ namespace LagSim.Net.Sessions.Core;
 /// Lets a host verify, without keeping any state, that a joining client is at its claimed address and has the connect key.
 /// </summary>
 /// <remarks>
-/// A cookie is HMAC-SHA-256 over address, nonce and half minute with a secret of this host; it is valid for half a minute to a minute. The
+/// A cookie is HMAC-SHA-256 over address, nonce, half minute, and which key the host showed, with a secret of this host; it is valid for half
+/// a minute to a minute. Its first three bits say which key that was, so that a host with several tries no other for a join. The
 /// proof of a key or a pass is HMAC-SHA-256 over nonce, cookie and what the handshake alone has, with the key or the pass. Both are cut to
 /// 128 bits. A session id is HMAC-SHA-256 with the secret too, so a client cannot derive another's from its own. Each use begins with a
 /// label of its own, so that what a secret made for one is nothing for another. For one thread.
@@ -20,6 +22,7 @@ namespace LagSim.Net.Sessions.Core;
 internal sealed class JoinCookies : IDisposable
 {
     private const int HashBytes = 32;
+    private const ulong KeyBits = IHostProtection.MaxKeys - 1;
     private static readonly SimDuration Age = SimDuration.FromSeconds(30);
 
     private readonly HMACSHA256 maker;
@@ -55,12 +58,21 @@ internal sealed class JoinCookies : IDisposable
         return Prove(prover, KeyLabel, nonce, cookie, binding);
     }
 
-    internal Token128 Make(PeerAddress address, ulong nonce, SimTime now) => Make(address, nonce, Epoch(now));
+    /// <summary>Makes a cookie.</summary>
+    /// <param name="address">Where it is sent.</param>
+    /// <param name="nonce">What it is for.</param>
+    /// <param name="now">The time by the local clock.</param>
+    /// <param name="key">Which of its keys the host shows with it, below <see cref="IHostProtection.MaxKeys"/>.</param>
+    internal Token128 Make(PeerAddress address, ulong nonce, SimTime now, int key = 0) => Make(address, nonce, Epoch(now), key);
+
+    /// <summary>Which key the host showed with a cookie.</summary>
+    internal static int KeyOf(Token128 cookie) => (int)(cookie.First & KeyBits);
 
     internal bool IsGood(PeerAddress address, ulong nonce, Token128 cookie, SimTime now)
     {
         long epoch = Epoch(now);
-        return cookie == Make(address, nonce, epoch) || cookie == Make(address, nonce, epoch - 1);
+        int key = KeyOf(cookie);
+        return cookie == Make(address, nonce, epoch, key) || cookie == Make(address, nonce, epoch - 1, key);
     }
 
     internal static bool IsProof(string key, in JoinDatagram join, ReadOnlySpan<byte> binding) =>
@@ -116,14 +128,16 @@ internal sealed class JoinCookies : IDisposable
             : throw new InvalidOperationException($"SHA-256 gave more than {HashBytes} bytes.");
     }
 
-    private Token128 Make(PeerAddress address, ulong nonce, long epoch)
+    private Token128 Make(PeerAddress address, ulong nonce, long epoch, int key)
     {
-        Span<byte> bytes = stackalloc byte[CookieLabel.Length + PeerAddress.Bytes + (2 * sizeof(ulong))];
+        Span<byte> bytes = stackalloc byte[CookieLabel.Length + PeerAddress.Bytes + (2 * sizeof(ulong)) + 1];
         CookieLabel.CopyTo(bytes);
         Span<byte> rest = bytes.Slice(CookieLabel.Length);
         address.Write(rest);
         BinaryPrimitives.WriteUInt64LittleEndian(rest.Slice(PeerAddress.Bytes), nonce);
         BinaryPrimitives.WriteInt64LittleEndian(rest.Slice(PeerAddress.Bytes + sizeof(ulong)), epoch);
-        return Hash(maker, bytes);
+        bytes[bytes.Length - 1] = (byte)key;
+        Token128 hash = Hash(maker, bytes);
+        return new Token128((hash.First & ~KeyBits) | (uint)key, hash.Second);
     }
 }

@@ -20,7 +20,8 @@ internal sealed class AddressChallenge(IHostProtection? protection, JoinCookies 
     internal void Send(ulong nonce, Token128 wanted, PeerAddress to)
     {
         Span<byte> bytes = stackalloc byte[WireFormat.ChallengeBytes];
-        ChallengeDatagram challenge = new(nonce, cookies.Make(to, nonce, clock.Now), PublicIdentity.Of(protection, wanted));
+        PublicIdentity shown = PublicIdentity.Of(protection, wanted, out int key);
+        ChallengeDatagram challenge = new(nonce, cookies.Make(to, nonce, clock.Now, key), shown);
         sender.Send(bytes.Slice(0, challenge.Encode(bytes)), to);
     }
 

@@ -61,7 +61,7 @@ internal sealed class BudgetEnforcer(
         bool wasThere = roster.Seated(player) is not null;
         if (roster.Seated(player) is Client client)
         {
-            shutOuts.ShutOutForAWhile(roster.NamesOf(client), client.Link.Other.Machine, now);
+            shutOuts.ShutOutForAWhile(roster.KnownOf(client), client.Link.Other.Machine, now);
             roster.Expel(client, $"What it did {cost}");
         }
 

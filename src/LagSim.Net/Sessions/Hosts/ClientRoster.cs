@@ -171,7 +171,7 @@ internal sealed class ClientRoster(PlayerPlaces places, DatagramSender sender, I
         places[client.Peer].Admission is PlayerAdmission { Name.Length: > 0 } player ? player.Name : client.Claim.Name;
 
     /// <summary>By what the host knows a client that is in again.</summary>
-    internal PlayerNames NamesOf(Client client) =>
+    internal KnownPlayer KnownOf(Client client) =>
         new(places[client.Peer].Admission, client.Claim.Identity.Keyed, places[client.Peer]);
 
     /// <summary>Wipes the keys of all links. Nothing can be sent over them any more.</summary>

@@ -42,6 +42,7 @@ internal sealed class JoinHandshake
         counters = parts.Counters;
         clock = parts.Clock;
         challenge = new AddressChallenge(options.Protection, cookies, parts.Sender, clock);
+        BanList = new BanList(options.JoinLimits);
         Seating = new Seating(roster, places, budget, parts.Sender, options.Protection, options.MaxClientsPerAddress, watermark);
         Snapshots = new JoinSnapshots(roster, log, parts.World, options.JoinLimits, options.Timeout);
         MachineRates chunks = new(options.JoinLimits.ChunksPerSecond, options.JoinLimits.ChunkBurst);
@@ -57,8 +58,8 @@ internal sealed class JoinHandshake
         stray = new StrayReply(places, parts.Status, options.Protection, sender, parts.Clock);
     }
 
-    /// <summary>The machines from which no client is let in.</summary>
-    internal BanList BanList { get; } = new();
+    /// <summary>Who is let in no more.</summary>
+    internal BanList BanList { get; }
 
     /// <summary>The wrong connect keys that came.</summary>
     internal WrongKeys WrongKeys { get; }
@@ -111,7 +112,8 @@ internal sealed class JoinHandshake
     /// <summary>Gives a number to a client that has its snapshot and its clock; if there is none, refuses it and returns false.</summary>
     internal bool TrySeat(Client client, SimTime now)
     {
-        if (Seating.TrySeat(client, now) is RefusalReason reason)
+        bool isOut = BanList.IsShutOut(client.Claim.Identity.Known, client.Link.Other.Machine, now); // since it was admitted
+        if ((isOut ? RefusalReason.Banned : Seating.TrySeat(client, now)) is RefusalReason reason)
         {
             Span<byte> bytes = stackalloc byte[WireFormat.RefusalBytes];
             sender.Send(bytes.Slice(0, new RefusalDatagram(client.Link.SessionId, reason).Encode(bytes)), client.Link);

@@ -16,5 +16,5 @@ internal sealed record JoinIdentity(
     bool IsByToken = false, uint SecondsOff = 0)
 {
     /// <summary>By what the host knows it again.</summary>
-    internal PlayerNames Names => new(Admission, Keyed, Claimed);
+    internal KnownPlayer Known => new(Admission, Keyed, Claimed);
 }

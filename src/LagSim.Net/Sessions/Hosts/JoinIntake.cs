@@ -89,7 +89,7 @@ internal sealed class JoinIntake(
         }
 
         Span<byte> claims = stackalloc byte[join.Message.Length - IHostProtection.HandshakeOverhead];
-        IHostHandshake? handshake = by.TryRead(join.Prologue, join.Message, claims);
+        IHostHandshake? handshake = by.TryRead(JoinCookies.KeyOf(join.Cookie), join.Prologue, join.Message, claims);
         if (handshake is null)
         {
             counters.DatagramsForged++;

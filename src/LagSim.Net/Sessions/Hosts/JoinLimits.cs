@@ -43,8 +43,8 @@ internal sealed class JoinLimits
     internal int HandshakeBurst { get; set; } = SessionOptions.MaxClients;
 
     /// <summary>
-    /// The rate at which handshakes are read from all machines together, and their burst: at most a fifth of a core, so that
-    /// thousands of machines do not hold up those who play.
+    /// The rate at which handshakes are read from all machines together, and their burst: at most a fifth of a core,
+    /// however many former keys the host has, so that thousands of machines do not hold up those who play.
     /// </summary>
     internal double HandshakesPerSecondOfAll { get; set; } = 250;
 
@@ -56,6 +56,9 @@ internal sealed class JoinLimits
 
     /// <summary>How many of them at once after a pause.</summary>
     internal int WrongKeyBurstOfAll { get; set; } = 100;
+
+    /// <summary>How many bans for a while are kept, of players and of machines each: some 500 kB.</summary>
+    internal int PassingBans { get; set; } = 4096;
 
     /// <summary>The burst of chunks after a pause: four windows.</summary>
     internal int ChunkBurst { get; set; } = 4 * Wire.SnapshotRequestDatagram.MaxChunks;

@@ -5,7 +5,11 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Decides whether a client may join: by who is shut out, key, version, scene, token and place.</summary>
+/// <summary>Decides whether a client may join: by key, who is shut out, version, scene, token and place.</summary>
+/// <remarks>
+/// The key comes first, so that a wrong one is told and counted as wrong whatever else is so: otherwise who is shut out for a while would
+/// guess keys, each of which lets in who is proven by it, unseen and as fast as he likes.
+/// </remarks>
 internal sealed class JoinRules(ulong sceneHash, BanList shutOuts, Seating seating)
 {
     /// <summary>Returns why a client may not join; null if it may.</summary>
@@ -14,8 +18,8 @@ internal sealed class JoinRules(ulong sceneHash, BanList shutOuts, Seating seati
     /// <param name="from">Its address.</param>
     /// <param name="now">The time by the local clock.</param>
     internal RefusalReason? WhyNot(in JoinDatagram join, JoinIdentity who, PeerAddress from, SimTime now) =>
-        shutOuts.IsShutOut(who.Names, from.Machine, now) ? RefusalReason.Banned
-            : who.Key is null ? RefusalReason.WrongKey
+        who.Key is null ? RefusalReason.WrongKey
+            : shutOuts.IsShutOut(who.Known, from.Machine, now) ? RefusalReason.Banned
             : join.FoldVersion != (uint)Simulation.FoldVersion ? RefusalReason.FoldDiffers
             : join.SceneHash != 0 && join.SceneHash != sceneHash ? RefusalReason.SceneDiffers
             : who.Fault ?? seating.WhyNone(who, from, now, join.Role == (byte)PeerRole.Spectator);
