@@ -87,7 +87,7 @@ internal static class Program
                 error.WriteLine(Sentence.Printable(problem));
             }
 
-            error.WriteLine(asked == root ? "Try 'lagsim --help'." : $"Try 'lagsim {asked.Name} --help'.");
+            error.WriteLine(HelpOf(asked, root));
             return Failure.Tell(output, parsed, string.Join(" ", problems), ExitCode.Usage);
         }
 
@@ -95,7 +95,7 @@ internal static class Program
         {
             string sentence = OtherName(parsed, option) ?? $"There is no option '{option}'; what is no option and begins so stands behind '--'.";
             error.WriteLine(Sentence.Printable(sentence));
-            error.WriteLine($"Try 'lagsim {parsed.CommandResult.Command.Name} --help'.");
+            error.WriteLine(HelpOf(parsed.CommandResult.Command, root));
             return Failure.Tell(output, parsed, sentence, ExitCode.Usage);
         }
 
@@ -118,6 +118,7 @@ internal static class Program
         catch (UsageException mistake)
         {
             error.WriteLine(Sentence.Printable(mistake.Message));
+            error.WriteLine(HelpOf(parsed.CommandResult.Command, root));
             return Failure.Tell(output, parsed, mistake.Message, ExitCode.Usage);
         }
         catch (Exception failure) when (failure is SceneFileException or SceneException or SimulationException or PeerGroupException
@@ -127,6 +128,9 @@ internal static class Program
             return Failure.Tell(output, parsed, Sentence.Of(failure), ExitCode.Input);
         }
     }
+
+    /// <summary>Says where the help is, after each mistake in a command line.</summary>
+    private static string HelpOf(Command command, Command root) => command == root ? "Try 'lagsim --help'." : $"Try 'lagsim {command.Name} --help'.";
 
     /// <summary>
     /// Returns what is wrong with a command line, a sentence each. For an unknown command it returns only that.

@@ -1,7 +1,6 @@
 using System;
 using System.Globalization;
 using System.Net;
-using System.Net.Sockets;
 
 namespace LagSim.Net.Protection;
 
@@ -9,7 +8,8 @@ namespace LagSim.Net.Protection;
 /// Where a host is and who it is, in one line: <c>lagsim://HOST:PORT#FINGERPRINT</c>. It is all that a client needs, and no secret.
 /// </summary>
 /// <remarks>
-/// HOST is an IPv4 address, an IPv6 address in brackets, or a name in lower case. There is one spelling of each address: what
+/// HOST is an IPv4 address, an IPv6 address in brackets, or a name in lower case. A link-local IPv6 address may have a zone, as in
+/// <c>[fe80::1%eth0]</c>: by which of its networks a machine reaches it. There is one spelling of each address: what
 /// <see cref="ToString"/> gives is the only text that <see cref="TryParse"/> takes. Immutable, safe on any thread.
 /// </remarks>
 public sealed class HostAddress : IEquatable<HostAddress>
@@ -17,14 +17,14 @@ public sealed class HostAddress : IEquatable<HostAddress>
     private const string Scheme = "lagsim://";
 
     /// <summary>Creates an address.</summary>
-    /// <param name="host">An IP address without brackets, or a name of lower-case letters, digits, hyphens and dots.</param>
+    /// <param name="host">An IP address without brackets, link-local ones with a zone too, or a name of lower-case letters, digits, hyphens and dots.</param>
     /// <param name="port">The UDP port, 1 to 65,535.</param>
     /// <param name="fingerprint">The host's fingerprint.</param>
     /// <exception cref="ArgumentException">The host or the fingerprint is none.</exception>
     /// <exception cref="ArgumentOutOfRangeException">The port is out of range.</exception>
     public HostAddress(string host, int port, HostFingerprint fingerprint)
     {
-        Host = Canonical(host ?? throw new ArgumentNullException(nameof(host)))
+        Host = HostText.Canonical(host ?? throw new ArgumentNullException(nameof(host)))
             ?? throw new ArgumentException(
                 $"'{host}' is neither an IP address nor a name of lower-case letters, digits, hyphens and dots.", nameof(host));
         if (port is < 1 or > IPEndPoint.MaxPort)
@@ -41,7 +41,7 @@ public sealed class HostAddress : IEquatable<HostAddress>
         Fingerprint = fingerprint;
     }
 
-    /// <summary>The IP address, without brackets, or the name.</summary>
+    /// <summary>The IP address, without brackets, with its zone if it has one; or the name.</summary>
     public string Host { get; }
 
     /// <summary>The UDP port.</summary>
@@ -109,7 +109,7 @@ public sealed class HostAddress : IEquatable<HostAddress>
 
         string host = place.Substring(0, colon);
         bool isBracketed = host.Length > 1 && host[0] == '[' && host[host.Length - 1] == ']';
-        string? canonical = Canonical(isBracketed ? host.Substring(1, host.Length - 2) : host);
+        string? canonical = HostText.Canonical(isBracketed ? host.Substring(1, host.Length - 2) : host);
         HostAddress? address = canonical is null ? null : new HostAddress(canonical, port, fingerprint);
         if (address?.ToString() != text)
         {
@@ -121,31 +121,5 @@ public sealed class HostAddress : IEquatable<HostAddress>
 
         error = null;
         return address;
-    }
-
-    /// <summary>The one spelling of a host; null if the text is none.</summary>
-    private static string? Canonical(string host)
-    {
-        if (host.IndexOf(':') >= 0)
-        {
-            bool isOne = IPAddress.TryParse(host, out IPAddress? six) && six.AddressFamily == AddressFamily.InterNetworkV6;
-            return isOne ? six!.ToString() : null;
-        }
-
-        foreach (char c in host)
-        {
-            if (c is not ((>= 'a' and <= 'z') or (>= '0' and <= '9') or '-' or '.'))
-            {
-                return null;
-            }
-        }
-
-        bool isNumeric = host.Length > 0 && host[host.Length - 1] is >= '0' and <= '9';
-        if (isNumeric && IPAddress.TryParse(host, out IPAddress? four))
-        {
-            return four.ToString();
-        }
-
-        return Uri.CheckHostName(host) == UriHostNameType.Dns ? host : null;
     }
 }

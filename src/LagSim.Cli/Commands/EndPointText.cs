@@ -3,11 +3,13 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using System.Net;
+using System.Net.NetworkInformation;
 using System.Net.Sockets;
 using System.Threading;
 using System.Threading.Tasks;
 using LagSim.Cli.Output;
 using LagSim.Net.Carriers;
+using LagSim.Net.Protection;
 
 namespace LagSim.Cli.Commands;
 
@@ -27,8 +29,7 @@ internal static class EndPointText
         int colon = text.LastIndexOf(':');
         string host = colon < 0 ? "" : text[..colon];
         bool isBracketed = host.Length > 2 && host[0] == '[' && host[^1] == ']';
-        bool isHost = isBracketed
-            ? IPAddress.TryParse(host[1..^1], out IPAddress? address) && address.AddressFamily == AddressFamily.InterNetworkV6
+        bool isHost = isBracketed ? HostText.TryReadV6(host[1..^1], out _, out _)
             : host.Length > 0 && !host.Any(c => c is ':' or '[' or ']' || char.IsWhiteSpace(c));
         if (!isHost)
         {
@@ -39,6 +40,24 @@ internal static class EndPointText
             ? (isBracketed ? host[1..^1] : host, port)
             : throw new UsageException($"The port in '{text}' is '{text[(colon + 1)..]}'; it must be a whole number between 1 and 65535.");
     }
+
+    /// <summary>The one spelling of an address that a user may write in several ways.</summary>
+    /// <exception cref="UsageException">The text does not have the form.</exception>
+    internal static string Spelling(string text)
+    {
+        (string host, int port) = Parse(text);
+        host = !HostText.TryReadV6(host, out IPAddress? address, out _) ? host.ToLowerInvariant()
+            : address!.IsIPv4MappedToIPv6 ? address.MapToIPv4().ToString() : $"[{HostText.Canonical(host)}]";
+        return string.Create(CultureInfo.InvariantCulture, $"{host}:{port}");
+    }
+
+    /// <summary>An address as text, its zone by name where it has one and the system tells it.</summary>
+    internal static string Write(IPAddress address) => address.AddressFamily == AddressFamily.InterNetworkV6 && address.ScopeId != 0
+        ? $"{new IPAddress(address.GetAddressBytes())}%{ZoneOf(address.ScopeId)}" : address.ToString();
+
+    /// <summary>An address and port as text; see <see cref="Write(IPAddress)"/>.</summary>
+    internal static string Write(IPEndPoint place) => string.Create(
+        CultureInfo.InvariantCulture, $"{(place.AddressFamily == AddressFamily.InterNetworkV6 ? $"[{Write(place.Address)}]" : Write(place.Address))}:{place.Port}");
 
     /// <summary>Resolves the address. Of several addresses of a name it returns the first, IPv4 before IPv6.</summary>
     /// <param name="text">The text that the user wrote.</param>
@@ -66,7 +85,7 @@ internal static class EndPointText
     private static IPEndPoint[] Find(string text, Lookup lookup, CancellationToken stop)
     {
         (string host, int port) = Parse(text);
-        if (IPAddress.TryParse(host, out IPAddress? literal))
+        if (Literal(host) is IPAddress literal)
         {
             return [new IPEndPoint(literal, port)];
         }
@@ -76,13 +95,46 @@ internal static class EndPointText
             IPAddress[] found = lookup(host, stop).GetAwaiter().GetResult();
             IPEndPoint[] usable = [.. found
                 .Where(one => one.AddressFamily is AddressFamily.InterNetwork || (one.AddressFamily == AddressFamily.InterNetworkV6 && Socket.OSSupportsIPv6))
-                .Distinct().Select(one => new IPEndPoint(one, port))];
+                .Select(Unmapped).Distinct().Select(one => new IPEndPoint(one, port))];
             return usable.Length == 0 ? throw new InputException($"The host '{host}' has no IP address.") : InTurn(usable);
         }
         catch (Exception failure) when (failure is SocketException or ArgumentException)
         {
             throw new InputException($"The host '{host}' is not known: {failure.Message}.", failure);
         }
+    }
+
+    /// <summary>The address that a text is; null for a name.</summary>
+    /// <exception cref="InputException">It has a zone that this machine does not have.</exception>
+    private static IPAddress? Literal(string host)
+    {
+        if (!HostText.TryReadV6(host, out IPAddress? address, out string zone))
+        {
+            return IPAddress.TryParse(host, out address) ? address : null;
+        }
+
+        return zone.Length == 0 ? Unmapped(address!)
+            : IPAddress.TryParse(host, out IPAddress? zoned) && zoned.ScopeId != 0 ? zoned
+            : throw new InputException($"'{host}' is in the zone '{zone}', and this machine has no network interface of that name or number.");
+    }
+
+    /// <summary>An IPv4 address that is written as one of IPv6 is reached over IPv4.</summary>
+    private static IPAddress Unmapped(IPAddress address) => address.IsIPv4MappedToIPv6 ? address.MapToIPv4() : address;
+
+    private static string ZoneOf(long number)
+    {
+        NetworkInterface? face = null;
+        try
+        {
+            face = Array.Find(NetworkInterface.GetAllNetworkInterfaces(), one =>
+                one.Supports(NetworkInterfaceComponent.IPv6) && one.GetIPProperties().GetIPv6Properties().Index == number);
+        }
+        catch (NetworkInformationException)
+        {
+            // A system that does not tell.
+        }
+
+        return face is not null && !OperatingSystem.IsWindows() && HostText.IsZone(face.Name) ? face.Name : number.ToString(CultureInfo.InvariantCulture);
     }
 
     /// <summary>One of each kind in turn, in the order in which they come, and not too many.</summary>
@@ -97,6 +149,6 @@ internal static class EndPointText
     /// <exception cref="UsageException">The text is no such address.</exception>
     internal static IPAddress ParseLocal(string option, string text) =>
         !text.Contains('[', StringComparison.Ordinal) && IPAddress.TryParse(text, out IPAddress? address)
-            ? address
+            ? Unmapped(address)
             : throw new UsageException($"{option} is '{text}'; it must be an IP address of this machine, as 127.0.0.1, or 0.0.0.0 or :: for all.");
 }

@@ -45,7 +45,7 @@ internal static class HostCommand
                 + " costs some 3 KB/s on each link.",
         };
         Option<int> perAddress = CommonOptions.Whole(
-            "--per-address", "How many clients may join from one address; 0 means half of the places, or --joiners if that is more",
+            "--per-address", "How many clients may join from one address, numbers that are kept counted; 0 means half of the places, or --joiners if that is more",
             0, 0, SessionOptions.MaxClients);
         Option<double> budget = CommonOptions.Number(
             "--budget",
@@ -117,10 +117,10 @@ internal static class HostCommand
             int udpPort = udp.LocalAddress.ToEndPoint().Port;
             SessionPrinter printer = new(console, json, "host", parsed.GetValue(common.Seed), request.Seconds, request.RecordFile)
             {
-                ListeningOn = new IPEndPoint(local, udpPort).ToString(),
+                ListeningOn = EndPointText.Write(new IPEndPoint(local, udpPort)),
                 Page = page?.Address,
                 Addresses = self is null ? [] : [.. ReachableAddresses.Of(local)
-                    .Select(reachable => new HostAddress(reachable.ToString(), udpPort, self.Fingerprint).ToString())],
+                    .Select(reachable => new HostAddress(EndPointText.Write(reachable), udpPort, self.Fingerprint).ToString())],
             };
             printer.Line($"listening on {printer.ListeningOn}");
             foreach (string reachable in printer.Addresses)

@@ -57,7 +57,7 @@ internal sealed class HostTrust
         }
 
         throwIf(fingerprint is not null && memory is not null, $"{memory} contradicts an address with a fingerprint, which says whom to trust.");
-        place = address.ToLowerInvariant().TrimEnd('/'); // however it is spelled
+        place = WebSocketText.Is(address) ? address.ToLowerInvariant().TrimEnd('/') : EndPointText.Spelling(address); // however it is spelled
         Wanted = fingerprint;
         hosts = fingerprint is null && (named ?? (isThisMachine ? null : KnownHosts.UsualFile)) is string used ? new KnownHosts(used) : null;
         if (!isAnew && hosts?.Find(place) is (HostFingerprint known, int at))

@@ -9,6 +9,7 @@ using LagSim.Hosting;
 using LagSim.Net.Carriers;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
+using LagSim.Net.Wire;
 using LagSim.Play;
 
 namespace LagSim.Cli.Commands;
@@ -37,7 +38,7 @@ internal static class JoinCommand
         Command command = new(
             "join",
             "Joins a session; the scene comes from the host. Exits with 0 if this peer stays for --for-s or, without it, until the host ends the session; with 3"
-                + " if the session ends earlier, or if a --do was refused or not done. The line below each T line gives the host's clock minus this one's, the"
+                + " if the session ends earlier, if --for-s was over before this peer came in, if a --do was refused or not done, or if --pass could not be kept. The line below each T line gives the host's clock minus this one's, the"
                 + " most by which that may be wrong, and half a round trip.")
         {
             host, pass, token,
@@ -72,7 +73,7 @@ internal static class JoinCommand
                 ProtectionOptions.Warn(console);
             }
 
-            options = options with { OtherAddresses = [.. there.Skip(1).Select(PeerAddress.From)] };
+            options = options with { OtherAddresses = [.. there.Skip(1).Select(PeerAddress.From)], HostName = there.Count == 0 ? place : null };
             request = request with { Options = options, Host = place };
             using UdpPort? udp = there.Count == 0 ? null
                 : new UdpPort(UdpDestination.Facing(there[0].Address, [.. there.Skip(1).Select(other => other.Address)]));
@@ -80,6 +81,7 @@ internal static class JoinCommand
             CarrierInUse carrier = udp is null ? CarrierInUse.Of(socket!) : CarrierInUse.Of(udp);
             PeerAddress address = udp is null ? WebSocketClientPort.Host : PeerAddress.From(there[0]);
             ClientSession session = new(null, carrier.Port, new StopwatchClock(), options, address, Session.DrawNumber());
+            bool isPassKept = true;
             if (passFile is not null)
             {
                 session.KeepsPlace = true; // a pass is kept to come back with
@@ -92,7 +94,7 @@ internal static class JoinCommand
                         console.Error.WriteLine($"The host does not know the pass of player {former.Number} in '{passFile}'; this is player {given.Number} of its session, whose pass is kept there now{kept}.");
                     }
 
-                    Keep(console, passFile, given);
+                    isPassKept = Keep(console, passFile, given);
                     former = given;
                 };
             }
@@ -114,7 +116,12 @@ internal static class JoinCommand
                 console.Error.WriteLine(why);
             }
 
-            return code;
+            if (session.RefusedFor == RefusalReason.WrongKey && options.ConnectKey.Length == 0)
+            {
+                console.Error.WriteLine("This host needs a key: --key TEXT, or --key-file FILE.");
+            }
+
+            return code == ExitCode.Done && !isPassKept ? ExitCode.Input : code;
 
             void TellTrustOnce(PlayerPass given)
             {
@@ -123,7 +130,10 @@ internal static class JoinCommand
             }
 
             string Whole() => udp is null ? $"{place}#{protection!.Host!.Value}"
-                : new HostAddress(session.HostAddress.ToIPAddress().ToString(), there[0].Port, protection!.Host!.Value).ToString();
+                : new HostAddress(EndPointText.Write(Joined()), there[0].Port, protection!.Host!.Value).ToString();
+
+            // A session's address has no zone; the one that it was made from has.
+            IPAddress Joined() => there.FirstOrDefault(one => PeerAddress.From(one) == session.HostAddress)?.Address ?? session.HostAddress.ToIPAddress();
         });
         return command;
     }
@@ -174,15 +184,18 @@ internal static class JoinCommand
         }
     }
 
-    private static void Keep(ToolConsole console, string file, PlayerPass given)
+    /// <returns>Whether the file has it.</returns>
+    private static bool Keep(ToolConsole console, string file, PlayerPass given)
     {
         try
         {
             SecretFile.Write(file, given.ToString());
+            return true;
         }
         catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {
             console.Error.WriteLine($"The player's pass was not kept: {failure.Message}"); // the session continues without it
+            return false;
         }
     }
 }

@@ -55,7 +55,7 @@ internal static class KeyCommand
             if (now != kept)
             {
                 SecretFile.ThrowIfNotWritable("--identity", name, "a host's identity");
-                SecretFile.Write(name, now.ToSecretText());
+                SecretFile.Tell("--identity", name, () => SecretFile.Write(name, now.ToSecretText()), "The host's key is what it was.");
             }
 
             Print(console, now, parsed.GetValue(common.Json));

@@ -2,6 +2,7 @@ using System;
 using System.CommandLine;
 using System.IO;
 using LagSim.Cli.Output;
+using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
 
 namespace LagSim.Cli.Commands;
@@ -22,9 +23,15 @@ internal sealed class KeyOptions
 
     internal KeyOptions() => key.Validators.Add(result =>
     {
-        if (result.Tokens.Count == 1 && result.Tokens[0].Value.Length > SessionOptions.MaxKeyLength)
+        string? text = result.Tokens.Count == 1 ? result.Tokens[0].Value : null;
+        if (text?.Length is 0 or > SessionOptions.MaxKeyLength)
         {
-            result.AddError($"--key has {result.Tokens[0].Value.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
+            result.AddError(text.Length == 0 ? $"--key is empty; it must be 1 to {SessionOptions.MaxKeyLength} characters. Without --key there is no key."
+                : $"--key has {text.Length} characters; at most {SessionOptions.MaxKeyLength} are allowed.");
+        }
+        else if (text is not null && ConnectKeyText.WhyNone(text) is string why)
+        {
+            result.AddError($"--key {why}");
         }
     });
 
@@ -53,7 +60,8 @@ internal sealed class KeyOptions
             : Checked(SecretFile.ReadLine(name) ?? throw new InputException($"--key-file is '{name}'; there is no such file."), $"--key-file is '{name}', which");
     }
 
-    private static string Checked(string? key, string where) =>
-        key is { Length: > 0 and <= SessionOptions.MaxKeyLength } && !key.Contains('\n', StringComparison.Ordinal) ? key
+    private static string Checked(string? key, string where) => key is not null && ConnectKeyText.WhyNone(key) is not null
+        ? throw new InputException($"{where} does not hold a key: it is not valid UTF-8.")
+        : key is { Length: > 0 and <= SessionOptions.MaxKeyLength } && !key.Contains('\n', StringComparison.Ordinal) ? key
         : throw new InputException($"{where} does not hold a key: a line of 1 to {SessionOptions.MaxKeyLength} characters.");
 }

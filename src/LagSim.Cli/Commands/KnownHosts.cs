@@ -42,15 +42,21 @@ internal sealed class KnownHosts(string file)
 
     /// <summary>Remembers the host at an address, in place of any other there. What other programs add meanwhile stays.</summary>
     /// <exception cref="IOException">The file cannot be written.</exception>
-    /// <exception cref="UnauthorizedAccessException">The file cannot be written, for lack of permission.</exception>
     internal void Remember(string address, HostFingerprint fingerprint)
     {
         string target = SecretFile.TargetOf(file);
-        Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(target))!);
-        using FileStream held = Held(target + ".lock");
-        IEnumerable<string> others = Lines().Where((line, n) => Read(line, n + 1)?.Address != address);
-        string[] lines = [.. others, $"{address} {fingerprint}"];
-        SecretFile.Replace(file, draft => System.IO.File.WriteAllLines(draft, lines));
+        try
+        {
+            Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(target))!);
+            using FileStream held = Held(target + ".lock");
+            IEnumerable<string> others = Lines().Where((line, n) => Read(line, n + 1)?.Address != address);
+            string[] lines = [.. others, $"{address} {fingerprint}"];
+            SecretFile.Replace(file, draft => System.IO.File.WriteAllLines(draft, lines));
+        }
+        catch (Exception failure) when (failure is IOException { InnerException: null } or UnauthorizedAccessException)
+        {
+            throw new IOException($"'{file}' cannot be written. {WriteFailure.Cause(target, failure)}", failure);
+        }
     }
 
     /// <summary>
@@ -65,16 +71,20 @@ internal sealed class KnownHosts(string file)
             {
                 return new FileStream(name, FileMode.OpenOrCreate, FileAccess.ReadWrite, FileShare.None);
             }
-            catch (IOException) when (waiting.Elapsed < LongestWait)
+            catch (IOException failure) when (IsOfAnother(failure) && waiting.Elapsed < LongestWait)
             {
                 Thread.Sleep(10);
             }
-            catch (IOException failure)
+            catch (IOException failure) when (IsOfAnother(failure))
             {
                 throw new IOException($"Another program has held '{name}' for {LongestWait.TotalSeconds} s.", failure);
             }
         }
     }
+
+    /// <summary>Whether a file could not be opened since another program has it: a sharing or lock violation, or EAGAIN on Linux or macOS.</summary>
+    private static bool IsOfAnother(IOException failure) =>
+        OperatingSystem.IsWindows() ? (failure.HResult & 0xFFFF) is 32 or 33 : failure.HResult is 11 or 35;
 
     private string[] Lines() => SecretFile.TargetOf(file) is string target && System.IO.File.Exists(target) ? System.IO.File.ReadAllLines(target) : [];
 

@@ -10,9 +10,12 @@ internal static class SecretFile
 {
     private const string Must = "a file that can be written";
 
+    private static readonly UTF8Encoding Strict = new(encoderShouldEmitUTF8Identifier: false, throwOnInvalidBytes: true);
+
     private const int MaxBytes = 1_000; // the longest secret is a connect key, one line
 
     /// <summary>Reads the line; null if the file does not exist yet, empty if it is too long to be a secret.</summary>
+    /// <exception cref="InputException">It is not valid UTF-8.</exception>
     /// <exception cref="IOException">The file cannot be read.</exception>
     internal static string? Read(string file)
     {
@@ -20,6 +23,7 @@ internal static class SecretFile
     }
 
     /// <summary>Reads the line with all the blanks that it has; null if the file does not exist yet, empty if it is too long to be a secret.</summary>
+    /// <exception cref="InputException">It is not valid UTF-8: a decoder that is not strict would make the same of many secrets.</exception>
     /// <exception cref="IOException">The file cannot be read.</exception>
     internal static string? ReadLine(string file)
     {
@@ -32,8 +36,20 @@ internal static class SecretFile
         using FileStream stream = File.OpenRead(file); // a special file may have no end
         byte[] bytes = new byte[MaxBytes];
         int length = stream.ReadAtLeast(bytes, MaxBytes, throwOnEndOfStream: false);
-        string text = length < MaxBytes ? Encoding.UTF8.GetString(bytes, 0, length) : "";
+        string text = length < MaxBytes ? Text(file, bytes.AsSpan(0, length)) : "";
         return text.EndsWith("\r\n", StringComparison.Ordinal) ? text[..^2] : text.EndsWith('\n') ? text[..^1] : text;
+    }
+
+    private static string Text(string file, ReadOnlySpan<byte> bytes)
+    {
+        try
+        {
+            return Strict.GetString(bytes);
+        }
+        catch (DecoderFallbackException failure)
+        {
+            throw new InputException($"'{file}' is not valid UTF-8; a secret is a line of text.", failure);
+        }
     }
 
     /// <summary>Reads the secret of the file; draws one and keeps it if the file does not exist yet.</summary>
@@ -55,13 +71,27 @@ internal static class SecretFile
 
         ThrowIfNotWritable(option, file, what);
         (T drawn, string drawnText) = draw();
+        bool isWritten = false;
+        Tell(option, file, () => isWritten = Write(file, drawnText, overwrite: false));
+        return isWritten ? drawn : ReadOrDraw(option, file, what, parse, draw); // another process was first
+    }
+
+    /// <summary>Writes, and says of what cannot be written which option names it and what comes of that.</summary>
+    /// <param name="option">The option that names the file.</param>
+    /// <param name="file">The file.</param>
+    /// <param name="write">Writes it.</param>
+    /// <param name="after">What is so if it fails, as a sentence that follows another; empty for nothing to say.</param>
+    /// <exception cref="IOException">It could not be written; the message names the option, the file and the cause.</exception>
+    internal static void Tell(string option, string file, Action write, string after = "")
+    {
         try
         {
-            return Write(file, drawnText, overwrite: false) ? drawn : ReadOrDraw(option, file, what, parse, draw); // another process was first
+            write();
         }
-        catch (Exception failure) when (failure is IOException { InnerException: null } or UnauthorizedAccessException)
+        catch (Exception failure) when (failure is IOException or UnauthorizedAccessException)
         {
-            throw WriteFailure.Of(option, file, Must, failure);
+            IOException told = WriteFailure.Of(option, file, Must, failure);
+            throw after.Length == 0 ? told : new IOException($"{told.Message.TrimEnd('.')}. {after}", failure);
         }
     }
 

@@ -99,6 +99,7 @@ internal sealed class SessionRunner : IDisposable
                 watch.LookAtLinks(thread);
                 watch.LookAtPace();
                 watch.LookAtSilence(asking.Elapsed);
+                watch.LookAtWaiting();
                 wait = session.World is null ? LookInterval : Tend(session.World.Simulation.Start);
             }
         }
@@ -120,7 +121,7 @@ internal sealed class SessionRunner : IDisposable
         int code = ExitCodeOf(session.EndedBy, isTimeReached, counters.StatesDiffered, counters.EventsLost, hasFailedAction, isInterrupted);
         if (session.EndedBy != SessionEnd.Left && code != ExitCode.Done)
         {
-            printer.Problem(session.EndReason!);
+            printer.Problem(EndReason!);
         }
 
         if (session.World is not null)
@@ -133,7 +134,7 @@ internal sealed class SessionRunner : IDisposable
         }
         else
         {
-            printer.Failed(session.EndReason ?? "There was no session.", code);
+            printer.Failed(EndReason ?? "There was no session.", code);
         }
 
         return code == ExitCode.Done && recorder?.Failure is not null ? ExitCode.Input : code;
@@ -166,6 +167,10 @@ internal sealed class SessionRunner : IDisposable
         queue.Dispose();
     }
 
+    /// <summary>Why the session ended, and what the carrier says of a host that was never heard; null while it goes on.</summary>
+    private string? EndReason => session.EndedBy == SessionEnd.HostSilent && session.Counters.DatagramsReceived == 0 && carrier.Obstacle() is string obstacle
+        ? $"{session.EndReason} {obstacle.TrimEnd('.')}." : session.EndReason;
+
     private double Passed(SimTime start) => (session.SharedTime.Now - start).ToSeconds();
 
     /// <summary>Performs whatever is due.</summary>
@@ -178,7 +183,9 @@ internal sealed class SessionRunner : IDisposable
             actions.Begin(session.Scene!, passed);
             if (passed > request.Seconds)
             {
-                Fail(FormattableString.Invariant($"--for-s {request.Seconds} was over when this peer came in at T {passed:0.000} s."));
+                Fail(FormattableString.Invariant($"--for-s {request.Seconds} was over when this peer came in at T {passed:0.000} s.")
+                    + FormattableString.Invariant($" It counts from the session's start: to stay that long from now on, give --for-s {Math.Ceiling(passed + request.Seconds!.Value)};")
+                    + " without it the session goes on until Ctrl-C or the host's end.");
             }
         }
 

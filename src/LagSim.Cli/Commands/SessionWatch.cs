@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using LagSim.Cli.Output;
 using LagSim.Net.Sessions;
 using LagSim.Time;
@@ -15,6 +16,9 @@ internal sealed class SessionWatch
     /// </summary>
     private static readonly TimeSpan SilenceToTell = TimeSpan.FromMilliseconds(1450);
 
+    /// <summary>How long a session waits for the same players until that is told: those who come at once need no word.</summary>
+    private static readonly TimeSpan WaitToTell = TimeSpan.FromSeconds(0.5);
+
     private readonly Session session;
     private readonly CarrierInUse carrier;
     private readonly SessionRequest request;
@@ -23,6 +27,9 @@ internal sealed class SessionWatch
     private readonly PaceWatch pace = new();
     private bool hasToldDifference; // owned by the session's thread
     private bool hasToldSilence;
+    private readonly Stopwatch waiting = new(); // since when it waits for the same
+    private string? waitsFor;
+    private string? toldWaiting;
     private bool isLooking;
 
     internal SessionWatch(Session session, CarrierInUse carrier, SessionRequest request, SessionPrinter printer, PrintQueue queue)
@@ -63,9 +70,11 @@ internal sealed class SessionWatch
             thread.Ask(peer =>
             {
                 IReadOnlyList<LinkTraffic> links = peer.Links;
+                string? waits = thread.Steps > 0 && peer is { State: SessionState.Waiting, World: null } ? peer.WhyNotRunning : null;
                 queue.Add(() =>
                 {
                     isLooking = false;
+                    Wait(waits);
                     printer.LookAt(links);
                 });
                 return true;
@@ -102,6 +111,25 @@ internal sealed class SessionWatch
             string why = carrier.Obstacle() is string obstacle ? $" ({obstacle.TrimEnd('.')})" : "";
             printer.Problem(FormattableString.Invariant(
                 $"No host answers at {request.Host} yet{why}; asking for up to {most.ToSeconds():0.###} s. Ctrl-C ends it."));
+        }
+    }
+
+    /// <summary>Reports for whom a session waits that does not begin, whenever that is another sentence than before.</summary>
+    internal void LookAtWaiting()
+    {
+        if (waitsFor is not null && waitsFor != toldWaiting && waiting.Elapsed >= WaitToTell)
+        {
+            toldWaiting = waitsFor;
+            printer.Problem(waitsFor);
+        }
+    }
+
+    private void Wait(string? sentence)
+    {
+        if (sentence != waitsFor)
+        {
+            waitsFor = sentence;
+            waiting.Restart();
         }
     }
 

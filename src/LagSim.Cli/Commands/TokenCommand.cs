@@ -1,5 +1,6 @@
 using System;
 using System.CommandLine;
+using System.Linq;
 using LagSim.Cli.Output;
 using LagSim.Net.Protection;
 using LagSim.Net.Sessions;
@@ -61,6 +62,13 @@ internal static class TokenCommand
         };
         command.SetAction(parsed =>
         {
+            Option? alone = parsed.GetValue(host) is not null ? null
+                : new Option[] { player, name, number, rights, valid }.FirstOrDefault(option => parsed.GetResult(option) is { Implicit: false });
+            if (alone is not null)
+            {
+                throw new UsageException($"{alone.Name} needs --host, which says for which host a token is; without it none is issued.");
+            }
+
             using TokenIssuer issuer = ReadOrDraw(parsed.GetValue(secret)!);
             string? token = null;
             if (parsed.GetValue(host) is string address)

@@ -13,7 +13,8 @@ internal static class WriteFailure
     internal static IOException Of(string option, string name, string must, Exception failure) =>
         new($"{option} is '{name}'; it must be {must}. {Cause(name, failure)}", failure);
 
-    private static string Cause(string name, Exception failure)
+    /// <summary>Says why a file or folder cannot be written, as a sentence.</summary>
+    internal static string Cause(string name, Exception failure)
     {
         string? above = Path.GetDirectoryName(Path.TrimEndingDirectorySeparator(Path.GetFullPath(name)));
         string? missing = null;

@@ -71,6 +71,11 @@ public sealed class PlayerAdmission
 
         foreach (char one in text)
         {
+            if (one == PlayerName.Replacement)
+            {
+                throw new ArgumentException("The text holds U+FFFD, which stands in place of bytes that were no text.", parameter);
+            }
+
             if (char.IsControl(one))
             {
                 throw new ArgumentException(

@@ -86,6 +86,9 @@ public sealed record ClientOptions : SessionOptions
     /// </summary>
     internal IReadOnlyList<PeerAddress> OtherAddresses { get; init; } = Array.Empty<PeerAddress>();
 
+    /// <summary>What sentences call the host's place; default null: its address, where that says something to a person.</summary>
+    internal string? HostName { get; init; }
+
     /// <summary>
     /// Returns <paramref name="options"/> if they are a client's, otherwise client options with the same shared settings and defaults for
     /// the rest.

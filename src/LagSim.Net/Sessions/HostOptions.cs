@@ -264,6 +264,14 @@ public sealed record HostOptions : SessionOptions
             }
         }
 
+        foreach (KeyValuePair<byte, string> player in PlayerKeys)
+        {
+            if (ConnectKeyText.WhyNone(player.Value) is string why)
+            {
+                throw new ArgumentException($"The key of player {player.Key} {why}", nameof(PlayerKeys));
+            }
+        }
+
         if (PlayerKeys.Values.Append(ConnectKey).Distinct().Count() != PlayerKeys.Count + 1)
         {
             throw new ArgumentException(

@@ -57,8 +57,8 @@ public abstract record SessionOptions
     public PeerRole Role { get; init; } = PeerRole.Player;
 
     /// <summary>
-    /// The shared secret: a host requires it, and a client must present it. Up to <see cref="MaxKeyLength"/> characters, default none. It
-    /// is never sent.
+    /// The shared secret: a host requires it, and a client must present it. Up to <see cref="MaxKeyLength"/> characters, default none. No
+    /// half surrogate pair and no U+FFFD is in it, which stand for bytes that were no text. It is never sent.
     /// </summary>
     /// <remarks>
     /// It keeps strangers out. In a session without protection it does not encrypt: choose a long random key, since an eavesdropper or a
@@ -249,8 +249,8 @@ public abstract record SessionOptions
     /// </summary>
     /// <remarks>
     /// A name holds no control characters, and no character that shows nothing: none that changes the direction of text, no separators and
-    /// blanks but the plain space, nothing of zero width; and it is not blanks alone. No number in it stands by itself, as in <c>2</c> or
-    /// <c>Ann, 2 player Bob</c>, since that reads as a player's number; <c>Ann2</c>, <c>Ann-2</c> and <c>2nd</c> can be names.
+    /// blanks but the plain space, nothing of zero width, no U+FFFD; it neither begins nor ends with a blank, and has no two in a row. No
+    /// number in it stands by itself, as in <c>2</c>, <c>2-</c> or <c>Ann, 2 player Bob</c>, since that reads as a player's number; <c>Ann2</c>, <c>Ann-2</c> and <c>2nd</c> can be names.
     /// </remarks>
     /// <exception cref="ArgumentNullException">The text is null.</exception>
     public static string? WhyNoName(string name) => PlayerName.WhyNone(name ?? throw new ArgumentNullException(nameof(name)));
@@ -302,6 +302,11 @@ public abstract record SessionOptions
         {
             throw new ArgumentOutOfRangeException(
                 nameof(ConnectKey), $"{ConnectKey.Length} characters", $"A connect key has 0 to {MaxKeyLength} characters.");
+        }
+
+        if (ConnectKeyText.WhyNone(ConnectKey) is string unfit)
+        {
+            throw new ArgumentException($"The connect key {unfit}", nameof(ConnectKey));
         }
 
         if (Name is null)

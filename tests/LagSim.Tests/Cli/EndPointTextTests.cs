@@ -58,7 +58,7 @@ public sealed class EndPointTextTests
     [Theory]
     [InlineData("0.0.0.0:7", "'0.0.0.0:7'")]
     [InlineData("[::]:7", "'[::]:7'")]
-    [InlineData("[::ffff:0.0.0.0]:7", "'[::ffff:0:0]:7'")]
+    [InlineData("[::ffff:0.0.0.0]:7", "'0.0.0.0:7'")]
     public void Resolve_AddressOfNoMachine_IsRefusedAtOnce(string text, string named)
     {
         // A client would wait out its time-out, ten minutes here, for an answer that cannot come.
@@ -97,6 +97,35 @@ public sealed class EndPointTextTests
         Tool.Refuses(3, ["join", "no-such-host.invalid:5000"], "The host 'no-such-host.invalid' is not known");
         Tool.Refuses(3, ["relay", "no-such-host.invalid:5000", "--profile", "lan"], "The host 'no-such-host.invalid' is not known");
         Tool.Refuses(3, ["join", new string('x', 300) + ":5000"], "is not known");
+    }
+
+    /// <summary>An IPv4 address in the clothes of IPv6 is reached over IPv4, and known as that.</summary>
+    [Theory]
+    [InlineData("[::ffff:127.0.0.1]:7", "127.0.0.1:7")]
+    [InlineData("[0:0::1]:7", "[::1]:7")]
+    [InlineData("Some.Name:7", "some.name:7")]
+    [InlineData("[FE80::1%eth0]:7", "[fe80::1%eth0]:7")]
+    public void Spelling_OfWhatIsWrittenInSeveralWays_IsOne(string text, string one) => Assert.Equal(one, EndPointText.Spelling(text));
+
+    [Fact]
+    public void Resolve_MappedIPv4_IsIPv4()
+    {
+        Assert.Equal(new IPEndPoint(IPAddress.Loopback, 7), EndPointText.Resolve("[::ffff:127.0.0.1]:7", "join", TestContext.Current.CancellationToken));
+        Assert.Equal([new IPEndPoint(IPAddress.Loopback, 7)], All("127.0.0.1 ::ffff:127.0.0.1"));
+        Assert.Equal(IPAddress.Loopback, EndPointText.ParseLocal("--address", "::ffff:127.0.0.1"));
+    }
+
+    /// <summary>A zone is one of this machine's networks. It is written as it is read, by name.</summary>
+    [Fact]
+    public void Resolve_AddressWithAZone_KeepsItByName()
+    {
+        Assert.SkipUnless(OperatingSystem.IsLinux() && Socket.OSSupportsIPv6, "Interfaces have these names on Linux.");
+        IPEndPoint found = EndPointText.Resolve("[fe80::1%lo]:7", "join", TestContext.Current.CancellationToken);
+        Assert.NotEqual(0, found.Address.ScopeId);
+        Assert.Equal(("fe80::1%lo", "[fe80::1%lo]:7"), (EndPointText.Write(found.Address), EndPointText.Write(found)));
+        Assert.NotEqual("fe80::1%lo", found.Address.ToString()); // the control: the system writes its number
+        Tool.Refuses(3, ["join", "[fe80::1%nope7]:7"], "'fe80::1%nope7' is in the zone 'nope7', and this machine has no network interface of that name or number.");
+        Tool.Refuses(2, ["join", "[2001:db8::7%lo]:7"], "does not say where the host is");
     }
 
     [Theory]

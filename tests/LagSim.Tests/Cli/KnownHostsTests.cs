@@ -123,6 +123,33 @@ public sealed class KnownHostsTests
         Assert.Equal(folder["not-there-yet"], new FileInfo(folder["new"]).LinkTarget);
     }
 
+    /// <summary>A folder in which nothing can be written is told as that. That another program holds the file is for where it does: the test of many at once waits for that.</summary>
+    [Fact]
+    public void Remember_WhereNothingCanBeWritten_SaysThatAtOnce()
+    {
+        Assert.SkipUnless(OperatingSystem.IsLinux(), "/proc is Linux's.");
+        using HostIdentity one = HostIdentity.Draw();
+        IOException told = Assert.Throws<IOException>(() => new KnownHosts("/proc/kh").Remember("a:1", one.Fingerprint));
+        Assert.Equal("'/proc/kh' cannot be written. The file system at '/proc' lets nothing be made there.", told.Message);
+    }
+
+    /// <summary>An IPv4 address that is written as one of IPv6 is joined over IPv4, and remembered as that; who has no key is told to give one.</summary>
+    [Fact]
+    public void Join_AMappedAddress_ComesInAndIsRememberedAsIPv4()
+    {
+        using TemporaryFolder folder = new();
+        using LiveTool host = LiveTool.Run($"{Hosting} {folder["secret"]} --key sesame");
+        string address = host.Address, mapped = $"[::ffff:127.0.0.1]:{address.Split(':')[1]}", known = folder["known_hosts"];
+        using LiveTool client = ComesIn($"join {mapped} --key sesame --known-hosts", known);
+        string[] line = File.ReadAllText(known).Trim().Split(' ');
+        Assert.Equal(address, line[0]);
+        using LiveTool whole = ComesIn($"join lagsim://{mapped}#{line[1]} --key sesame");
+        using LiveTool without = LiveTool.Run($"join {address}");
+        without.Ends(3);
+        Assert.Contains($"The host at {address} refused: it needs a key, and this peer has none.", without.Error.ToString(), StringComparison.Ordinal);
+        Assert.Contains("This host needs a key: --key TEXT, or --key-file FILE.", without.Error.ToString(), StringComparison.Ordinal);
+    }
+
     /// <summary>A key has the blanks that it is given, wherever it comes from: all but the end of the line.</summary>
     [Theory]
     [InlineData("  open sesame ")]

@@ -1,5 +1,6 @@
 using System.IO;
 using LagSim.Cli.Commands;
+using LagSim.Cli.Output;
 using Xunit;
 
 namespace LagSim.Tests.Cli;
@@ -52,6 +53,43 @@ public sealed class SecretFileTests
         SecretFile.Write(file, "of today");
         Assert.Equal([file], Directory.GetFiles(folder.Path));
         Assert.Equal("of today", File.ReadAllText(file).Trim());
+    }
+
+    /// <summary>Two keys of bytes that are no text were one key, with U+FFFD for each byte.</summary>
+    [Fact]
+    public void ReadLine_OfBytesThatAreNoText_IsRefused()
+    {
+        using TemporaryFolder folder = new();
+        File.WriteAllBytes(folder["one"], [0x61, 0xFF, 0x0A]);
+        File.WriteAllBytes(folder["two"], [0x61, 0xFE, 0x0A]);
+        Assert.Equal(File.ReadAllText(folder["one"]), File.ReadAllText(folder["two"])); // the control: a decoder that is not strict
+        Tool.Refuses(3, ["host", "--scene", "drop", "--key-file", folder["one"]], $"'{folder["one"]}' is not valid UTF-8");
+        Tool.Refuses(3, ["join", "127.0.0.1:9", "--key-file", folder["two"]], $"'{folder["two"]}' is not valid UTF-8");
+        Tool.Refuses(3, ["key", "--identity", folder["one"]], "is not valid UTF-8");
+        Tool.Refuses(3, ["join", "127.0.0.1:9", "--pass", folder["one"]], "is not valid UTF-8");
+        Tool.Refuses(3, ["token", "--secret", folder["one"]], "is not valid UTF-8");
+        File.WriteAllText(folder["two"], "ä\n");
+        Assert.Equal("ä", SecretFile.ReadLine(folder["two"]));
+        Assert.Equal("it is not valid UTF-8.", Assert.Throws<InputException>(() => ReadKey("a\uFFFD")).Message[^22..]);
+        Assert.Equal("ä", ReadKey("ä"));
+
+        static string ReadKey(string input)
+        {
+            KeyOptions keys = new();
+            System.CommandLine.Command command = new("any");
+            keys.AddTo(command);
+            return keys.Read(command.Parse(["--key", "-"]), new StringReader(input));
+        }
+    }
+
+    [Fact]
+    public void Tell_OfAFullDisk_NamesOptionFileCauseAndWhatComesOfIt()
+    {
+        using TemporaryFolder folder = new();
+        IOException told = Assert.Throws<IOException>(() => SecretFile.Tell(
+            "--identity", folder["id"], () => throw new IOException($"No space left on device : '{folder["id"]}.7.new'"), "The host's key is what it was."));
+        Assert.Equal(
+            $"--identity is '{folder["id"]}'; it must be a file that can be written. No space left on device : '{folder["id"]}.7.new'. The host's key is what it was.", told.Message);
     }
 
     [Fact]

@@ -71,7 +71,7 @@ public sealed class SessionCommandTests
         client.Ends(3);
         host.Stop();
         host.Ends(130);
-        Assert.Matches("--for-s 0.5 was over when this peer came in at T [0-9.]+ s[.]", client.Error.ToString());
+        Assert.Matches("--for-s 0.5 was over when this peer came in at T [0-9.]+ s[.] It counts from the session's start: to stay that long from now on, give --for-s [0-9]+;", client.Error.ToString());
         Assert.Matches("The host does not know the pass of player 1 in '.+'; this is player 1 of its session, whose pass is kept there now; the former one is in '.+pass[.]old'[.]", client.Error.ToString());
         Assert.NotEqual(foreign, File.ReadAllText(folder["pass"]).Trim());
         Assert.Equal(foreign, File.ReadAllText(folder["pass.old"]));
@@ -148,6 +148,60 @@ public sealed class SessionCommandTests
     {
         using UdpPort silent = new(new IPEndPoint(IPAddress.Loopback, 0));
         Tool.Refuses(3, ["join", silent.LocalAddress.ToString(), "--timeout-s", "0.5", "--json"], $"No answer from the host at {silent.LocalAddress} within 0.5 s.");
+    }
+
+    /// <summary>Over a WebSocket the last line has the address, and why there is no connection.</summary>
+    [Fact]
+    public void Join_NobodyThereOverAWebSocket_NamesAddressAndReason()
+    {
+        using Socket closed = new(AddressFamily.InterNetwork, SocketType.Stream, ProtocolType.Tcp);
+        closed.Bind(new IPEndPoint(IPAddress.Loopback, 0)); // and does not listen
+        string place = $"ws://127.0.0.1:{((IPEndPoint)closed.LocalEndPoint!).Port}";
+        Tool tool = Tool.Run("join", place, "--timeout-s", "0.6");
+        Assert.Equal(3, tool.ExitCode);
+        Assert.Matches($"^No answer from the host at {place} within 0.6 s[.] .{{10,}}[.]$", tool.Error.TrimEnd().Split('\n')[^1].TrimEnd());
+    }
+
+    /// <summary>A pass that cannot be kept is told, the session goes on, and the exit code says so. The control: where it can, all is well.</summary>
+    [Theory]
+    [InlineData(true, 3)]
+    [InlineData(false, 0)]
+    public void Pass_ThatCannotBeKept_EndsWithThatExitCode(bool isBlocked, int code)
+    {
+        using TemporaryFolder folder = new();
+        int port;
+        using (UdpPort free = new(new IPEndPoint(IPAddress.Loopback, 0)))
+        {
+            port = free.LocalAddress.ToEndPoint().Port;
+        }
+
+        using LiveTool client = LiveTool.Run($"join 127.0.0.1:{port} --timeout-s 30 --pass", folder["pass"]);
+        Assert.NotNull(client.Error.WaitFor(line => line.StartsWith("No host answers", StringComparison.Ordinal), LiveTool.Deadline));
+        if (isBlocked)
+        {
+            Directory.CreateDirectory($"{folder["pass"]}.{Environment.ProcessId}.new"); // in the place of what is written first
+        }
+
+        using LiveTool host = LiveTool.Run($"host --scene drop --history-s 0.2 --timeout-s 30 --port {port}");
+        Assert.NotNull(client.Output.WaitFor(line => line.StartsWith("here: ", StringComparison.Ordinal), LiveTool.Deadline));
+        host.Stop();
+        client.Ends(code);
+        Assert.Equal(isBlocked, client.Error.ToString().Contains("The player's pass was not kept: ", StringComparison.Ordinal));
+        Assert.Equal(isBlocked, !File.Exists(folder["pass"]));
+    }
+
+    /// <summary>Host and client say for whom a session waits that does not begin.</summary>
+    [Fact]
+    public void Session_ThatWaitsForPlayers_SaysForHowMany()
+    {
+        using LiveTool host = LiveTool.Run("host --scene drop --joiners 2 --for-s 60");
+        string address = host.Address;
+        Assert.NotNull(host.Error.WaitFor(line => line == "0 of the 2 players that this host waits for are in.", LiveTool.Deadline));
+        using LiveTool client = LiveTool.Run($"join {address}");
+        Assert.NotNull(host.Error.WaitFor(line => line == "1 of the 2 players that this host waits for are in.", LiveTool.Deadline));
+        Assert.NotNull(client.Error.WaitFor(line => line == $"This peer is in. The host at {address} has not begun the session: it waits for other players.", LiveTool.Deadline));
+        client.Stop();
+        host.Stop();
     }
 
     [Theory]

@@ -67,6 +67,44 @@ public sealed class SessionUsageTests
     [InlineData("host --scene drop --web 0 --web-certificate nope.pem", "--web-certificate is 'nope.pem'; there is no such file.")]
     public void File_ThatIsNotThere_IsRefusedByName(string line, string says) => Tool.Refuses(Input, line.Split(' '), says);
 
+    /// <summary>A variable that is not set opens no host without a key.</summary>
+    [Fact]
+    public void Key_ThatIsEmpty_IsRefused()
+    {
+        Tool.Refuses(Usage, ["host", "--scene", "drop", "--key", ""], "--key is empty; it must be 1 to 256 characters.");
+        Tool.Refuses(Usage, ["join", "127.0.0.1:9", "--key", ""], "--key is empty; it must be 1 to 256 characters.");
+    }
+
+    /// <summary>Where a decoder put U+FFFD for bytes that it could not read, different bytes would be the same key, or the same player.</summary>
+    [Theory]
+    [InlineData("a\uFFFD")]
+    [InlineData("a\uD800")]
+    public void Text_ThatStandsForBytes_IsRefused(string text)
+    {
+        using TemporaryFolder folder = new();
+        Tool.Refuses(Usage, ["host", "--scene", "drop", "--key", text], "--key holds ");
+        Tool.Refuses(Usage, ["join", "127.0.0.1:9", "--name", text], "--name is not one to show: it holds ");
+        string[] token = ["token", "--secret", folder["secret"], "--host", "lagsim://127.0.0.1:5000#0a1b2c3d4e5f60718293a4b5c6d7e8f9"];
+        Tool.Refuses(Usage, [.. token, "--player", text], "The text holds ");
+        Tool.Refuses(Usage, [.. token, "--player", "bob", "--name", text], "The player's name is not one to show: it holds ");
+        Assert.Throws<ArgumentException>(new ClientOptions { ConnectKey = text }.Check);
+        Assert.Throws<ArgumentException>(new HostOptions { PlayerKeys = new Dictionary<byte, string> { [1] = text } }.Check);
+        new HostOptions { ConnectKey = "a\U0001F600", PlayerKeys = new Dictionary<byte, string> { [1] = "ä" } }.Check(); // the control
+    }
+
+    [Theory]
+    [InlineData("--player")]
+    [InlineData("--name")]
+    [InlineData("--number")]
+    [InlineData("--valid-s")]
+    public void Token_ForNoHost_IsRefused(string option)
+    {
+        using TemporaryFolder folder = new();
+        Tool.Refuses(Usage, ["token", "--secret", folder["secret"], option, "5"], $"{option} needs --host");
+        Assert.False(File.Exists(folder["secret"]));
+        Assert.Contains("no token: --host says", Tool.Run("token", "--secret", folder["secret"]).Done().Output, StringComparison.Ordinal); // the control
+    }
+
     [Fact]
     public void Key_ThatIsTooLong_IsRefused() =>
         Tool.Refuses(Usage, ["host", "--scene", "drop", "--key", new string('k', 257)], "--key has 257 characters; at most 256 are allowed");

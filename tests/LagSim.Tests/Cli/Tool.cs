@@ -10,6 +10,8 @@ namespace LagSim.Tests.Cli;
 /// <summary>One call of the tool, in this process.</summary>
 internal sealed class Tool
 {
+    private const int Usage = 2;
+
     private Tool(int exitCode, string output, string error)
     {
         ExitCode = exitCode;
@@ -52,6 +54,7 @@ internal sealed class Tool
             Assert.Equal("", tool.Output);
         }
 
+        Assert.Equal(exitCode == Usage, tool.Error.TrimEnd().Split('\n')[^1].StartsWith("Try 'lagsim ", StringComparison.Ordinal)); // where the help is, after each mistake
         Assert.All(says, word => Assert.Contains(word, tool.Error, StringComparison.Ordinal));
         Assert.DoesNotContain("   at ", tool.Error, StringComparison.Ordinal); // a sentence, not a stack
     }

@@ -46,6 +46,36 @@ public sealed class Football : GameRules
     public override void OnTimer(RuleWorld world, int timer) => world.State<Score>().IsOver = 1;
 }
 
+public struct Vote
+{
+    public long Map;
+}
+
+public struct Votes
+{
+    public long Day;
+    public long Night;
+}
+
+public sealed class VoteRules : GameRules
+{
+    private const int Cast = 1;
+
+    public VoteRules()
+        : base("votes", version: 1) => WithWorldState<Votes>();
+
+    public override void OnCommand(RuleWorld world, byte player, GameCommand command)
+    {
+        if (command.Number == Cast && command.TryRead(out Vote vote) && vote.Map is 0 or 1)
+        {
+            ref Votes votes = ref world.State<Votes>();
+            votes.Day += vote.Map == 0 ? 1 : 0;
+            votes.Night += vote.Map == 1 ? 1 : 0;
+            world.Tell(code: Cast, value: vote.Map, key: player);
+        }
+    }
+}
+
 public struct Lobby
 {
     public ulong Leader; // by identity, 0 for nobody
@@ -62,6 +92,11 @@ public sealed class LobbyRules : GameRules
 
     public override void OnPlayer(RuleWorld world, PlayerEvent player)
     {
+        if (player.Role == PeerRole.Spectator)
+        {
+            return; // spectators are told of like players
+        }
+
         ref Lobby lobby = ref world.State<Lobby>();
         bool isOut = player.Kind == PlayerEventKind.Left;
         lobby.Playing += isOut ? -1 : player.Kind == PlayerEventKind.Joined ? 1 : 0;
@@ -84,6 +119,17 @@ internal static class RuleSnippets
         }
 
         return goals;
+    }
+
+    internal static string? WhyACommandFailed(RuleNotices notices)
+    {
+        string? why = null;
+        while (notices.TryRead(out RuleEvent told))
+        {
+            why = told.Notice.Code == RuleNotice.CommandFailed ? told.Notice.Sentence : why;
+        }
+
+        return why;
     }
 
     internal static (Scene Pitch, HostOptions Host, ClientOptions Client) Give()

@@ -14,6 +14,9 @@ public sealed class HostAddressTests
     [InlineData("lagsim://[2001:db8::7]:65535#" + Print)]
     [InlineData("lagsim://play.example.org:5000#" + Print)]
     [InlineData("lagsim://localhost:5000#" + Print)]
+    [InlineData("lagsim://[fe80::1%eth0]:5000#" + Print)]
+    [InlineData("lagsim://[fe80::1%no-such.interface_7]:5000#" + Print)]
+    [InlineData("lagsim://[fe80::1%4]:5000#" + Print)]
     public void Parse_OneSpelling_GivesItAgain(string text)
     {
         HostAddress address = HostAddress.Parse(text);
@@ -38,6 +41,10 @@ public sealed class HostAddressTests
     [InlineData("lagsim://:5000#" + Print, "neither an IP address nor a name")]
     [InlineData("lagsim://a/b:5000#" + Print, "neither an IP address nor a name")]
     [InlineData("lagsim://me@host:5000#" + Print, "neither an IP address nor a name")]
+    [InlineData("lagsim://[fe80::1%]:5000#" + Print, "neither an IP address nor a name")]
+    [InlineData("lagsim://[fe80::1%a b]:5000#" + Print, "neither an IP address nor a name")]
+    [InlineData("lagsim://[2001:db8::7%eth0]:5000#" + Print, "neither an IP address nor a name")]
+    [InlineData("lagsim://[FE80::1%eth0]:5000#" + Print, "its one spelling is 'lagsim://[fe80::1%eth0]:5000#")]
     [InlineData("lagsim://Host:5000#" + Print, "neither an IP address nor a name")]
     [InlineData("lagsim://192.168.0.7:05000#" + Print, "its one spelling is 'lagsim://192.168.0.7:5000#")]
     [InlineData("lagsim://192.168.7:5000#" + Print, "its one spelling is 'lagsim://192.168.0.7:5000#")]

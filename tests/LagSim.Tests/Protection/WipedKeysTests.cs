@@ -45,7 +45,7 @@ public sealed class WipedKeysTests
             IClientHandshake client = new SecureClient(identity.Fingerprint).Begin(shown, [1])!;
             words.Note(client, "client");
             client.Write(Drawn(5), join);
-            IHostHandshake its = host.TryRead([1], join, new byte[5])!;
+            IHostHandshake its = host.TryRead(0, [1], join, new byte[5])!;
             IDatagramCipher atHost = its.Accept("key", Drawn(3), answer), atClient = client.TryFinish("key", answer, said)!;
             words.Note(its, "host");
             words.Note(atHost, "cipher at host");

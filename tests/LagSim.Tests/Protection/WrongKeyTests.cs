@@ -180,6 +180,31 @@ public sealed class WrongKeyTests : IDisposable
         Assert.Null(Guess(group, PeerAddress.Virtual(50), "", true, 0.02));
     }
 
+    /// <summary>Who has no key is told so, and guesses nothing: no pause follows, and nobody is told. Where a machine waits, it waits with no key too.</summary>
+    [Theory]
+    [InlineData(true)]
+    [InlineData(false)]
+    public void Join_WithoutAKey_IsNoGuess(bool isProtected)
+    {
+        SessionGroup group = Hosting(isProtected, new JoinLimits());
+        for (int n = 0; n < 20; n++)
+        {
+            Assert.Equal(RefusalReason.WrongKey, Guess(group, PeerAddress.Virtual(50), "", isProtected, 0.02));
+        }
+
+        Assert.Empty(told);
+        ClientSession without = group.Join(1, 7, new ClientOptions { Protection = isProtected ? new SecureClient(identity.Fingerprint) : null });
+        Assert.True(group.RunUntil(() => without.State == SessionState.Ended, 3));
+        Assert.Equal("The host refused: it needs a key, and this peer has none.", without.EndReason);
+        for (int n = 0; n < 6; n++)
+        {
+            Guess(group, PeerAddress.Virtual(50), $"wrong {n}", isProtected, 0.02); // the control: these are guesses
+        }
+
+        Assert.Equal(5, told.Count);
+        Assert.Equal(RefusalReason.TooManyWrongKeys, Guess(group, PeerAddress.Virtual(50), "", isProtected, 0.02));
+    }
+
     /// <summary>On a slow link a join comes several times before it is answered. A typing error is one all the same.</summary>
     [Fact]
     public void Join_WithATypingErrorOverASlowLink_CountsOnce()

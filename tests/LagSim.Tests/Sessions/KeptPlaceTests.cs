@@ -1,9 +1,13 @@
 using System;
 using System.Linq;
 using LagSim.Events;
+using LagSim.Net.Carriers;
 using LagSim.Net.Sessions;
+using LagSim.Net.Sessions.Hosts;
+using LagSim.Net.Wire;
 using LagSim.Scenes;
 using LagSim.Testing.Links;
+using LagSim.Time;
 using Xunit;
 using static LagSim.Tests.TestWorlds;
 
@@ -37,6 +41,24 @@ public sealed class KeptPlaceTests
         {
             Assert.Equal(2u, after.Do(PlayerAction.Impulse(First, V(0, 1))).Sequence);
         }
+    }
+
+    /// <summary>
+    /// A number that is kept counts for its machine: one that has as many as it may gets one of its own, else it could have all numbers kept for
+    /// itself. Another machine, and one that may have more, gets the lowest that nobody has had.
+    /// </summary>
+    [Theory]
+    [InlineData(1, 1)]
+    [InlineData(2, 2)]
+    public void Free_ForAMachineWhoseNumberIsKept_MindsHowManyItMayHave(int most, int expected)
+    {
+        PlayerPlaces places = new(new HostOptions { MaxClientsPerAddress = most }, SimTime.Zero);
+        PeerAddress machine = PeerAddress.Virtual(7);
+        places[1].Take(isSamePlayer: false, machine);
+        places[1].Leave(isKept: true, 5, LeaveReason.Left, SimTime.FromSeconds(1));
+        Assert.Equal(expected, places.Free(SimTime.FromSeconds(2), 0, machine));
+        Assert.Equal(2, places.Free(SimTime.FromSeconds(2), 0, PeerAddress.Virtual(8)));
+        Assert.Equal(2, places.Free(SimTime.FromSeconds(300), 0, machine)); // it is kept no longer
     }
 
     /// <summary>It did not choose to go, so it may come back.</summary>

@@ -31,7 +31,7 @@ public sealed class NewSeedTests
         }
         else
         {
-            Assert.Equal("The host refused: its scene is another one.", client.EndReason);
+            Assert.Equal("The host refused: its scene is another one. A session keeps its scene: to get that one, join anew.", client.EndReason);
         }
     }
 

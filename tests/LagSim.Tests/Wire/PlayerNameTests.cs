@@ -25,7 +25,7 @@ public sealed class PlayerNameTests
         (string Kind, int[] Ranges)[] all =
         [
             ("unseen", PlayerName.Unseen), ("selectors", PlayerName.Selectors), ("accents", PlayerName.Accents), ("digits", PlayerName.Digits),
-            ("parting", PlayerName.Parting),
+            ("parting", PlayerName.Parting), ("joining", PlayerName.Joining),
         ];
         string[] page = LayoutPage.Read("WIRE.md");
         foreach ((string kind, int[] ranges) in all)
@@ -66,6 +66,17 @@ public sealed class PlayerNameTests
         { "2\u0301", $"it holds the number '2\u0301' {Alone}" },
         { "a \u03012", $"it holds the number '2' {Alone}" },
         { "Ann\uFF0C2\uFF1B", $"it holds the number '2' {Alone}" },
+        { "2-", $"it holds the number '2' {Alone}" },
+        { "-2", $"it holds the number '2' {Alone}" },
+        { "2_", $"it holds the number '2' {Alone}" },
+        { "_2_", $"it holds the number '2' {Alone}" },
+        { "2-3", $"it holds the number '2' {Alone}" },
+        { "Ann -17_ player", $"it holds the number '17' {Alone}" },
+        { "2\u30FB", $"it holds the number '2' {Alone}" }, // a middle dot
+        { " Ann", "it begins or ends with a blank" },
+        { "Ann ", "it begins or ends with a blank" },
+        { "Ann  Lee", "it begins or ends with a blank, or has two in a row" },
+        { "Ann\uFFFD", "it holds U+FFFD, which stands in place of bytes" },
     };
 
     [Theory]
@@ -139,6 +150,8 @@ public sealed class PlayerNameTests
                 or UnicodeCategory.MathSymbol or UnicodeCategory.OtherPunctuation;
             string? joined = PlayerName.WhyNone($"a{text}");
             bool isRight = !(hides && joined is null) && !(shows && joined is not null) && !(isDigit && (joined is not null || PlayerName.WhyNone(text) is null));
+            bool joins = category is >= UnicodeCategory.ConnectorPunctuation and <= UnicodeCategory.OtherSymbol && joined is null;
+            isRight &= !joins || (PlayerName.WhyNone($"2{text}") is not null && PlayerName.WhyNone($"{text}2") is not null);
             seen += hides || isDigit || shows ? 1 : 0;
             if (!isRight)
             {
@@ -146,7 +159,7 @@ public sealed class PlayerNameTests
             }
         }
 
-        Assert.True(wrong.Count == 0, string.Join('\n', wrong.Take(40)));
+        Assert.True(wrong.Count == 0, string.Join('\n', wrong.Take(400)));
         Assert.InRange(seen, 5_000, int.MaxValue); // the control: categories are known here
     }
 

@@ -33,7 +33,7 @@ internal sealed class ClientProtocol : ISessionProtocol
         Parts = parts;
         attempts = new JoinAttempts(nonce, parts.Clock.Now);
         suspend = new SuspendDetector(options.Timeout / 2);
-        Connection = new HostConnection(host, options.OtherAddresses, parts.Links, parts.Self, parts.Sender, parts.Counters);
+        Connection = new HostConnection(host, options.OtherAddresses, parts.Links, parts.Self, parts.Sender, parts.Counters, options.HostName);
         Seat = new PlayerSeat(attempts, Connection, parts.SharedTime, parts.Status, parts.Counters, parts.Clock, options.Pass);
         LastAnswer answer = new();
         progress = new JoinProgress(attempts, Connection, answer, parts.World, parts.Status, options.IsProtected);

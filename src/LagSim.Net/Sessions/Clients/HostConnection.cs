@@ -11,10 +11,7 @@ namespace LagSim.Net.Sessions.Clients;
 /// <summary>A client's end of the link to the host, with the data in transit: its own events up, the host's log down.</summary>
 internal sealed class HostConnection
 {
-    /// <summary>How long each further address of the host waits for the one before it (RFC 8305, 8).</summary>
-    internal static readonly SimDuration AttemptDelay = SimDuration.FromMilliseconds(250);
-
-    private readonly List<PeerAddress> candidates; // what may be the host's address; the only one once it has answered
+    private readonly HostPlaces places;
     private readonly LinkFactory links;
     private readonly PlayerIdentity self;
     private readonly DatagramSender sender;
@@ -23,10 +20,9 @@ internal sealed class HostConnection
 
     internal HostConnection(
         PeerAddress host, IEnumerable<PeerAddress> others, LinkFactory links, PlayerIdentity self, DatagramSender sender,
-        SessionCounters counters)
+        SessionCounters counters, string? name = null)
     {
-        candidates = new List<PeerAddress> { host };
-        candidates.AddRange(others);
+        places = new HostPlaces(host, others, name);
         this.links = links;
         this.self = self;
         this.sender = sender;
@@ -34,29 +30,19 @@ internal sealed class HostConnection
     }
 
     /// <summary>The host's address; the one that is asked first while several may be it.</summary>
-    internal PeerAddress Host => candidates[0];
+    internal PeerAddress Host => places.First;
 
-    /// <summary>What sentences call the host: an address is told only where it says something to a person.</summary>
-    internal string Name => Host.IsVirtual ? "host" : $"host at {string.Join(" or ", candidates)}";
+    /// <summary>What sentences call the host.</summary>
+    internal string Name => places.Name;
 
     /// <summary>Whether it is the host's address, as far as is known.</summary>
-    internal bool IsHost(PeerAddress address) => candidates.Contains(address);
+    internal bool IsHost(PeerAddress address) => places.Has(address);
 
-    /// <summary>Which addresses to ask after a time without an answer: the first at once, each further one a while after the one before.</summary>
-    internal IEnumerable<PeerAddress> ToAsk(SimDuration asked)
-    {
-        for (int n = 0; n < candidates.Count && asked >= AttemptDelay * n; n++)
-        {
-            yield return candidates[n];
-        }
-    }
+    /// <summary>Which addresses to ask after a time without an answer.</summary>
+    internal IEnumerable<PeerAddress> ToAsk(SimDuration asked) => places.ToAsk(asked);
 
     /// <summary>Settles which address is the host's: it answered, and the others are not asked any more.</summary>
-    internal void Choose(PeerAddress host)
-    {
-        candidates.Clear();
-        candidates.Add(host);
-    }
+    internal void Choose(PeerAddress host) => places.Choose(host);
 
     /// <summary>The link; null while there is none.</summary>
     internal UpdateLink? Link { get; private set; }

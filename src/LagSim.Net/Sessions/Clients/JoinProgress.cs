@@ -10,8 +10,6 @@ namespace LagSim.Net.Sessions.Clients;
 internal sealed class JoinProgress(
     JoinAttempts attempts, HostConnection connection, LastAnswer answer, SharedWorld world, SessionStatus status, bool isProtected)
 {
-    private static readonly SimDuration Tenth = SimDuration.FromMilliseconds(100);
-
     /// <summary>What this peer waits for.</summary>
     internal string WaitsFor(SimTime now) => status.IsRejoining ? $"{status.RejoiningBecause} {Stage(now)}" : Stage(now);
 
@@ -31,14 +29,16 @@ internal sealed class JoinProgress(
     /// <param name="asked">How long this peer has asked.</param>
     internal string NotLetIn(SimDuration asked)
     {
-        // In a protected session the answer that a join waits for may be anybody's on the path.
-        bool isAnswered = !isProtected && attempts.Current is { Joins: { Count: > 0 } };
         string within = FormattableString.Invariant($"within {asked.ToSeconds():0.###} s.");
-        return (isAnswered ? $"The {connection.Name} answered, and did not let this peer in {within}" : $"No answer from the {connection.Name} {within}")
+        return (IsAnswered ? $"The {connection.Name} answered, and did not let this peer in {within}" : $"No answer from the {connection.Name} {within}")
             + answer.Sentence;
     }
 
+    /// <summary>Whether the host has answered. In a protected session the answer that a join waits for may be anybody's on the path.</summary>
+    private bool IsAnswered => !isProtected && attempts.Current is { Joins: { Count: > 0 } };
+
     private string Asking(SimDuration asked) => asked < SimDuration.FromSeconds(1) && answer.Refusal is string refusal
         ? $"{refusal} This peer asks again each second."
-        : NotLetIn(asked > SimDuration.Zero ? Tenth * (long)(asked.ToSeconds() * 10) : SimDuration.Zero);
+        : (status.IsRejoining ? "Asking to be let in again."
+            : IsAnswered ? $"The {connection.Name} answered, and has not let this peer in yet." : $"No answer from the {connection.Name} yet.") + answer.Sentence;
 }

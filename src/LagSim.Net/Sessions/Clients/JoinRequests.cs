@@ -182,11 +182,11 @@ internal sealed class JoinRequests(
     internal void OnOtherVersion(ulong nonce, byte version, PeerAddress from) =>
         TakeUnproven(nonce, null, $"it speaks version {version} of the protocol, this peer {WireFormat.Version}.", from);
 
-    private static string Sentence(RefusalReason reason, uint secondsOff = 0) => reason switch
+    private string Sentence(RefusalReason reason, uint secondsOff = 0) => reason switch
     {
         RefusalReason.VersionDiffers => "it speaks another version of the protocol.",
-        RefusalReason.SceneDiffers => "its scene is another one.",
-        RefusalReason.WrongKey => "the key is wrong.",
+        RefusalReason.SceneDiffers => "its scene is another one. A session keeps its scene: to get that one, join anew.",
+        RefusalReason.WrongKey => options.ConnectKey.Length > 0 ? "the key is wrong." : "it needs a key, and this peer has none.",
         RefusalReason.Full => "the session is full.",
         RefusalReason.TooLarge => "its world is too large to be copied.",
         RefusalReason.FoldDiffers => $"it computes worlds by other rules than this peer, whose fold version is {Simulation.FoldVersion}."

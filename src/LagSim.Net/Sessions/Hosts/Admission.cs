@@ -37,7 +37,7 @@ internal sealed class Admission(
 
         if (rules.WhyNot(join, who, from, now) is RefusalReason reason)
         {
-            if (reason == RefusalReason.WrongKey && HasKeys)
+            if (reason == RefusalReason.WrongKey && HasKeys && !JoinCookies.IsProof("", join, reply.Binding)) // who has no key guesses none
             {
                 wrongKeys.Add(from, join.Proof, now);
             }
