@@ -31,7 +31,7 @@ internal sealed class CheckVisits
 
     /// <summary>The round trip above which nobody comes back, since joining takes several.</summary>
     private const double SlowMilliseconds = 500;
-    private const string Letters = "Annéß 北";
+    private const string Letters = "Annéß-北";
 
     private static readonly SimDuration Patience = SimDuration.FromSeconds(20); // several times the slowest round trip
     private static readonly SimDuration Soon = SimDuration.FromSeconds(6); // a silence of half of it is heard of
