@@ -273,8 +273,8 @@ public sealed class SessionCommandTests
     [Fact]
     public void ScriptedAction_ThatTheHostRefuses_IsToldAndAnError()
     {
-        // An event that is 200 ms old, to a host that takes what is 100 ms old.
-        using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.1 --joiners 1");
+        // An event that is 200 ms old, to a host that takes what is 100 ms old, and waits for nothing older.
+        using LiveTool host = LiveTool.Run("host --scene drop --history-s 0.1 --longest-history-s 0.1 --joiners 1");
         using LiveTool relay = LiveTool.Run($"relay {host.Address} --profile delay-200ms");
         using LiveTool client = LiveTool.Run($"join {relay.Address} --for-s 1.9 --do set-velocity@1.8:2,9,0 --do teleport@1.85:0,12,0");
         client.Ends(3);

@@ -7,6 +7,8 @@ using Xunit;
 namespace LagSim.Tests.Cli;
 
 /// <summary>Honest players stay with a host that gets little time, with real processes.</summary>
+/// <remarks>Alone: what takes its time from the host would take it from every test beside it.</remarks>
+[Collection(RealTime.Name)]
 [Trait("Time", "real")]
 public sealed class StarvedHostTests
 {
