@@ -12,8 +12,9 @@ using LagSim.Time;
 namespace LagSim.Bench;
 
 /// <summary>
-/// What becomes of the inputs of a host and three clients, two of whom hold a stick and two a body, 30 times a second, on each link; and what it costs that the
-/// watermark waits for them: in virtual time, with the history of a second alone, and with the default of thrice that at the most.
+/// What becomes of the inputs of a host and three clients, two of whom hold a stick and two a body, 30 times a second, on each link; and what
+/// it costs that the watermark waits for them: in virtual time, with the history of a second alone, and with the default of thrice that at the
+/// most.
 /// </summary>
 internal static class LateInputTable
 {

@@ -33,12 +33,14 @@ internal static class HostCommand
         Option<int> clients = CommonOptions.Whole(
             "--joiners", "Start once this many clients have joined; more may join at any time", 0, 0, SessionOptions.MaxClients);
         clients.Aliases.Add("--clients");
-        Option<double> history = CommonOptions.Number("--history-s", "How late an event may arrive in any case and still count when it was done", 1, 0.05, 5);
+        Option<double> history = CommonOptions.Number(
+            "--history-s", "How late an event may arrive in any case and still count when it was done", 1, 0.05, 5);
         Option<double?> longest = CommonOptions.NumberOr(
             "by default three times --history-s, 5 at the most", "--longest-history-s",
             "How late those of a player may arrive whose link holds them back; from --history-s on", 0.05, 5);
         Option<double?> rate = CommonOptions.NumberOr(
-            "by default what the events need and the link carries", "--max-bytes-per-s", "How many bytes a second each client is sent in the mean", 4_000, 100_000_000);
+            "by default what the events need and the link carries", "--max-bytes-per-s",
+            "How many bytes a second each client is sent in the mean", 4_000, 100_000_000);
         Option<bool> early = new("--confirm-early")
         {
             Description = "Make what has happened final as soon as the players' links allow, rather than after --history-s;"
@@ -60,7 +62,11 @@ internal static class HostCommand
             HelpName = "KEY",
         };
         Option<bool> unprotected = ProtectionOptions.Unprotected();
-        Option<bool> admin = new("--admin") { Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}. 'ban' shuts out for as long as the session lasts: with --tokens that player alone, otherwise everyone at its address." };
+        Option<bool> admin = new("--admin")
+        {
+            Description = $"Read commands from standard input while the session runs, one a line: {HostAdmin.Syntax}."
+                + " 'ban' shuts out for as long as the session lasts: with --tokens that player alone, otherwise everyone at its address.",
+        };
         Command command = new("host", "Opens a session that others join over UDP, and takes part in it. Ctrl-C ends it for everyone.")
         {
             scene, port, address, clients, history, longest, rate, early, perAddress, budget, identity, tokens, unprotected, admin,

@@ -38,8 +38,8 @@ internal static class JoinCommand
         Command command = new(
             "join",
             "Joins a session; the scene comes from the host. Exits with 0 if this peer stays for --for-s or, without it, until the host ends the session; with 3"
-                + " if the session ends earlier, if --for-s was over before this peer came in, if a --do was refused or not done, or if --pass could not be kept. The line below each T line gives the host's clock minus this one's, the"
-                + " most by which that may be wrong, and half a round trip.")
+                + " if the session ends earlier, if --for-s was over before this peer came in, if a --do was refused or not done, or if --pass could not be kept."
+                + " The line below each T line gives the host's clock minus this one's, the most by which that may be wrong, and half a round trip.")
         {
             host, pass, token,
         };

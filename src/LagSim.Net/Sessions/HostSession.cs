@@ -134,7 +134,8 @@ public sealed class HostSession : Session
 
     /// <summary>
     /// The time before which nothing changes any more: the history before the clock, or before where the world stands if that is behind; earlier,
-    /// by up to <see cref="HostOptions.LongestHistory"/>, while a player's events are on their way. It never goes back. With <see cref="HostOptions.ConfirmsEarly"/> it is later, as far as the players have promised.
+    /// by up to <see cref="HostOptions.LongestHistory"/>, while a player's events are on their way. It never goes back. With
+    /// <see cref="HostOptions.ConfirmsEarly"/> it is later, as far as the players have promised.
     /// </summary>
     /// <remarks>While a host is stuck, what it has not simulated can still be changed, above all by removing what it is stuck on.</remarks>
     public SimTime Watermark => host.Watermark.Now;

@@ -5,8 +5,8 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions;
 
-/// <summary>The rules of the scene that <see cref="SessionWarmup"/> plays in: a command sets a timer, and that pushes a ball;
-/// whoever comes or goes is heard of.</summary>
+/// <summary>The rules of the scene that <see cref="SessionWarmup"/> plays in: a command sets a timer, which pushes a ball, and
+/// the rules are told who joins and who leaves.</summary>
 internal sealed class WarmupRules : GameRules
 {
     internal WarmupRules()

@@ -13,8 +13,8 @@ namespace LagSim.Tests.Cli;
 public sealed class StarvedHostTests
 {
     /// <summary>
-    /// A host at a tenth of a core, and one beside sixteen spinning programs, each of another scene. With next to no budget players are sent away,
-    /// and the run says so: that shows that it would be seen, whoever is starved.
+    /// A host at a tenth of a core, and one beside sixteen spinning programs, each of another scene. The third has next to no budget, so
+    /// players are sent away: the run must say so, or it would not be seen in the others either.
     /// </summary>
     [Theory]
     [InlineData("--seed 0", true)]

@@ -77,7 +77,7 @@ public sealed class JoiningTests
     {
         SessionGroup group = new(ScriptedActions.Box(), 2, LinkProfiles.Lan, scenes: peer => ScriptedActions.Box(peer == 0 ? 0.8 : 0.81));
         Assert.True(group.RunUntil(() => group.Sessions[1].State == SessionState.Ended, 5));
-        Assert.Equal("The host refused: its scene is another one. A session keeps its scene: to get that one, join anew.", group.Sessions[1].EndReason);
+        Assert.Equal("The host refused: it has another scene now. A session keeps its scene; start a new one to join that.", group.Sessions[1].EndReason);
     }
 
     [Fact]

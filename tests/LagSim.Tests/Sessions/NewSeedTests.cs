@@ -31,7 +31,7 @@ public sealed class NewSeedTests
         }
         else
         {
-            Assert.Equal("The host refused: its scene is another one. A session keeps its scene: to get that one, join anew.", client.EndReason);
+            Assert.Equal("The host refused: it has another scene now. A session keeps its scene; start a new one to join that.", client.EndReason);
         }
     }
 

@@ -185,7 +185,7 @@ internal sealed class JoinRequests(
     private string Sentence(RefusalReason reason, uint secondsOff = 0) => reason switch
     {
         RefusalReason.VersionDiffers => "it speaks another version of the protocol.",
-        RefusalReason.SceneDiffers => "its scene is another one. A session keeps its scene: to get that one, join anew.",
+        RefusalReason.SceneDiffers => "it has another scene now. A session keeps its scene; start a new one to join that.",
         RefusalReason.WrongKey => options.ConnectKey.Length > 0 ? "the key is wrong." : "it needs a key, and this peer has none.",
         RefusalReason.Full => "the session is full.",
         RefusalReason.TooLarge => "its world is too large to be copied.",

@@ -9,8 +9,8 @@ namespace LagSim.Net.Sessions.Hosts;
 /// <para>Memory is bounded. What is for good was said by the game or its operator, and stays: it is as much as they say. All else is forgotten
 /// an hour after it is over, and a warning after its time. Of these no more are kept than the limit; beyond it the one is forgotten that has
 /// been over for longest, and where all still go on, the one that ends first.</para>
-/// <para>So nobody gets in who would not be let in within minutes anyway, but by having as many others sent away meanwhile as the limit says,
-/// each from a machine, or with a token, of its own. Whoever has so many has no need of the one.</para>
+/// <para>To end one ban early takes as many others as the limit says, each sent away from a machine of its own or with a token of its own.
+/// Whoever has that many can come back with one of them.</para>
 /// <para>Cost: a look at all that is kept for each that is added, which is once for a player that is sent away. For one thread.</para>
 /// </remarks>
 /// <typeparam name="T">What they are known by.</typeparam>

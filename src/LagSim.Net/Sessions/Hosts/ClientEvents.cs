@@ -1,4 +1,5 @@
 using LagSim.Events;
+using LagSim.Net.Clocks;
 using LagSim.Net.Sessions.Core;
 using LagSim.Net.Wire;
 using LagSim.Time;
@@ -9,7 +10,7 @@ namespace LagSim.Net.Sessions.Hosts;
 /// Takes the clients' events in order, at most as many per second as each may send, and has them validated, applied and recorded.
 /// </summary>
 internal sealed class ClientEvents(
-    PlayerPlaces places, EventValidator validator, SharedWorld world, RecentTouches acts, AuthoritativeLog log,
+    PlayerPlaces places, EventValidator validator, SharedWorld world, SharedClock sharedTime, RecentTouches acts, AuthoritativeLog log,
     SessionCounters counters)
 {
     /// <summary>Validates a client's events that have arrived, in order.</summary>
@@ -45,6 +46,11 @@ internal sealed class ClientEvents(
         }
 
         Verdict verdict = validator.Validate(ref external, client.Stamps);
+        if (verdict.IsAcceptance() || verdict == Verdict.TooLate)
+        {
+            client.Stamps.Acted = sharedTime.Now; // late ones too: who is too late once would else be too late for good
+        }
+
         bool hasEffect = false;
         if (verdict.IsAcceptance())
         {

@@ -16,7 +16,9 @@ internal sealed class ClientStamps
     /// <summary>The latest time of those that were moved; the earliest instant if none was.</summary>
     internal SimTime LatestMoved { get; private set; } = SimTime.MinValue;
 
-    /// <summary>When the host judged its newest event, whatever the verdict; the earliest instant if it has sent none since it is in.</summary>
+    /// <summary>
+    /// When the host judged the newest of its events that happened or came too late; the earliest instant if there is none since it is in.
+    /// </summary>
     internal SimTime Acted { get; set; } = SimTime.MinValue;
 
     /// <summary>Records an event that happened.</summary>

@@ -7,13 +7,13 @@ using LagSim.Time;
 
 namespace LagSim.Net.Sessions.Hosts;
 
-/// <summary>Decides the host's verdict on a client's event, and notes that the client acts; changes nothing else.</summary>
+/// <summary>Decides the host's verdict on a client's event; changes nothing else.</summary>
 internal sealed class EventValidator(
     PlayerPlaces places, SharedWorld world, SharedClock sharedTime, Watermark watermark, WorkBudget budget, EventJournal journal,
     SimDuration history)
 {
     /// <param name="external">The event; at another time if it is too late and happens later.</param>
-    /// <param name="stamps">When its player's events happened; gets when it acted.</param>
+    /// <param name="stamps">When its player's events happened.</param>
     internal Verdict Validate(ref ExternalEvent external, ClientStamps stamps)
     {
         SimTime now = sharedTime.Now;
@@ -28,7 +28,6 @@ internal sealed class EventValidator(
         }
 
         SimTime earliest = SimTime.Max(watermark.Now, world.Live.Simulation.Start);
-        stamps.Acted = now; // refused or not: were only those counted that happen, who is too late once would be too late for good
         bool isLate = external.Time < earliest;
         bool isBehind = external.Time <= stamps.LatestMoved; // stamped after one that has moved, and would come before it
         bool isMoved = (isLate || isBehind) && LateActions.MayMove(external, stamps, journal.Recent);

@@ -44,7 +44,7 @@ internal sealed class HostProtocol : ISessionProtocol
         Roster.Gone += _ => peers.Refresh();
         RecentTouches acts = new(options.PlayerBudget is not null, 10 * options.MaxEventsPerSecond);
         EventValidator validator = new(places, parts.World, parts.SharedTime, Watermark, budget, parts.Journal, options.Window.History);
-        events = new ClientEvents(places, validator, parts.World, acts, Log, parts.Counters);
+        events = new ClientEvents(places, validator, parts.World, parts.SharedTime, acts, Log, parts.Counters);
         actions = new HostActions(parts.Actions, Log);
         players = new PlayerAnnouncer(Roster, places, timeouts, actions, parts);
         Removal = new BodyRemoval(parts.World, actions, Watermark);
